@@ -178,7 +178,7 @@ def main() -> None:
     print(f"{'':14}" + "".join(f"{name:>22}" for name in METHODS))
     print(f"{'condition':14}" + f"{'ratio  found    ms':>22}" * len(METHODS))
     for name, settings in CONDITIONS.items():
-        drawn = [draw(Conditions(**settings), seed) for seed in range(scenes)]
+        drawn = [draw(Conditions(**settings), seed, with_bound=True) for seed in range(scenes)]
         table[name] = {
             m: score(method, drawn, draws if quick or m != "ours" else max(draws, enough(drawn)))
             for m, method in METHODS.items()
@@ -198,12 +198,13 @@ def main() -> None:
     print("\n12 megapixels")
     for name, settings in LARGE.items():
         large = Conditions(size=(4000, 3000), blur=1.2, parts=2, **settings)
-        found = score(METHODS["ours"], [draw(large, seed) for seed in range(scenes)], draws)
+        drawn = [draw(large, seed, with_bound=True) for seed in range(scenes)]
+        found = score(METHODS["ours"], drawn, draws)
         print(f"{name:14}ratio {found.ratio:.2f}, chi2/dof {found.chi2:.2f}", flush=True)
 
     print("\nfew corners")
     for name, settings in SMALL.items():
-        drawn = [draw(Conditions(**settings), seed) for seed in range(scenes)]
+        drawn = [draw(Conditions(**settings), seed, with_bound=True) for seed in range(scenes)]
         found = score(METHODS["ours"], drawn, draws if quick else max(6, enough(drawn)))
         print(
             f"{name:14}ratio {found.ratio:.2f}, chi2/dof {found.chi2:.2f}, {found.found:.0%} found",
@@ -213,7 +214,7 @@ def main() -> None:
     print("\nboards that the image cuts")
     for name, settings in CUT.items():
         cut = Conditions(parts=2, shift=300.0, **settings)
-        drawn = [draw(cut, seed) for seed in range(2 * scenes)]
+        drawn = [draw(cut, seed, with_bound=True) for seed in range(2 * scenes)]
         found = score(timed(ours("edges", in_part=True)), drawn, draws if quick else 6, True)
         print(f"{name:20}ratio {found.ratio:.2f}, chi2/dof {found.chi2:.2f}", flush=True)
 

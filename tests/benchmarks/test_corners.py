@@ -18,7 +18,7 @@ from tests.scenes.without_board import KINDS, draw_without_board
     "name", ["base", "noise 20", "blur 0", "tilt 70", "hard light", "ink -2 %", "fisheye"]
 )
 def test_the_engine_reaches_the_bound(name: str) -> None:
-    scene = draw(Conditions(**benchmark.CONDITIONS[name]), 0)
+    scene = draw(Conditions(**benchmark.CONDITIONS[name]), 0, with_bound=True)
     result = benchmark.score(corner_methods.METHODS["ours"], [scene], 2)
     assert result.found == 1
     assert result.ratio < 1.25
@@ -29,7 +29,7 @@ def test_the_engine_reaches_the_bound(name: str) -> None:
 @pytest.mark.slow
 @pytest.mark.parametrize("name", ["3 x 3, 8 px", "3 x 3, 90 px", "3 x 4, 90 px"])
 def test_few_corners_reach_it_too(name: str) -> None:
-    scene = draw(Conditions(**benchmark.SMALL[name]), 0)
+    scene = draw(Conditions(**benchmark.SMALL[name]), 0, with_bound=True)
     result = benchmark.score(corner_methods.METHODS["ours"], [scene], 6)
     assert result.found == 1
     assert result.ratio < 1.3

@@ -37,11 +37,11 @@ class Camera:
     def board_from_image(self, u: Array, v: Array) -> tuple[Array, Array]:
         """The board's points at pixels: `u` (1, w) and `v` (h, 1) stand for a whole image."""
         qx, qy = u - self._centre[0], v - self._centre[1]
-        r2 = qx * qx + qy * qy
         if self._conditions.fisheye:
-            theta = np.sqrt(r2) / self._f
+            theta = np.sqrt(qx * qx + qy * qy) / self._f
             scale, depth = np.sinc(theta / np.pi) / self._f, np.cos(theta)
         elif self._conditions.distortion:
+            r2 = qx * qx + qy * qy
             scale = (1 + self._conditions.distortion * r2 / self._half**2) / self._f
             depth = 1.0
         else:

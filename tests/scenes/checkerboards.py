@@ -33,6 +33,8 @@ Array = NDArray[np.float64]
 Dress = Callable[[Array, Array, Array], Array]
 """A function from the reflectance of parts of pixels, and their places (x, y) on the board in
 squares, to what it is instead; all of them (h, w)."""
+_PARTS_PER_BAND = 1 << 16
+"""Number of parts of pixels that are worked on at a time: their arrays stay in the cache."""
 
 
 @dataclass(frozen=True)
@@ -44,8 +46,8 @@ class Scene:
     """(rows, cols, 2) true corners."""
     covered: NDArray[np.bool_]
     """(h, w) pixels where something hides the board."""
-    fisher: Array
-    """(rows, cols, 2, 2) sum of (grad I)(grad I)^T, grey levels^2 per px^2."""
+    fisher: Array | None = None
+    """(rows, cols, 2, 2) sum of (grad I)(grad I)^T, grey levels^2 per px^2, if asked for."""
 
     def photograph(self, seed: int) -> NDArray[np.uint8] | NDArray[np.uint16]:
         """(h, w) with noise, rounded and clipped."""
@@ -58,6 +60,7 @@ class Scene:
     @property
     def bound(self) -> Array:
         """(rows, cols, 2, 2) least covariance of an unbiased estimate, px^2."""
+        assert self.fisher is not None, "the scene was drawn without its bound"
         rounding = 0.0 if self.conditions.deep else 1 / 12
         return (self.conditions.noise**2 + rounding) * np.linalg.inv(self.fisher)
 
@@ -80,13 +83,16 @@ class Scene:
         return np.asarray(np.min([np.linalg.norm(p - self.uv, axis=2) for p in steps], axis=0))
 
 
-def draw(conditions: Conditions, seed: int, dress: Dress | None = None) -> Scene:
+def draw(
+    conditions: Conditions, seed: int, dress: Dress | None = None, with_bound: bool = False
+) -> Scene:
     """A photograph's scene; the pose and what else is random follow from `seed`.
 
     Args:
         conditions: the photograph's.
         seed: of what is random.
         dress: what is changed of the reflectance, if anything is.
+        with_bound: whether `Scene.bound` is wanted, which has its price.
     """
     rng = np.random.default_rng(seed)
     camera = Camera(conditions, rng)
@@ -95,23 +101,39 @@ def draw(conditions: Conditions, seed: int, dress: Dress | None = None) -> Scene
     parts = conditions.parts
     fine_u = (np.arange(width * parts) + 0.5) / parts - 0.5
     fine_v = (np.arange(height * parts) + 0.5) / parts - 0.5
-    x, y = camera.board_from_image(fine_u[None], fine_v[:, None])
+    x, y = np.empty((2, len(fine_v), len(fine_u)))
+    for band in _split_rows(x):
+        x[band], y[band] = camera.board_from_image(fine_u[None], fine_v[band, None])
     irradiance = _paper(x, y, conditions, rng)
     if dress is not None:
         irradiance = dress(irradiance, x, y)
     if conditions.marks:
         irradiance[marks(x, y, conditions.grid_size, np.random.default_rng([seed, 2]))] = 0.0
-    covered = np.zeros(irradiance.shape, np.bool_)
+    hidden = np.zeros((height, width), np.bool_)
     if conditions.occluder:
         covered, shade = occluder(conditions, camera, np.random.default_rng([seed, 1]))
         irradiance[covered] = shade[covered]
-    irradiance *= _light(conditions, fine_u[None], fine_v[:, None], rng)
+        hidden = _pixels(covered.astype(float), parts) > 0
+    _light(irradiance, conditions, fine_u[None], fine_v[:, None], rng)
     irradiance = _blurred(irradiance, conditions, rng)
     ideal = _response(irradiance, conditions)
-    slope_v, slope_u = np.gradient(ideal, 1 / parts)
 
     n, m = np.meshgrid(np.arange(cols), np.arange(rows))
     uv = camera.image_from_board(n.astype(float), m.astype(float))
+    fisher = _sum_information(ideal, x, y, conditions) if with_bound else None
+    return Scene(conditions, _pixels(ideal, parts), uv, hidden, fisher)
+
+
+def _split_rows(image: Array) -> list[slice]:
+    """Bands of rows that hold `_PARTS_PER_BAND` or one row."""
+    step = max(1, _PARTS_PER_BAND // image.shape[1])
+    return [slice(k, min(k + step, len(image))) for k in range(0, len(image), step)]
+
+
+def _sum_information(ideal: Array, x: Array, y: Array, conditions: Conditions) -> Array:
+    """Sum of (grad I)(grad I)^T over each corner's cell, (rows, cols, 2, 2)."""
+    (rows, cols), parts = conditions.grid_size, conditions.parts
+    slope_v, slope_u = np.gradient(ideal, 1 / parts)
     gu, gv, at_x, at_y = (_pixels(fine, parts) for fine in (slope_u, slope_v, x, y))
     fisher = np.zeros((rows, cols, 2, 2))
     cell = np.stack([np.rint(at_y), np.rint(at_x)], axis=-1)
@@ -119,30 +141,37 @@ def draw(conditions: Conditions, seed: int, dress: Dress | None = None) -> Scene
     index = cell[inside].astype(int)
     g = np.stack([gu[inside], gv[inside]], axis=-1)
     np.add.at(fisher, (index[:, 0], index[:, 1]), g[:, :, None] * g[:, None, :])
-    fisher += 1e-12 * np.eye(2)
-    hidden = _pixels(covered.astype(float), parts) > 0
-    return Scene(conditions, _pixels(ideal, parts), uv, hidden, fisher)
+    return fisher + 1e-12 * np.eye(2)
 
 
 def _paper(x: Array, y: Array, conditions: Conditions, rng: np.random.Generator) -> Array:
     """Reflectance of what each part of a pixel sees, 0 dark to 1 bright."""
     rows, cols = conditions.grid_size
-    valid = np.isfinite(x) & np.isfinite(y)
+    paper = _background(x.shape, conditions, rng)
+    for band in _split_rows(x):
+        a, b = x[band], y[band]
+        quiet = abs(a - (cols - 1) / 2) < (cols + 1) / 2 + conditions.quiet
+        quiet &= abs(b - (rows - 1) / 2) < (rows + 1) / 2 + conditions.quiet
+        paper[band][quiet] = 1.0
+        on_board = (a > -1) & (a < cols) & (b > -1) & (b < rows)
+        across = np.flatnonzero(on_board.any(axis=0))
+        if len(across):
+            part = slice(across[0], across[-1] + 1)
+            share = _bright_share(x, y, band, part, conditions.ink)
+            np.copyto(paper[band, part], share, where=on_board[:, part])
+    return paper
+
+
+def _bright_share(x: Array, y: Array, rows: slice, cols: slice, ink: float) -> Array:
+    """How much of each part is paper without ink, in those rows and columns of parts."""
     with np.errstate(invalid="ignore"):
-        ink = abs(conditions.ink)
-        (odd_x, even_x), (odd_y, even_y) = (_cover(c, ink) for c in (x, y))
-        if conditions.ink < 0:
-            share = 1 - odd_x * odd_y - even_x * even_y
-        else:
-            share = odd_x * even_y + even_x * odd_y
-        on_board = valid & (x > -1) & (x < cols) & (y > -1) & (y < rows)
-        quiet = valid & (abs(x - (cols - 1) / 2) < (cols + 1) / 2 + conditions.quiet)
-        quiet &= abs(y - (rows - 1) / 2) < (rows + 1) / 2 + conditions.quiet
-    background = _background(x.shape, conditions, rng)
-    return np.where(on_board, share, np.where(quiet, 1.0, background))
+        (odd_x, even_x), (odd_y, even_y) = (_cover(c, rows, cols, abs(ink)) for c in (x, y))
+    if ink < 0:
+        return 1 - odd_x * odd_y - even_x * even_y
+    return odd_x * even_y + even_x * odd_y
 
 
-def _cover(c: Array, ink: float) -> tuple[Array, Array]:
+def _cover(c: Array, rows: slice, cols: slice, ink: float) -> tuple[Array, Array]:
     """How much of each part lies in odd, and in even, squares along one coordinate `c` of the
     board, these being `ink` narrower on both sides: exactly, for a straight edge.
 
@@ -150,7 +179,13 @@ def _cover(c: Array, ink: float) -> tuple[Array, Array]:
     (R(d + (a + b)/2) - R(d + (a - b)/2) - R(d - (a - b)/2) + R(d - (a + b)/2)) / (a b), R(t) =
     max(t, 0)^2 / 2.
     """
-    slopes = np.gradient(c)
+    around = tuple(slice(max(part.start - 1, 0), part.stop + 1) for part in (rows, cols))
+    inner = tuple(
+        slice(part.start - wide.start, part.stop - wide.start)
+        for part, wide in zip((rows, cols), around, strict=True)
+    )
+    slopes = [slope[inner] for slope in np.gradient(c[around])]
+    c = c[rows, cols]
     reach = (np.abs(slopes[0]) + np.abs(slopes[1])) / 2
     place = c - 2 * np.floor(c / 2)
     within = place - (place >= 1)
@@ -187,15 +222,24 @@ def _background(shape: tuple[int, ...], conditions: Conditions, rng: np.random.G
     return image
 
 
-def _light(conditions: Conditions, u: Array, v: Array, rng: np.random.Generator) -> Array:
-    """What falls on each part, 1 at most."""
+def _light(
+    irradiance: Array, conditions: Conditions, u: Array, v: Array, rng: np.random.Generator
+) -> None:
+    """Let less than all light fall on parts of pixels, which see `irradiance` of it."""
     width, height = conditions.size
     about = rng.uniform(0, 2 * np.pi)
-    ramp = 0.5 + (np.cos(about) * (u / width - 0.5) + np.sin(about) * (v / height - 0.5)) / 1.5
     spot = rng.uniform(0.25, 0.75, 2) * np.array([width, height])
-    r2 = ((u - spot[0]) ** 2 + (v - spot[1]) ** 2) / (0.15 * width) ** 2
-    uneven = (1 / 3 + ramp * 2 / 3) * 0.8 + 0.2 * np.exp(-r2 / 2)
-    return 1 - conditions.light + conditions.light * uneven
+    if conditions.light == 0:
+        return
+    along_u, along_v = np.cos(about) * (u / width - 0.5), np.sin(about) * (v / height - 0.5)
+    spot_u, spot_v = (
+        np.exp(-(((c - middle) / (0.15 * width)) ** 2) / 2)
+        for c, middle in zip((u, v), spot, strict=True)
+    )
+    for band in _split_rows(irradiance):
+        ramp = 0.5 + (along_u + along_v[band]) / 1.5
+        uneven = (1 / 3 + ramp * 2 / 3) * 0.8 + 0.2 * (spot_u * spot_v[band])
+        irradiance[band] *= 1 - conditions.light + conditions.light * uneven
 
 
 def _blurred(image: Array, conditions: Conditions, rng: np.random.Generator) -> Array:
@@ -212,10 +256,11 @@ def _blurred(image: Array, conditions: Conditions, rng: np.random.Generator) -> 
         layers = [spread(s) for s in steps]
         place = np.linspace(0, len(steps) - 1, image.shape[1])
         low = np.minimum(place.astype(int), len(steps) - 2)
-        column = np.arange(image.shape[1])
-        weight = place - low
-        stack = np.stack(layers)
-        result = (1 - weight) * stack[low, :, column].T + weight * stack[low + 1, :, column].T
+        result = np.empty_like(image)
+        for k in range(len(steps) - 1):
+            at = low == k
+            weight = place[at] - k
+            result[:, at] = (1 - weight) * layers[k][:, at] + weight * layers[k + 1][:, at]
     if conditions.motion > 0:
         about = rng.uniform(0, np.pi)
         half = conditions.motion * conditions.parts / 2
@@ -230,6 +275,8 @@ def _blurred(image: Array, conditions: Conditions, rng: np.random.Generator) -> 
 
 def _response(irradiance: Array, conditions: Conditions) -> Array:
     levels = conditions.dark + (conditions.bright - conditions.dark) * irradiance
+    if conditions.gamma == 1:
+        return np.asarray(levels)
     return np.asarray(255 * (levels / 255) ** (1 / conditions.gamma))
 
 

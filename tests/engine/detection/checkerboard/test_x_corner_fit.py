@@ -37,7 +37,7 @@ FEW = {"size": (720, 600), "turn": 15.0, "blur": 0.8, "parts": 2}
     ids=str,
 )
 def test_errors_are_the_bound_and_what_the_covariance_says(condition: dict[str, Any]) -> None:
-    scene = draw(Conditions(**condition), 2)
+    scene = draw(Conditions(**condition), 2, with_bound=True)
     squares, limits, honest = [], [], []
     for seed in range(4):
         corners = find_corners(scene.photograph(seed))
@@ -55,7 +55,8 @@ def test_errors_are_the_bound_and_what_the_covariance_says(condition: dict[str, 
 @pytest.mark.parametrize("distortion", [0.136, 0.43])
 def test_corners_whose_edges_the_image_cuts_are_at_the_bound_too(distortion: float) -> None:
     settings: dict[str, Any] = {"turn": 15.0, "parts": 2, "distortion": distortion}
-    scene = draw(Conditions(square=200.0, size=(1280, 960), centre=(150.0, 100.0), **settings), 1)
+    conditions = Conditions(square=200.0, size=(1280, 960), centre=(150.0, 100.0), **settings)
+    scene = draw(conditions, 1, with_bound=True)
     squares, limits, honest = [], [], []
     for seed in range(3):
         corners = find_corners(scene.photograph(seed))
