@@ -86,21 +86,29 @@ class PrintedRectangles:
     def compute_ink_share(self, XY: Array, gradient: Array) -> tuple[Array, BoolArray]:
         """See ``PrintedPattern``."""
         cells = np.pad(self.dark, 1).astype(np.float64)
+        X, Y = np.ascontiguousarray(np.moveaxis(XY, -1, 0))
         widths = np.abs(gradient)
-        (i, below, cut_x), (j, right, cut_y) = (
-            _find_nearest_line(lines, XY[..., axis], widths[..., axis, 0], widths[..., axis, 1])
-            for axis, lines in ((0, self.x), (1, self.y))
-        )
-        share = (1 - right) * ((1 - below) * cells[j, i] + below * cells[j, i + 1])
-        share += right * ((1 - below) * cells[j + 1, i] + below * cells[j + 1, i + 1])
-        finest = min(np.diff(self.x).min(), np.diff(self.y).min())
-        left, top, end_x, end_y = self.extent
-        X, Y = np.moveaxis(XY, -1, 0)
-        inside = (left - finest < X) & (end_x + finest > X) & (top - finest < Y)
-        inside &= end_y + finest > Y
         width, height = np.moveaxis(widths[..., 0] + widths[..., 1], -1, 0)
+        (i, off_x), (j, off_y) = (
+            _find_nearest_line(lines, along) for lines, along in ((self.x, X), (self.y, Y))
+        )
+        share = cells[j + (off_y > 0), i + (off_x > 0)]
+        cut = (np.abs(off_x) < width / 2) | (np.abs(off_y) < height / 2)
+        i, j = i[cut], j[cut]
+        beyond, below = (
+            average_unit_step(off[cut], *widths[cut, axis].T)
+            for axis, off in enumerate((off_x, off_y))
+        )
+        mean = (1 - below) * ((1 - beyond) * cells[j, i] + beyond * cells[j, i + 1])
+        mean += below * ((1 - beyond) * cells[j + 1, i] + beyond * cells[j + 1, i + 1])
+        share[cut] = mean
+        finest = min(np.diff(self.x).min(), np.diff(self.y).min())
         wide = np.maximum(width, height) > _MAX_PIXEL_WIDTH * finest
-        return share, cut_x | cut_y | (wide & inside)
+        if wide.any():
+            left, top, end_x, end_y = self.extent
+            wide &= (left - finest < X) & (end_x + finest > X)
+            wide &= (top - finest < Y) & (end_y + finest > Y)
+        return share, cut | wide
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -116,8 +124,8 @@ class PrintedDiscs:
 
     def compute_ink_share(self, XY: Array, gradient: Array) -> tuple[Array, BoolArray]:
         """See ``PrintedPattern``."""
-        _, inside, widths = _measure_discs(self.centres, self.radius, XY, gradient)
-        return average_unit_step(inside, *widths), np.abs(inside) < sum(widths) / 2
+        _, covered, cut = _cover_by_discs(self.centres, self.radius, XY, gradient)
+        return covered, cut
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -141,23 +149,29 @@ class PrintedSquaresAndDots:
         share, crossed = self.rectangles.compute_ink_share(XY, gradient)
         if not len(self.centres):
             return share, crossed
-        nearest, inside, widths = _measure_discs(self.centres, self.radius, XY, gradient)
-        covered = average_unit_step(inside, *widths)
-        cut = np.abs(inside) < sum(widths) / 2
+        nearest, covered, cut = _cover_by_discs(self.centres, self.radius, XY, gradient)
         return share + covered * (self.dark[nearest] - share), np.asarray(crossed | cut)
 
 
-def _measure_discs(
+def _cover_by_discs(
     centres: Array, radius: float, XY: Array, gradient: Array
-) -> tuple[IntArray, Array, tuple[Array, Array]]:
-    """Find the nearest of the discs to each of XY (..., 2), how far that lies within it, and the
-    widths A and B of the pixel across its circumference, all (...)."""
-    nearest = np.asarray(scipy.spatial.cKDTree(centres).query(XY)[1])
-    out = XY - centres[nearest]
-    distance = np.linalg.norm(out, axis=-1)
-    normal = out / np.maximum(distance, 1e-12)[..., None]
-    A, B = np.moveaxis(np.abs((normal[..., None, :] @ gradient)[..., 0, :]) + 1e-12, -1, 0)
-    return nearest, radius - distance, (A, B)
+) -> tuple[IntArray, Array, BoolArray]:
+    """Find the disc that is nearest to each of XY (..., 2), if any covers some of the pixel, how
+    much of that it covers, and whether its circumference cuts it, all (...)."""
+    reach = radius + np.abs(gradient).sum(axis=(-2, -1)) / 2
+    farthest = float(reach.max(initial=0.0))
+    found = scipy.spatial.cKDTree(centres).query(XY, distance_upper_bound=farthest)
+    distance = np.asarray(found[0])
+    nearest = np.minimum(found[1], len(centres) - 1)  # where there is none
+    covered = (distance < radius).astype(np.float64)
+    cut = np.asarray((distance < reach) & (distance > 2 * radius - reach))
+    out = XY[cut] - centres[nearest[cut]]
+    normal = out / np.maximum(distance[cut], 1e-12)[:, None]
+    A, B = np.abs((normal[:, None] @ gradient[cut])[:, 0]).T + 1e-12
+    inside = radius - distance[cut]
+    covered[cut] = average_unit_step(inside, A, B)
+    cut[cut] = np.abs(inside) < (A + B) / 2
+    return nearest, covered, cut
 
 
 def average_unit_step(X: Array, A: Array, B: Array) -> Array:
@@ -170,11 +184,7 @@ def average_unit_step(X: Array, A: Array, B: Array) -> Array:
     return np.asarray(np.clip(((inside + s) ** 2 - corner) / (2 * (s * s - m * m)), 0.0, 1.0))
 
 
-def _find_nearest_line(
-    lines: Array, X: Array, A: Array, B: Array
-) -> tuple[np.ndarray, Array, BoolArray]:
-    """Return the number of the line nearest to X, the share of the pixel beyond it, and whether it
-    cuts the pixel."""
+def _find_nearest_line(lines: Array, X: Array) -> tuple[IntArray, Array]:
+    """Return the number of the line nearest to each X, and how far X lies beyond it."""
     k = np.searchsorted((lines[1:] + lines[:-1]) / 2, X)
-    off = X - lines[k]
-    return k, average_unit_step(off, A, B), np.abs(off) < (A + B) / 2
+    return k, X - lines[k]
