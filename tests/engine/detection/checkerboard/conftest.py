@@ -12,6 +12,8 @@ from numpy.typing import NDArray
 from scipy.ndimage import gaussian_filter
 
 Array = NDArray[np.float64]
+_ROWS_PER_BAND = 8
+"""Number of rows of pixels that are drawn at a time: their arrays stay in the cache."""
 
 
 @dataclass(frozen=True)
@@ -74,15 +76,21 @@ def draw_board(
         return np.asarray((p - centre) * (1 + barrel * np.sum(q * q, axis=-1, keepdims=True)))
 
     sub = (np.arange(4) + 0.5) / 4 - 0.5
-    v = (np.arange(height)[:, None] + sub).ravel()
-    u = (np.arange(width)[:, None] + sub).ravel()
-    p = np.stack(np.meshgrid(u, v), axis=-1)
-    q = np.concatenate([ideal(p), np.ones((*p.shape[:2], 1))], axis=-1) @ np.linalg.inv(H).T
-    x, y = q[..., 0] / q[..., 2], q[..., 1] / q[..., 2]
-    on = (x > -1) & (x < cols) & (y > -1) & (y < rows) & (q[..., 2] > 0)
-    dark = on & ((np.floor(x) + np.floor(y)).astype(np.int64) % 2 == first)
-    fine = np.where(dark, levels[0], levels[1])
-    image = fine.reshape(height, 4, width, 4).mean(axis=(1, 3))
+    fine_v, fine_u = ((np.arange(n)[:, None] + sub).ravel() for n in (height, width))
+    inverse = np.linalg.inv(H)
+    image = np.empty((height, width))
+    for k in range(0, height, _ROWS_PER_BAND):
+        v = fine_v[4 * k : 4 * (k + _ROWS_PER_BAND), None] - centre[1]
+        u = fine_u[None] - centre[0]
+        if barrel:
+            scale = 1 + barrel * ((u / half) ** 2 + (v / half) ** 2)
+            u, v = u * scale, v * scale
+        x, y, z = (row[0] * u + row[1] * v + row[2] for row in inverse)
+        x, y = x / z, y / z
+        on = (x > -1) & (x < cols) & (y > -1) & (y < rows) & (z > 0)
+        dark = on & ((np.floor(x) + np.floor(y)) % 2 == first)
+        fine = np.where(dark, levels[0], levels[1])
+        image[k : k + _ROWS_PER_BAND] = fine.reshape(-1, 4, width, 4).mean(axis=(1, 3))
     image = gaussian_filter(image, blur)
     image += noise * np.random.default_rng(seed).standard_normal(image.shape)
 
