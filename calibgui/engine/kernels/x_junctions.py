@@ -2,14 +2,22 @@
 
 The peaks are searched row by row in a window of five rows of R, so that nothing of the image's
 size is allocated, and only the strongest are kept on the way. Hence most blocks of a row hold no
-value that could be one of these, which is quickly seen.
+value that could be one of these, which is quickly seen; in the others the pixels that are more than
+the four beside are listed first, and those alone compared with all around.
 """
 
 from __future__ import annotations
 
 import numpy as np
 
-from calibgui.engine.arrays import Array, BoolArray, FloatImage, GreyImage, IntArray
+from calibgui.engine.arrays import (
+    Array,
+    BoolArray,
+    FloatImage,
+    GreyImage,
+    Int32Array,
+    IntArray,
+)
 from calibgui.engine.kernels.common import bilinear, compiled, compiled_part
 
 _F = np.float32
@@ -47,14 +55,38 @@ def _compute_blocks(
 
 
 @compiled_part
+def _list_maxima(
+    R: FloatImage,
+    v: int,
+    block: int,
+    least: np.float32,
+    passes: BoolArray,
+    columns: Int32Array,
+) -> int:
+    """Fill `columns` with those of a block where row v of R is more than `least` and none of the
+    four values beside is more, or before it as much; return their number."""
+    above, here, below = R[(v - 1) % 5], R[v % 5], R[(v + 1) % 5]
+    begin = max(block * _BLOCK, 2)
+    width = min((block + 1) * _BLOCK, here.shape[0] - 2) - begin
+    # One loop that the compiler vectorises, and one without a branch that it could not foresee.
+    for k in range(width):
+        u = begin + k
+        value = here[u]
+        is_more = (value > least) & (value > here[u - 1]) & (value >= here[u + 1])
+        passes[k] = is_more & (value > above[u]) & (value >= below[u])
+    count = 0
+    for k in range(width):
+        columns[count] = begin + k
+        count += int(passes[k])
+    return count
+
+
+@compiled_part
 def _is_peak(R: FloatImage, v: int, u: int) -> bool:
     """Return whether none of the 24 values around the one at (u, v) is more, and none before it as
     much."""
     here, row = R[v % 5, u], R[v % 5]
-    # The next values first: they rule out most.
     if not (row[u - 1] < here and row[u + 1] <= here):
-        return False
-    if not (R[(v - 1) % 5, u] < here and R[(v + 1) % 5, u] <= here):
         return False
     if not (row[u - 2] < here and row[u + 2] <= here):
         return False
@@ -79,6 +111,7 @@ def _scan_rows(
     R = np.empty((5, width), dtype=_F)
     R[:] = -np.inf
     exceeds = np.zeros((5, -(-width // _BLOCK)), dtype=np.bool_)
+    passes, columns = np.empty(_BLOCK, dtype=np.bool_), np.empty(_BLOCK, dtype=np.int32)
     count = 0
     for row in range(max(v - 2, 1), v + 2):
         _compute_blocks(g, row, least, R[row % 5], exceeds[row % 5])
@@ -90,8 +123,9 @@ def _scan_rows(
         here = R[v % 5]
         for k in range(exceeds.shape[1]):
             if exceeds[v % 5, k]:
-                for u in range(max(k * _BLOCK, 2), min((k + 1) * _BLOCK, width - 2)):
-                    if here[u] > least and _is_peak(R, v, u):
+                for m in range(_list_maxima(R, v, k, least, passes, columns)):
+                    u = columns[m]
+                    if _is_peak(R, v, u):
                         where[count], value[count] = v * width + u, here[u]
                         count += 1
         v += 1
@@ -108,11 +142,11 @@ def find_peaks(smooth: GreyImage, min_determinant: float, max_count: int) -> Int
         count, v = _scan_rows(smooth, np.float32(least), v, more, more_values)
         where = np.concatenate([where, more[:count]])
         value = np.concatenate([value, more_values[:count]])
-        strongest = np.argsort(-value, kind="stable")[:max_count]
-        where, value = where[strongest], value[strongest]
-        if len(value) == max_count:
-            least = max(least, float(value[-1]))
-    return where
+        if len(value) >= max_count:
+            least = float(np.partition(value, -max_count)[-max_count])
+            strong = value >= least
+            where, value = where[strong], value[strong]
+    return where[np.argsort(-value, kind="stable")[:max_count]]
 
 
 @compiled_part

@@ -48,6 +48,17 @@ def test_the_same_peaks(image: GreyImage, max_count: int) -> None:
     assert np.count_nonzero(compiled != readable) <= len(readable) / 10
 
 
+@pytest.mark.parametrize("max_count", [3000, 50])
+def test_the_first_of_equally_strong_peaks(max_count: int) -> None:
+    squares = 40 + 160 * (np.indices((30, 40)).sum(axis=0) % 2).astype(np.uint8)
+    image = np.kron(squares, np.ones((16, 16), np.uint8))  # four pixels around each corner
+    smooth, levels = opencv.blur_image(image, 1.0)
+    find = x_junctions._find_peaks
+    peaks = find.kernel(smooth, 4.0 * levels**2, max_count)
+    np.testing.assert_array_equal(peaks, find.reference(smooth, 4.0 * levels**2, max_count))
+    assert len(peaks) == min(29 * 39, max_count)
+
+
 def test_the_same_saddle_points(image: GreyImage) -> None:
     smooth, levels = opencv.blur_image(image, 1.0)
     where = x_junctions._find_peaks.reference(smooth, 4.0 * levels**2, 3000)
