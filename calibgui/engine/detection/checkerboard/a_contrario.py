@@ -20,6 +20,10 @@ from calibgui.engine.arrays import BoolArray
 from calibgui.engine.detection.checkerboard.thresholds import THRESHOLDS
 from calibgui.engine.detection.lattice import list_full_rectangles
 
+BY_CHANCE = "squares at random could have formed it"
+"""What is said of a lattice that chance explains, the end of a sentence."""
+_MOST = float(np.log2(THRESHOLDS.verification.max_false_boards))
+
 
 def is_meaningful(found: BoolArray, others: int) -> bool:
     """Return whether chance does not explain a lattice.
@@ -28,8 +32,7 @@ def is_meaningful(found: BoolArray, others: int) -> bool:
         found: (rows, cols) mask of its corners.
         others: number J of corners seen in the image that are not its own; 0 counts as 1.
     """
-    least = np.inf
-    for _, _, height, width in list_full_rectangles(found):
-        free = (height + 1) * (width + 1) - 4
-        least = min(least, np.log2(max(others, 1) * height * width) - free)
-    return bool(least < np.log2(THRESHOLDS.verification.max_false_boards))
+    return any(
+        np.log2(max(others, 1) * height * width) - ((height + 1) * (width + 1) - 4) < _MOST
+        for _, _, height, width in list_full_rectangles(found)
+    )

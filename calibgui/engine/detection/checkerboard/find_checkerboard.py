@@ -218,7 +218,7 @@ def _verify_lattice(
     board = refine_board(grey, lattice, method)
     if isinstance(board, Refusal) or a_contrario.is_meaningful(board.lattice.found, others):
         return board
-    return Refusal(board.lattice.shape, "squares at random could have formed it")
+    return Refusal(board.lattice.shape, a_contrario.BY_CHANCE)
 
 
 def refine_board(

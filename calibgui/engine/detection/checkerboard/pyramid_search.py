@@ -25,7 +25,7 @@ import scipy
 
 from calibgui.engine import opencv
 from calibgui.engine.arrays import Array, GreyImage
-from calibgui.engine.detection.checkerboard import prefilter, verification
+from calibgui.engine.detection.checkerboard import a_contrario, prefilter, verification
 from calibgui.engine.detection.checkerboard.fit_thresholds import FIT_THRESHOLDS
 from calibgui.engine.detection.checkerboard.lattice_growth import PointIndex, grow_lattice
 from calibgui.engine.detection.checkerboard.neighbour_graph import find_lattices
@@ -196,11 +196,27 @@ def _analyse_level(
 
 
 def _refuse(lattice: Lattice, content: _LevelContent) -> bool:
-    """Return whether the prefilter refuses a lattice, and report why if it is large enough."""
-    objection = prefilter.find_early_objection(lattice, content.image, content.plain)
+    """Return whether a lattice is refused by what is seen at once, and report why if it is large
+    enough."""
+    if _is_chance(lattice, content.junctions):
+        objection = a_contrario.BY_CHANCE
+    else:
+        objection = prefilter.find_early_objection(lattice, content.image, content.plain)
     if objection and is_large_enough(lattice):
         content.on_refusal(Refusal(lattice.shape, objection))
     return bool(objection)
+
+
+def _is_chance(lattice: Lattice, junctions: Junctions) -> bool:
+    """Return whether a lattice is one of the sparse ones that any texture holds: chance explains it
+    beside all the other `junctions`, its own being among them, that are not too faint."""
+    own = np.isin(junctions.uv[:, 0], lattice.uv[..., 0])
+    is_sparse = compute_filled_share(lattice) < THRESHOLDS.search.min_filled_in_texture
+    if not (is_sparse and own.any()):
+        return False
+    least = _find_least_contrast(junctions.contrast[own])
+    others = int(np.count_nonzero(junctions.contrast > least)) - len(lattice)
+    return not a_contrario.is_meaningful(lattice.found, others)
 
 
 def _grow_lattices(
@@ -255,8 +271,14 @@ def _count_others(lattice: Lattice, junctions: Junctions) -> int:
     own = distance < lattice.spacing()[lattice.found][nearest] / 2
     if not own.any():
         return len(junctions)
-    least = FIT_THRESHOLDS.template.min_relative_contrast * np.median(junctions.contrast[own])
+    least = _find_least_contrast(junctions.contrast[own])
     return int(np.count_nonzero(~own & (junctions.contrast > least)))
+
+
+def _find_least_contrast(contrast: Array) -> float:
+    """Return the contrast below which a junction is too faint to be a corner of the same board as
+    those of the contrasts (n,)."""
+    return float(FIT_THRESHOLDS.template.min_relative_contrast * np.median(contrast))
 
 
 def _select_missed(

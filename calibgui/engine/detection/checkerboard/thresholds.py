@@ -66,9 +66,10 @@ class SearchThresholds:
     max_sparse_lattices: int = 2
     """Number of grown lattices of a level that fill less than the share `min_filled_in_texture` of
     their rows and columns, after which others that do are not grown. The "waves" and the "halftone"
-    of `tests.benchmarks.refusals` have 5 to 8 of a third and less, which take long."""
+    of `tests.benchmarks.refusals` have up to 8 of a third and less, which take long."""
     min_filled_in_texture: float = 0.5
-    """See `max_sparse_lattices`."""
+    """See `max_sparse_lattices`. Lattices that fill less are given up at once if chance explains
+    them: most of those of textures are ragged, and of a board some part is full."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -10,12 +10,13 @@ import pytest
 from calibgui.engine.detection.checkerboard import neighbour_graph, pyramid_search
 from calibgui.engine.detection.checkerboard.lattice_growth import grow_lattice
 from calibgui.engine.detection.checkerboard.pyramid_search import Candidate
+from calibgui.engine.detection.checkerboard.x_junctions import Junctions
 from calibgui.engine.detection.lattice import Lattice, compute_filled_share
 from tests.scenes.without_board import draw_without_board
 
 
-def test_few_sparse_lattices_are_grown(monkeypatch: pytest.MonkeyPatch) -> None:
-    """One level of these waves has four."""
+def count_sparse(monkeypatch: pytest.MonkeyPatch, seed: int, plain: float) -> int:
+    """Count the sparse lattices that are grown in a picture without a board."""
     filled: list[float] = []
 
     def grow(seed: Lattice, *args: Any) -> Lattice:
@@ -23,8 +24,35 @@ def test_few_sparse_lattices_are_grown(monkeypatch: pytest.MonkeyPatch) -> None:
         return grow_lattice(seed, *args)
 
     monkeypatch.setattr(pyramid_search, "grow_lattice", grow)
-    list(pyramid_search.find_candidates(draw_without_board(47), plain=0.26))
-    assert sum(share < 0.5 for share in filled) == 2
+    list(pyramid_search.find_candidates(draw_without_board(seed), plain=plain))
+    assert filled
+    return sum(share < 0.5 for share in filled)
+
+
+def test_few_sparse_lattices_are_grown(monkeypatch: pytest.MonkeyPatch) -> None:
+    """One level of this halftone has three that chance does not explain."""
+    assert count_sparse(monkeypatch, 80, plain=0.5) == 2
+
+
+def test_lattices_that_chance_explains_are_not_grown(monkeypatch: pytest.MonkeyPatch) -> None:
+    """One level of these waves has four, all of them ragged."""
+    assert count_sparse(monkeypatch, 47, plain=0.26) == 0
+
+
+def test_faint_crossings_beside_a_lattice_do_not_count() -> None:
+    """Noise where nothing is printed has any number of them."""
+    places = np.argwhere(np.ones((3, 4))).astype(np.float64)[:, ::-1]
+    uv = np.full((7, 4, 2), np.nan)
+    uv[:3], uv[6, 0] = 20 * places.reshape(3, 4, 2), (7.0, 120.0)
+    lattice = Lattice(uv, dark=True)
+    noise = np.random.default_rng(0).uniform(200, 900, (2000, 2))
+    for faint, is_chance in ((0.1, False), (0.9, True)):
+        junctions = Junctions(
+            np.concatenate([uv[lattice.found], noise]),
+            np.zeros((2013, 2)),
+            np.repeat([100.0, 100.0 * faint], [13, 2000]),
+        )
+        assert pyramid_search._is_chance(lattice, junctions) == is_chance
 
 
 def test_components_without_a_cell_are_not_arranged(monkeypatch: pytest.MonkeyPatch) -> None:
