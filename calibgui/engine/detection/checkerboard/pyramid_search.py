@@ -230,6 +230,8 @@ def _grow_lattices(
     A texture holds any number of lattices, and all turn out as the first few did: once these are
     sparse, other sparse ones are left out.
     """
+    if not seeds:
+        return []
 
     def is_hopeless(lattice: Lattice) -> bool:
         image = content.image
