@@ -46,7 +46,7 @@ def apart(method: Method) -> Method:
 
     def run(image: Image, board: Board) -> tuple[Located | None, float]:
         here, there = get_context("fork").Pipe(duplex=False)
-        child = get_context("fork").Process(board=lambda: there.send(method(image, board)))
+        child = get_context("fork").Process(target=lambda: there.send(method(image, board)))
         child.start()
         there.close()
         try:

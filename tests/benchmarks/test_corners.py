@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import os
+
+import numpy as np
 import pytest
 
 from calibgui.engine.detection.find_corners import find_corners
@@ -40,3 +43,16 @@ def test_few_corners_reach_it_too(name: str) -> None:
 def test_no_board_is_seen_where_there_is_none(seed: int) -> None:
     with pytest.raises(NoBoardError):
         find_corners(draw_without_board(seed))
+
+
+@pytest.mark.skipif(os.name == "nt", reason="needs processes that fork")
+def test_a_finder_that_crashes_finds_nothing() -> None:
+    def crash(*_: object) -> tuple[None, float]:
+        os._exit(1)
+
+    def find_none(*_: object) -> tuple[None, float]:
+        return None, 0.5
+
+    image = np.zeros((9, 9), dtype=np.uint8)
+    assert np.isnan(corner_methods.apart(crash)(image, (3, 3))[1])
+    assert corner_methods.apart(find_none)(image, (3, 3)) == (None, 0.5)
