@@ -259,13 +259,19 @@ def test_from_photographs_to_an_exported_camera(
 
     # Export.
     out = tmp_path / "out.json"
-    monkeypatch.setattr(QFileDialog, "getSaveFileName", lambda *_: (str(out), ""))
+    starts: list[str] = []
+    monkeypatch.setattr(
+        QFileDialog,
+        "getSaveFileName",
+        lambda *asked: (starts.append(asked[2]), (str(out), ""))[1],
+    )
     window.files.export()
     dialog = QApplication.activeModalWidget()
     assert dialog is not None
     hand.wait(dialog.save.isEnabled)
     hand.click_button(dialog.save)
     hand.wait(out.exists)
+    assert Path(starts[0]).parent == path.parent
     dialog.close()
     exported = read_result(out).calibration.camera.params
     np.testing.assert_array_equal(exported, session.result.calibration.camera.params)

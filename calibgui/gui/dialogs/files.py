@@ -66,10 +66,14 @@ class Files(QObject):
     @property
     def _place(self) -> str:
         """The folder to begin a choice of files in: the project's, or its images'."""
+        file = self.file
+        return str(file.parent) if file else ""
+
+    @property
+    def file(self) -> Path | None:
+        """The file that is worked on: the project's, else its first image."""
         path, views = self._session.document.path, self._session.project.views
-        if path is None and not views:
-            return ""
-        return str((path or Path(views[0].image)).parent)
+        return path or (Path(views[0].image) if views else None)
 
     def open_paths(self, names: Sequence[str]) -> None:
         """Open what was dropped, pasted or named on the command line: a project, or images.
@@ -196,11 +200,9 @@ class Files(QObject):
         return path if answer == Answer.Yes else None
 
     def _ask_for_file(self) -> Path | None:
-        views = self._session.project.views
-        beside = Path(views[0].image).parent if views else Path()
-        start = self._session.document.path or beside / _PROJECT
+        start = str(self._session.document.path or _PROJECT)
         return ask_for_name(
-            self._window, self.tr("Save project"), str(start), self.tr("Projects (*.json)")
+            self._window, self.tr("Save project"), start, self.tr("Projects (*.json)")
         )
 
     def may_leave(self) -> bool:

@@ -22,14 +22,15 @@ def ask_for_name(parent: QWidget, title: str, start: str, kinds: str) -> Path | 
     Args:
         parent: the dialog opens over it.
         title: of the dialog.
-        start: name that is proposed, with or without a folder.
+        start: name that is proposed; one without a folder is put beside the file that the window
+            shows (Qt's `windowFilePath`).
         kinds: Qt's filters, as "PDF (*.pdf);;SVG drawing (*.svg)"; a name without a suffix gets the
             one that was chosen.
 
     Returns:
         The path; None if the user does not want to write, or to replace.
     """
-    name, chosen = QFileDialog.getSaveFileName(parent, title, start, kinds)
+    name, chosen = QFileDialog.getSaveFileName(parent, title, _find_place(parent, start), kinds)
     if not name:
         return None
     path = Path(name)
@@ -38,6 +39,16 @@ def ask_for_name(parent: QWidget, title: str, start: str, kinds: str) -> Path | 
     suffix = re.search(r"\*(\.\w+)", chosen or kinds)
     path = path.with_name(path.name + (suffix[1] if suffix else ""))
     return path if not path.exists() or _may_replace(parent, path) else None
+
+
+def _find_place(parent: QWidget, start: str) -> str:
+    """Return where the dialog begins: `start`, in a folder of the user's work."""
+    at: QWidget | None = parent
+    while at is not None and not at.windowFilePath():
+        at = at.parentWidget()
+    if at is None or Path(start).parent != Path():
+        return start
+    return str(Path(at.windowFilePath()).parent / start)
 
 
 def _may_replace(parent: QWidget, path: Path) -> bool:

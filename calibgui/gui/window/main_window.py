@@ -289,6 +289,7 @@ class MainWindow(QMainWindow):
         name = document.path.name if document.path else self.tr("Untitled")
         self.setWindowTitle(f"{name}[*]")
         self.setWindowModified(not document.saved)
+        self.setWindowFilePath(str(self.files.file or ""))
         self._show_calibrate()
 
     def _show_parts(self, empty: bool) -> None:

@@ -63,3 +63,20 @@ def test_a_file_of_the_longer_name_is_asked_about(
     path = ask_for_name(parent, "", "", KINDS)
     assert path == (tmp_path / "board.pdf" if button == "Yes" else None)
     assert asked == [f"{tmp_path / 'board.pdf'} exists. Replace it?"]
+
+
+@pytest.mark.parametrize("name", ["camera.yaml", ""])
+def test_the_dialog_begins_beside_the_file_that_the_window_shows(
+    name: str, parent: QWidget, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    starts: list[str] = []
+    monkeypatch.setattr(
+        QFileDialog, "getSaveFileName", lambda *asked: (starts.append(asked[2]), ("", ""))[1]
+    )
+    inner = QWidget(parent)
+    ask_for_name(inner, "Save", name, KINDS)
+    parent.setWindowFilePath(str(tmp_path / "project.json"))
+    ask_for_name(inner, "Save", name, KINDS)
+    elsewhere = str(tmp_path / "elsewhere" / "b.yaml")
+    ask_for_name(inner, "Save", elsewhere, KINDS)
+    assert starts == [name, str(tmp_path / name), elsewhere]
