@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from calibgui.engine import kernels
 from calibgui.engine.arrays import Array, GreyImage
 
 
@@ -12,6 +13,13 @@ def make_mesh(u: Array, v: Array) -> Array:
     return np.stack(np.meshgrid(u, v), axis=-1)
 
 
+def _is_photograph(image: GreyImage, _uv: Array) -> bool:
+    """Return whether an image is as read from a file: a kernel is compiled for each type, and few
+    points of others are asked for."""
+    return image.dtype.kind == "u"
+
+
+@kernels.with_kernel("sampling", "sample_image", _is_photograph)
 def sample_image(image: GreyImage, uv: Array) -> Array:
     """Return bilinear values of `image` (h, w) at `uv` (..., 2) px, the border replicated.
 
