@@ -113,8 +113,10 @@ def find_candidates(
     outlines = [_scale_to_level(outline, k) for k in range(len(levels))]
     candidates: list[Candidate] = []
     waiting: list[tuple[int, _LevelContent]] = []
+    shown: tuple[int, list[Array]] | None = None
     for depth in reversed(range(len(levels))):
         content = _analyse_level(levels[depth], min_contrast, outlines[depth], plain, on_refusal)
+        shown = shown or (len(content.junctions), [each.uv for each in content.lattices])
         if depth and content.lattices and not _is_resolved(content.lattices[0]):
             # The finer levels may show all of its small squares: until then it is of no use.
             waiting.append((depth, content))
@@ -132,6 +134,7 @@ def find_candidates(
                     )
             waiting = []
             yield candidates
+    assert shown is not None  # there is at least one level
     depth = len(levels) - 1
     while min(levels[depth].shape) > limits.min_parted_level_side:
         content = _analyse_level(
@@ -142,7 +145,8 @@ def find_candidates(
             on_refusal,
             THRESHOLDS.junctions.parted,
         )
-        if found := _grow_lattices(content, content.lattices, is_sufficient, is_other):
+        seeds = _select_new(content, *shown)
+        if found := _grow_lattices(content, seeds, is_sufficient, is_other):
             candidates = _drop_parts(_carry_down(found, candidates, levels[:depth]) + candidates)
             yield candidates
         levels.append(opencv.halve_image(levels[depth]))
@@ -281,6 +285,18 @@ def _find_least_contrast(contrast: Array) -> float:
     """Return the contrast below which a junction is too faint to be a corner of the same board as
     those of the contrasts (n,)."""
     return float(FIT_THRESHOLDS.template.min_relative_contrast * np.median(contrast))
+
+
+def _select_new(content: _LevelContent, junctions: int, shown: list[Array]) -> list[Lattice]:
+    """Select the lattices of a level that it did not show before, (rows, cols, 2) px, among as many
+    junctions: those would grow as they did."""
+    if len(content.junctions) != junctions:
+        return content.lattices
+    return [
+        each
+        for each in content.lattices
+        if not any(np.array_equal(each.uv, uv, equal_nan=True) for uv in shown)
+    ]
 
 
 def _select_missed(

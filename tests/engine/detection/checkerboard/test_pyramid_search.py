@@ -34,6 +34,21 @@ def test_few_sparse_lattices_are_grown(monkeypatch: pytest.MonkeyPatch) -> None:
     assert count_sparse(monkeypatch, 80, plain=0.5) == 2
 
 
+def test_a_lattice_that_a_level_shows_again_is_not_grown_again(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """The coarsest level of these waves has the same 990 crossings under both tolerances."""
+    grown: list[Lattice] = []
+
+    def grow(seed: Lattice, *args: Any) -> Lattice:
+        grown.append(seed)
+        return grow_lattice(seed, *args)
+
+    monkeypatch.setattr(pyramid_search, "grow_lattice", grow)
+    list(pyramid_search.find_candidates(draw_without_board(2), plain=0.26))
+    assert [len(lattice) for lattice in grown].count(990) == 1
+
+
 def test_lattices_that_chance_explains_are_not_grown(monkeypatch: pytest.MonkeyPatch) -> None:
     """One level of these waves has four, all of them ragged."""
     assert count_sparse(monkeypatch, 47, plain=0.26) == 0
