@@ -20,8 +20,6 @@ from calibgui.gui.widgets.wrapped_label import WrappedLabel
 from calibgui.report.comparison import compare_parameters
 from calibgui.report.verdict import format_times
 
-_SHARE = 1.0
-"""Share of the room below the bar that the comparison may take: all, where the window is small."""
 _HEIGHT = 560
 """Its height where there is more room, device-independent px."""
 
@@ -35,7 +33,7 @@ class BeforeAndAfter(DropDown):
     """The `Remedied` that the user does not want."""
 
     def __init__(self, bar: QWidget, session: Session) -> None:
-        super().__init__(bar, _SHARE)
+        super().__init__(bar)  # all of a small window's height
         self._remedied: Remedied | None = None
         self._work = Latest(session.jobs, self)
         self.title = WrappedLabel()

@@ -26,7 +26,7 @@ class DropDown(QFrame):
     closed = Signal()
     """The user has closed it by Escape."""
 
-    def __init__(self, bar: QWidget, share: float) -> None:
+    def __init__(self, bar: QWidget, share: float = 1.0) -> None:
         super().__init__(bar)
         self._bar, self._share = bar, share
         self._overlay: Overlay | None = None
