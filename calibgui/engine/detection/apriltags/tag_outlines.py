@@ -20,13 +20,16 @@ is (1 + E_i) / 2. Paper and border each have a level that varies linearly over t
 
 The unknowns of a tag, its corners (8), the blurs of its first and third and of its second and
 fourth edge, the two levels with their gradients (6), and the bows (4), are found by Gauss-Newton
-steps, all tags at once. By itself a tag tells its bows poorly, and half as much again is its
-corners' error. The corners of all tags tell the lens (`grid_map`), and this the bows: with how well
-it agrees with those that were found, they enter the last steps. By the inverse of the normal
-equations follow the covariances of the corners. The corners
-at both ends of an edge share it, so that they correlate, by about -1/2 across it; the covariance of
-each by itself is right. As at a crossing of edges (``x_corner_fit``) light moves the pattern, and
-it is moved back. The ink's spread cannot be told from larger tags with a smaller gap, and is not.
+steps, all tags at once: first of each tag by itself. Its bows are hardly told from its corners
+then, which are half as uncertain again as with known bows. But the corners of all tags show the
+lens (`grid_map`), and the lens bends every edge: these bows enter the last steps, trusted as far as
+they agree with the tags' own.
+
+By the inverse of the normal equations follow the covariances of the corners; to these is added by
+how much edges that are bent far may differ from parabolas. The corners at both ends of an edge
+share it, so that they correlate, by about -1/2 across it; the covariance of each by itself is
+right. As at a crossing of edges (``x_corner_fit``) light moves the pattern, and it is moved back.
+The ink's spread cannot be told from larger tags with a smaller gap, and is not.
 """
 
 from __future__ import annotations
@@ -279,9 +282,8 @@ class _BowPrior(NamedTuple):
 
 
 def _estimate_bows(model: _Model, variance: Array, places: Array) -> _BowPrior:
-    """Estimate bows from the lens that the corners of all tags show.
-
-    How far it is to be trusted, the bows that were found for each tag by itself tell.
+    """Estimate bows from the lens that the corners of all tags show; how far they are from those
+    that were found for each tag by itself tells how well they are known.
 
     Args:
         model: of n tags.
