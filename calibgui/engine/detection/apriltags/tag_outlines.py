@@ -273,7 +273,7 @@ def _estimate_start(image: GreyImage, corners: Array, border: float, gap: float)
 
 
 class _BowPrior(NamedTuple):
-    """What is known of the bows of k tags before they are measured."""
+    """The bows that k tags are expected to have, and how well that is known."""
 
     bows: Array
     """(k, 4) px."""

@@ -21,7 +21,7 @@ from calibgui.engine.detection.checkerboard.thresholds import THRESHOLDS
 from calibgui.engine.detection.lattice import list_full_rectangles
 
 BY_CHANCE = "squares at random could have formed it"
-"""What is said of a lattice that chance explains, the end of a sentence."""
+"""The reason for which a lattice that chance explains is refused, as the end of a sentence."""
 _MOST = float(np.log2(THRESHOLDS.verification.max_false_boards))
 
 

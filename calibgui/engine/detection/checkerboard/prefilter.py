@@ -56,7 +56,7 @@ _LIKE_DISCS = "its edges are not straight, like those of discs"
 _DOTS_AROUND = "its pattern goes on around it in dots of other sizes"
 _LIKE_DOTS = "its squares differ in size like printed dots"
 OBJECTIONS_TO_CIRCLES = (_NO_CROSSING, _LIKE_DISCS, _DOTS_AROUND, _LIKE_DOTS)
-"""What speaks against a grid of circles that looks like a board, ends of sentences."""
+"""The reasons for which a grid of circles that looks like a checkerboard is refused."""
 
 
 @dataclass(frozen=True, slots=True)

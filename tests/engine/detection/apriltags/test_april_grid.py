@@ -171,7 +171,7 @@ def test_blur_does_not_move_the_corners_of_tags_alone_outwards() -> None:
         R = rotation_from_vector(np.array(BARE.rvec))
         outwards = sides @ R[:2, :2].T
         moved = np.sum(BARE.error(corners) * outwards, axis=1) / np.linalg.norm(outwards, axis=1)
-        assert abs(moved.mean()) < 0.01
+        assert abs(moved.mean()) < 0.007
 
 
 @pytest.mark.parametrize(
