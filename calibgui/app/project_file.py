@@ -182,7 +182,20 @@ def read_project(path: Path, folder: Path | None = None) -> Project:
     check_format(node, FORMAT, VERSION)
     project = _decode_project(_migrate(node))
     base = (folder or path.parent).absolute()
-    return _change_paths(project, lambda image: _make_absolute(image, base))
+    project = _change_paths(project, lambda image: _make_absolute(image, base))
+    _check_images_differ(project, node.file)
+    return project
+
+
+def _check_images_differ(project: Project, file: str) -> None:
+    """Raise a CalibrationError if two views are of one file, whose corners would count twice."""
+    first: dict[str, int] = {}
+    for k, view in enumerate(project.views):
+        if first.setdefault(view.image, k) != k:
+            raise CalibrationError(
+                f"{file}: views {first[view.image] + 1} and {k + 1} are both of {view.image}.",
+                "Delete one of the two from the file.",
+            )
 
 
 def _migrate(node: Node) -> Node:

@@ -178,6 +178,14 @@ def test_what_cannot_be_is_named(tmp_path: Path, change: dict, says: str) -> Non
         read_project(broken(tmp_path, json.dumps(content)))
 
 
+def test_one_image_cannot_be_two_views(tmp_path: Path) -> None:
+    content = json.loads(dumps(encode_project(examples.calibrated(tmp_path), tmp_path)))
+    first = content["views"][0]
+    content["views"].append({**first, "image": f"sub/../{first['image']}"})
+    with pytest.raises(CalibrationError, match=f"views 1 and {len(content['views'])} are both of"):
+        read_project(broken(tmp_path, json.dumps(content)))
+
+
 def test_a_version_may_be_written_with_a_point(tmp_path: Path) -> None:
     text = (Path(__file__).parents[1] / "golden" / "project-3.json").read_text(encoding="utf-8")
     old = text.replace('"version": 3', '"version": 3.0', 1)
