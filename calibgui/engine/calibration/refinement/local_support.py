@@ -17,7 +17,6 @@ touch, by which ``schur.py`` saves in turn.
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Protocol
 
 import numpy as np
 
@@ -25,20 +24,10 @@ from calibgui.engine.arrays import Array, IntArray
 from calibgui.engine.calibration.observations import Observations
 from calibgui.engine.camera.models.splined_stereographic import SplinedStereographic
 from calibgui.engine.kernels import with_kernel
+from calibgui.engine.kernels.views import CameraAndPoses
 
 Blocks = tuple[Array, Array, Array, Array, Array, Array]
 """U, W, V, the shared gradient, the poses' gradients and the views' costs."""
-
-
-class CameraAndPoses(Protocol):
-    """The fields of ``residuals.State``."""
-
-    @property
-    def params(self) -> Array: ...
-    @property
-    def R(self) -> Array: ...  # noqa: N802 - the paper's symbol
-    @property
-    def T(self) -> Array: ...  # noqa: N802 - the paper's symbol
 
 
 @with_kernel("splined_lens", "prepare_local_blocks")
