@@ -70,7 +70,10 @@ class UncertaintyPanel(Panel):
         self.plot.setToolTip(
             self.tr(
                 "A point of the scene is imaged this far from where the calibration says (1σ).\n"
-                "What turning and shifting the camera would undo is taken out."
+                "What turning and shifting the camera would undo is taken out.\n"
+                "It is what the calibration says of itself. The verdict's error may be another:\n"
+                "where the remedy of a finding was tried, it is measured against the camera that\n"
+                "the remedy gives."
             )
         )
         self.plot.scene().sigMouseMoved.connect(self._hover)

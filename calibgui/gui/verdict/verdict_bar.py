@@ -82,8 +82,10 @@ class VerdictBar(QFrame):
         self.figures.setToolTip(
             self.tr(
                 "How far off the camera puts a distant point in the image (one standard "
-                "deviation), with the harm of the findings. The covered part is where corners "
-                "were found, the edge the mean along the image's border."
+                "deviation). The covered part is where corners were found, the edge the mean along "
+                "the image's border. Where the remedy of a finding was tried, this is the distance "
+                "to the camera that it gives, and the uncertainty of that one; otherwise it is the "
+                "calibration's own uncertainty, as in the panel Uncertainty."
             )
         )
         self._figures: list[str] = []
