@@ -9,6 +9,7 @@ import subprocess
 import sys
 import tomllib
 from collections.abc import Iterable, Iterator, Mapping
+from importlib import import_module
 from itertools import pairwise, permutations
 from pathlib import Path
 
@@ -22,6 +23,11 @@ CONTRACTS = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
 ]["contracts"]
 OUTER, ROOMS, FACES, INSIDE, CIRCLES = (contract["name"] for contract in CONTRACTS[:5])
 ENGINE = "calibgui.engine"
+FACE_FILES = [
+    file
+    for file in (PACKAGE / "engine").glob("*/__init__.py")
+    if "load_on_demand" in file.read_text(encoding="utf-8")
+]
 
 
 @pytest.fixture(scope="module")
@@ -184,11 +190,28 @@ def test_the_contract_knows_where_a_function_has_the_name_of_its_file() -> None:
     named = set()
     for face in (PACKAGE / "engine").glob("*/__init__.py"):
         files = {file.stem for file in face.parent.glob("*.py")}
-        for node in ast.parse(face.read_text(encoding="utf-8")).body:
+        for node in ast.walk(ast.parse(face.read_text(encoding="utf-8"))):
             if isinstance(node, ast.ImportFrom):
                 taken = {alias.name for alias in node.names} & files
                 named |= {f"{ENGINE}.{face.parent.name}.{name}" for name in taken}
     assert known == named
+
+
+@pytest.mark.parametrize("room", ["", *sorted(face.parent.name for face in FACE_FILES)])
+def test_a_face_offers_what_is_said_for_type_checkers(room: str) -> None:
+    """Assert that both lists of a face agree, and that each of its names can be had."""
+    name = f"{ENGINE}.{room}".rstrip(".")
+    tree = ast.parse(find_file(ROOT, name).read_text(encoding="utf-8"))
+    said = {
+        (node.module, alias.name, alias.asname)
+        for node in ast.walk(tree)
+        if isinstance(node, ast.ImportFrom) and (node.module or "").startswith(f"{name}.")
+        for alias in node.names
+        if alias.asname
+    }
+    face = import_module(name)
+    assert said == {(face._file_of[each], each, each) for each in face.__all__}
+    assert all(getattr(face, each) is vars(sys.modules[file])[each] for file, each, _ in said)
 
 
 def test_nothing_is_taken_from_the_file_behind_a_face() -> None:
@@ -209,10 +232,12 @@ def test_nothing_is_taken_from_the_file_behind_a_face() -> None:
 def test_no_import_inside_a_function_of_the_engine() -> None:
     """Assert that the engine hides none of its own imports in functions or behind TYPE_CHECKING.
 
-    What numba needs may: the kernels are loaded when they are first called.
+    What numba needs may: the kernels are loaded when they are first called. So may the faces, which
+    tell type checkers what they load on demand.
     """
     found = []
-    for file in (PACKAGE / "engine").rglob("*.py"):
+    faces = [PACKAGE / "engine" / "__init__.py", *FACE_FILES]
+    for file in set((PACKAGE / "engine").rglob("*.py")) - set(faces):
         tree = ast.parse(file.read_text(encoding="utf-8"))
         hidden = {
             inner

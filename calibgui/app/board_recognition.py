@@ -16,9 +16,10 @@ from typing import Protocol
 from calibgui.app.detection import Detection, infer_grid_size, refuse_unreadable, search_view
 from calibgui.app.workers import map_in_processes
 from calibgui.dataset import View, ViewStatus
+from calibgui.engine import detection as detectors
 from calibgui.engine.arrays import GridSize
 from calibgui.engine.boards import CHECKERBOARD, KINDS, Pattern
-from calibgui.engine.detection import Corners, find_corners, look_for_marks
+from calibgui.engine.detection import Corners
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.images import read_image
 from calibgui.report.boards import name_kind
@@ -166,7 +167,7 @@ def recognise_pattern(
         return find_other_pattern(samples, CHECKERBOARD, stop)
     view, corners = max(found, key=lambda pair: len(pair[1]))
     try:
-        marks = look_for_marks(read_image(view.image, view.orientation).pixels, corners)
+        marks = detectors.look_for_marks(read_image(view.image, view.orientation).pixels, corners)
     except CalibrationError:  # the file has changed since it was searched
         return None
     kinds = (
@@ -236,6 +237,6 @@ def _search_mirror_image(attempt: tuple[str, Pattern]) -> Corners | None:
     """Search an image with left and right exchanged; the corners are in that one's frame."""
     image, pattern = attempt
     try:
-        return find_corners(read_image(image).pixels[:, ::-1], pattern=pattern)
+        return detectors.find_corners(read_image(image).pixels[:, ::-1], pattern=pattern)
     except CalibrationError:
         return None

@@ -22,9 +22,10 @@ from calibgui.app.kernel_preparation import prepare_finder
 from calibgui.app.sensor_frame import share_frame
 from calibgui.app.workers import Crashed, map_in_processes
 from calibgui.dataset import CornerSet, View, ViewStatus
+from calibgui.engine import detection
 from calibgui.engine.arrays import Array, GridSize, Size
 from calibgui.engine.boards import CHECKERBOARD, Board, Pattern
-from calibgui.engine.detection import METHODS, Corners, find_corners
+from calibgui.engine.detection import METHODS, Corners
 from calibgui.engine.errors import CalibrationError, NoBoardError
 from calibgui.engine.images import Image, read_image
 
@@ -160,7 +161,7 @@ def search_view(
         return view.refuse(ViewStatus.UNREADABLE, str(error))
     doubt = _describe_zero_tail(image)
     try:
-        corners = find_corners(image.pixels, grid_size, view.roi, method, pattern=pattern)
+        corners = detection.find_corners(image.pixels, grid_size, view.roi, method, pattern=pattern)
     except NoBoardError as error:
         return view.refuse(ViewStatus.NO_BOARD, f"{error} {doubt}".rstrip())
     said = [view.note, *(each for each in (doubt, corners.remark) if each not in view.note)]

@@ -10,7 +10,7 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
-from calibgui.engine.detection import find_corners
+from calibgui.engine import detection
 
 _SQUARE_PX = 20
 """Side of the squares of the drawn board, px."""
@@ -35,7 +35,7 @@ def prepare_finder(depth: npt.DTypeLike = np.uint8) -> None:
     is_on_board = (row > 0) & (col > 0) & (row < rows - 1) & (col < cols - 1)
     fine = np.where(is_on_board & ((row + col) % 2 == 0), 40, 200)
     levels = fine.reshape(rows * _SQUARE_PX, _PARTS, -1, _PARTS).mean(axis=(1, 3))
-    find_corners((levels * (np.iinfo(depth).max // 255)).astype(depth))
+    detection.find_corners((levels * (np.iinfo(depth).max // 255)).astype(depth))
 
 
 if __name__ == "__main__":

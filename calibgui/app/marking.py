@@ -8,16 +8,10 @@ from typing import Any
 
 import numpy as np
 
+from calibgui.engine import detection
 from calibgui.engine.arrays import Array, GreyImage, GridSize, IntArray
 from calibgui.engine.boards import CHECKERBOARD, Pattern, checkerboard_symmetry
-from calibgui.engine.detection import (
-    METHODS,
-    Corners,
-    classify_saddles,
-    find_corners,
-    find_saddles,
-    refine_saddles,
-)
+from calibgui.engine.detection import METHODS, Corners
 from calibgui.engine.errors import CalibrationError, NoBoardError
 from calibgui.engine.geometry import fit_homography
 
@@ -39,8 +33,8 @@ def find_nearest_corner(image: GreyImage, uv: Array, reach: float) -> Array | No
     floor = _MIN_CONTRAST_RATIO * float(np.ptp(part))
     if floor <= 0:
         return None
-    saddles = find_saddles(part, floor)
-    good, _ = classify_saddles(saddles)
+    saddles = detection.find_saddles(part, floor)
+    good, _ = detection.classify_saddles(saddles)
     at = saddles.uv[good] + [left, top]
     distance = np.linalg.norm(at - uv, axis=1)
     if not len(at) or distance.min() > reach:
@@ -50,7 +44,7 @@ def find_nearest_corner(image: GreyImage, uv: Array, reach: float) -> Array | No
 
 def refine_corner(image: GreyImage, uv: Array, limit: float) -> Array | None:
     """Return the saddle point (2,) px within `limit` px of `uv` (2,) px; None if there is none."""
-    at, good = refine_saddles(image, uv[None], np.array([1.2]), np.array([limit]))
+    at, good = detection.refine_saddles(image, uv[None], np.array([1.2]), np.array([limit]))
     return at[0] if good[0] else None
 
 
@@ -77,11 +71,11 @@ def mark_board(
         CalibrationError: if the points do not go around a region.
     """
     try:
-        return find_corners(image, grid_size, points, method, pattern=pattern)
+        return detection.find_corners(image, grid_size, points, method, pattern=pattern)
     except NoBoardError:
         if grid_size is not None or usual is None:
             raise
-        return find_corners(image, usual, points, method, pattern=pattern)
+        return detection.find_corners(image, usual, points, method, pattern=pattern)
     except ValueError as error:
         raise CalibrationError(
             "The four points do not go around the board.",

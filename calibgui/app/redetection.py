@@ -25,6 +25,7 @@ from calibgui.app.labelling import (
 from calibgui.app.settings import DEFAULT_SETTINGS, Settings
 from calibgui.app.workers import Crashed, map_in_processes
 from calibgui.dataset import CornerSet, Result, View, ViewStatus
+from calibgui.engine import redetection
 from calibgui.engine.arrays import GridSize
 from calibgui.engine.boards import CHECKERBOARD, Board
 from calibgui.engine.calibration import Calibration, Cost, Report, Status
@@ -33,7 +34,6 @@ from calibgui.engine.detection import Corners
 from calibgui.engine.errors import CalibrationError, Progress
 from calibgui.engine.geometry import Pose
 from calibgui.engine.images import read_image
-from calibgui.engine.redetection import are_edges_bent, redetect_corners
 from calibgui.report.numbers import format_count
 
 _MAX_SERIAL_IMAGES = 6
@@ -145,7 +145,7 @@ def redetect_view(view: View, calibration: Calibration, grid_size: GridSize) -> 
     before = view.corners
     try:
         pixels = read_image(view.image, view.orientation).pixels
-        corners = redetect_corners(pixels, calibration, grid_size, before)
+        corners = redetection.redetect_corners(pixels, calibration, grid_size, before)
     except CalibrationError:
         return view
     if before is None:
@@ -165,7 +165,7 @@ def _is_promising(view: View, board: Board, calibration: Calibration, pose: Pose
         return view.status is ViewStatus.NO_BOARD
     if view.corners.method != "edges" or pose is None:
         return False
-    if are_edges_bent(view.corners, calibration, pose, board):
+    if redetection.are_edges_bent(view.corners, calibration, pose, board):
         return True
     if view.corners.complete:
         return False

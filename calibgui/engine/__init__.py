@@ -25,90 +25,112 @@ Five views of a board are rendered here in place of photographs.
 
 from __future__ import annotations
 
-from calibgui.engine.assessment.residual_statistics import ResidualSummary, summarise_residuals
-from calibgui.engine.boards.april_grid import AprilGrid
-from calibgui.engine.boards.board import Board
-from calibgui.engine.boards.charuco import Charuco
-from calibgui.engine.boards.checkerboard import Checkerboard
-from calibgui.engine.boards.circle_grid import Circles
-from calibgui.engine.boards.pattern import Symmetry
-from calibgui.engine.boards.puzzleboard import PuzzleBoard
-from calibgui.engine.boards.shape import BoardShape, BoardShapeModel, BoardShapePrior
-from calibgui.engine.boards.tagged_checkerboard import TaggedCheckerboard
-from calibgui.engine.calibration.calibrate import calibrate
-from calibgui.engine.calibration.observations import Observation
-from calibgui.engine.calibration.refit import Refit, refit
-from calibgui.engine.calibration.result import (
-    Assumption,
-    Calibration,
-    Cost,
-    Degeneracy,
-    DegenerateError,
-    Diagnosis,
-    Iteration,
-    StageOne,
-    Status,
-    Undetermined,
-    ViewResiduals,
-)
-from calibgui.engine.camera.camera import Camera
-from calibgui.engine.camera.distortion import distort_points, project_points, undistort_points
-from calibgui.engine.detection.corners import Corners
-from calibgui.engine.detection.find_corners import find_corners
-from calibgui.engine.errors import CalibrationError, Cancelled, NoBoardError
-from calibgui.engine.geometry.pose import Pose
-from calibgui.engine.images.reading import Image, read_image
-from calibgui.engine.images.rectification import compute_board_extent, rectify_image
-from calibgui.engine.images.rendering import Appearance, render_view
-from calibgui.engine.images.resampling import ResampledImage
-from calibgui.engine.images.undistortion import FieldOfView, undistort_image
+from typing import TYPE_CHECKING
 
-__all__ = [
-    "Appearance",
-    "AprilGrid",
-    "Assumption",
-    "Board",
-    "BoardShape",
-    "BoardShapeModel",
-    "BoardShapePrior",
-    "Calibration",
-    "CalibrationError",
-    "Camera",
-    "Cancelled",
-    "Charuco",
-    "Checkerboard",
-    "Circles",
-    "Corners",
-    "Cost",
-    "Degeneracy",
-    "DegenerateError",
-    "Diagnosis",
-    "FieldOfView",
-    "Image",
-    "Iteration",
-    "NoBoardError",
-    "Observation",
-    "Pose",
-    "PuzzleBoard",
-    "Refit",
-    "ResampledImage",
-    "ResidualSummary",
-    "StageOne",
-    "Status",
-    "Symmetry",
-    "TaggedCheckerboard",
-    "Undetermined",
-    "ViewResiduals",
-    "calibrate",
-    "compute_board_extent",
-    "distort_points",
-    "find_corners",
-    "project_points",
-    "read_image",
-    "rectify_image",
-    "refit",
-    "render_view",
-    "summarise_residuals",
-    "undistort_image",
-    "undistort_points",
-]
+from calibgui.engine.faces import load_on_demand
+
+if TYPE_CHECKING:
+    from calibgui.engine.assessment.residual_statistics import (
+        ResidualSummary as ResidualSummary,
+        summarise_residuals as summarise_residuals,
+    )
+    from calibgui.engine.boards.april_grid import AprilGrid as AprilGrid
+    from calibgui.engine.boards.board import Board as Board
+    from calibgui.engine.boards.charuco import Charuco as Charuco
+    from calibgui.engine.boards.checkerboard import Checkerboard as Checkerboard
+    from calibgui.engine.boards.circle_grid import Circles as Circles
+    from calibgui.engine.boards.pattern import Symmetry as Symmetry
+    from calibgui.engine.boards.puzzleboard import PuzzleBoard as PuzzleBoard
+    from calibgui.engine.boards.shape import (
+        BoardShape as BoardShape,
+        BoardShapeModel as BoardShapeModel,
+        BoardShapePrior as BoardShapePrior,
+    )
+    from calibgui.engine.boards.tagged_checkerboard import TaggedCheckerboard as TaggedCheckerboard
+    from calibgui.engine.calibration.calibrate import calibrate as calibrate
+    from calibgui.engine.calibration.observations import Observation as Observation
+    from calibgui.engine.calibration.refit import Refit as Refit, refit as refit
+    from calibgui.engine.calibration.result import (
+        Assumption as Assumption,
+        Calibration as Calibration,
+        Cost as Cost,
+        Degeneracy as Degeneracy,
+        DegenerateError as DegenerateError,
+        Diagnosis as Diagnosis,
+        Iteration as Iteration,
+        StageOne as StageOne,
+        Status as Status,
+        Undetermined as Undetermined,
+        ViewResiduals as ViewResiduals,
+    )
+    from calibgui.engine.camera.camera import Camera as Camera
+    from calibgui.engine.camera.distortion import (
+        distort_points as distort_points,
+        project_points as project_points,
+        undistort_points as undistort_points,
+    )
+    from calibgui.engine.detection.corners import Corners as Corners
+    from calibgui.engine.detection.find_corners import find_corners as find_corners
+    from calibgui.engine.errors import (
+        CalibrationError as CalibrationError,
+        Cancelled as Cancelled,
+        NoBoardError as NoBoardError,
+    )
+    from calibgui.engine.geometry.pose import Pose as Pose
+    from calibgui.engine.images.reading import Image as Image, read_image as read_image
+    from calibgui.engine.images.rectification import (
+        compute_board_extent as compute_board_extent,
+        rectify_image as rectify_image,
+    )
+    from calibgui.engine.images.rendering import (
+        Appearance as Appearance,
+        render_view as render_view,
+    )
+    from calibgui.engine.images.resampling import ResampledImage as ResampledImage
+    from calibgui.engine.images.undistortion import (
+        FieldOfView as FieldOfView,
+        undistort_image as undistort_image,
+    )
+
+load_on_demand(
+    __name__,
+    {
+        "assessment.residual_statistics": ["ResidualSummary", "summarise_residuals"],
+        "boards.april_grid": ["AprilGrid"],
+        "boards.board": ["Board"],
+        "boards.charuco": ["Charuco"],
+        "boards.checkerboard": ["Checkerboard"],
+        "boards.circle_grid": ["Circles"],
+        "boards.pattern": ["Symmetry"],
+        "boards.puzzleboard": ["PuzzleBoard"],
+        "boards.shape": ["BoardShape", "BoardShapeModel", "BoardShapePrior"],
+        "boards.tagged_checkerboard": ["TaggedCheckerboard"],
+        "calibration.calibrate": ["calibrate"],
+        "calibration.observations": ["Observation"],
+        "calibration.refit": ["Refit", "refit"],
+        "calibration.result": [
+            "Assumption",
+            "Calibration",
+            "Cost",
+            "Degeneracy",
+            "DegenerateError",
+            "Diagnosis",
+            "Iteration",
+            "StageOne",
+            "Status",
+            "Undetermined",
+            "ViewResiduals",
+        ],
+        "camera.camera": ["Camera"],
+        "camera.distortion": ["distort_points", "project_points", "undistort_points"],
+        "detection.corners": ["Corners"],
+        "detection.find_corners": ["find_corners"],
+        "errors": ["CalibrationError", "Cancelled", "NoBoardError"],
+        "geometry.pose": ["Pose"],
+        "images.reading": ["Image", "read_image"],
+        "images.rectification": ["compute_board_extent", "rectify_image"],
+        "images.rendering": ["Appearance", "render_view"],
+        "images.resampling": ["ResampledImage"],
+        "images.undistortion": ["FieldOfView", "undistort_image"],
+    },
+)

@@ -16,145 +16,170 @@ whether a stored camera is still good for new pictures.
 
 from __future__ import annotations
 
-from calibgui.engine.assessment.calibration_check import (
-    CONFIDENCE,
-    DEFAULT_LIMIT,
-    CalibrationCheck,
-    CheckedView,
-    CheckVerdict,
-    Weakness,
-    check_calibration,
-)
-from calibgui.engine.assessment.comparison import CameraDifference, compare_cameras
-from calibgui.engine.assessment.cross_validation import (
-    BoardShapeChoice,
-    Bootstrap,
-    CrossValidation,
-    Fold,
-    bootstrap_views,
-    choose_board_shape,
-    cross_validate,
-)
-from calibgui.engine.assessment.drift import (
-    SIGNIFICANCE,
-    Drift,
-    UncertainCamera,
-    choose_covariance,
-    measure_drift,
-)
-from calibgui.engine.assessment.error_sources import ErrorSources, separate_error_sources
-from calibgui.engine.assessment.finding import (
-    REMEDY_OF_LENS,
-    Action,
-    ActionKind,
-    Cause,
-    Finding,
-    find_explanation,
-)
-from calibgui.engine.assessment.findings import list_findings
-from calibgui.engine.assessment.fleet_spread import (
-    MIN_FLEET,
-    OUTLIER_Z,
-    FleetSpread,
-    measure_fleet_spread,
-)
-from calibgui.engine.assessment.lens_choice import (
-    CANDIDATES,
-    SIMPLEST_MODEL,
-    LensChoice,
-    choose_lens,
-    choose_lens_stepwise,
-)
-from calibgui.engine.assessment.lens_trial import LensTrial
-from calibgui.engine.assessment.method_comparison import (
-    Distortion,
-    LineTrial,
-    MethodComparison,
-    MethodTrial,
-    compare_methods,
-    measure_radial_shift,
-)
-from calibgui.engine.assessment.outliers import Rejection, Screening, screen_outliers
-from calibgui.engine.assessment.residual_checks import NoiseCheck, NoiseReport, check_residuals
-from calibgui.engine.assessment.residual_statistics import (
-    Histogram,
-    ResidualSummary,
-    make_component_histogram,
-    make_length_histogram,
-    stack_residuals,
-    summarise_residuals,
-)
-from calibgui.engine.assessment.series import MIN_SETTINGS, SPLINE, Series, Setting, fit_series
-from calibgui.engine.assessment.verdict import Grade, PixelError, Verdict, judge_calibration
-from calibgui.engine.assessment.view_weights import calibrate_weighted
+from typing import TYPE_CHECKING
 
-__all__ = [
-    "CANDIDATES",
-    "CONFIDENCE",
-    "DEFAULT_LIMIT",
-    "MIN_FLEET",
-    "MIN_SETTINGS",
-    "OUTLIER_Z",
-    "REMEDY_OF_LENS",
-    "SIGNIFICANCE",
-    "SIMPLEST_MODEL",
-    "SPLINE",
-    "Action",
-    "ActionKind",
-    "BoardShapeChoice",
-    "Bootstrap",
-    "CalibrationCheck",
-    "CameraDifference",
-    "Cause",
-    "CheckVerdict",
-    "CheckedView",
-    "CrossValidation",
-    "Distortion",
-    "Drift",
-    "ErrorSources",
-    "Finding",
-    "FleetSpread",
-    "Fold",
-    "Grade",
-    "Histogram",
-    "LensChoice",
-    "LensTrial",
-    "LineTrial",
-    "MethodComparison",
-    "MethodTrial",
-    "NoiseCheck",
-    "NoiseReport",
-    "PixelError",
-    "Rejection",
-    "ResidualSummary",
-    "Screening",
-    "Series",
-    "Setting",
-    "UncertainCamera",
-    "Verdict",
-    "Weakness",
-    "bootstrap_views",
-    "calibrate_weighted",
-    "check_calibration",
-    "check_residuals",
-    "choose_board_shape",
-    "choose_covariance",
-    "choose_lens",
-    "choose_lens_stepwise",
-    "compare_cameras",
-    "compare_methods",
-    "cross_validate",
-    "find_explanation",
-    "fit_series",
-    "judge_calibration",
-    "list_findings",
-    "make_component_histogram",
-    "make_length_histogram",
-    "measure_drift",
-    "measure_fleet_spread",
-    "measure_radial_shift",
-    "screen_outliers",
-    "separate_error_sources",
-    "stack_residuals",
-    "summarise_residuals",
-]
+from calibgui.engine.faces import load_on_demand
+
+if TYPE_CHECKING:
+    from calibgui.engine.assessment.calibration_check import (
+        CONFIDENCE as CONFIDENCE,
+        DEFAULT_LIMIT as DEFAULT_LIMIT,
+        CalibrationCheck as CalibrationCheck,
+        CheckedView as CheckedView,
+        CheckVerdict as CheckVerdict,
+        Weakness as Weakness,
+        check_calibration as check_calibration,
+    )
+    from calibgui.engine.assessment.comparison import (
+        CameraDifference as CameraDifference,
+        compare_cameras as compare_cameras,
+    )
+    from calibgui.engine.assessment.cross_validation import (
+        BoardShapeChoice as BoardShapeChoice,
+        Bootstrap as Bootstrap,
+        CrossValidation as CrossValidation,
+        Fold as Fold,
+        bootstrap_views as bootstrap_views,
+        choose_board_shape as choose_board_shape,
+        cross_validate as cross_validate,
+    )
+    from calibgui.engine.assessment.drift import (
+        SIGNIFICANCE as SIGNIFICANCE,
+        Drift as Drift,
+        UncertainCamera as UncertainCamera,
+        choose_covariance as choose_covariance,
+        measure_drift as measure_drift,
+    )
+    from calibgui.engine.assessment.error_sources import (
+        ErrorSources as ErrorSources,
+        separate_error_sources as separate_error_sources,
+    )
+    from calibgui.engine.assessment.finding import (
+        REMEDY_OF_LENS as REMEDY_OF_LENS,
+        Action as Action,
+        ActionKind as ActionKind,
+        Cause as Cause,
+        Finding as Finding,
+        find_explanation as find_explanation,
+    )
+    from calibgui.engine.assessment.findings import list_findings as list_findings
+    from calibgui.engine.assessment.fleet_spread import (
+        MIN_FLEET as MIN_FLEET,
+        OUTLIER_Z as OUTLIER_Z,
+        FleetSpread as FleetSpread,
+        measure_fleet_spread as measure_fleet_spread,
+    )
+    from calibgui.engine.assessment.lens_choice import (
+        CANDIDATES as CANDIDATES,
+        SIMPLEST_MODEL as SIMPLEST_MODEL,
+        LensChoice as LensChoice,
+        choose_lens as choose_lens,
+        choose_lens_stepwise as choose_lens_stepwise,
+    )
+    from calibgui.engine.assessment.lens_trial import LensTrial as LensTrial
+    from calibgui.engine.assessment.method_comparison import (
+        Distortion as Distortion,
+        LineTrial as LineTrial,
+        MethodComparison as MethodComparison,
+        MethodTrial as MethodTrial,
+        compare_methods as compare_methods,
+        measure_radial_shift as measure_radial_shift,
+    )
+    from calibgui.engine.assessment.outliers import (
+        Rejection as Rejection,
+        Screening as Screening,
+        screen_outliers as screen_outliers,
+    )
+    from calibgui.engine.assessment.residual_checks import (
+        NoiseCheck as NoiseCheck,
+        NoiseReport as NoiseReport,
+        check_residuals as check_residuals,
+    )
+    from calibgui.engine.assessment.residual_statistics import (
+        Histogram as Histogram,
+        ResidualSummary as ResidualSummary,
+        make_component_histogram as make_component_histogram,
+        make_length_histogram as make_length_histogram,
+        stack_residuals as stack_residuals,
+        summarise_residuals as summarise_residuals,
+    )
+    from calibgui.engine.assessment.series import (
+        MIN_SETTINGS as MIN_SETTINGS,
+        SPLINE as SPLINE,
+        Series as Series,
+        Setting as Setting,
+        fit_series as fit_series,
+    )
+    from calibgui.engine.assessment.verdict import (
+        Grade as Grade,
+        PixelError as PixelError,
+        Verdict as Verdict,
+        judge_calibration as judge_calibration,
+    )
+    from calibgui.engine.assessment.view_weights import calibrate_weighted as calibrate_weighted
+
+load_on_demand(
+    __name__,
+    {
+        "calibration_check": [
+            "CONFIDENCE",
+            "DEFAULT_LIMIT",
+            "CalibrationCheck",
+            "CheckedView",
+            "CheckVerdict",
+            "Weakness",
+            "check_calibration",
+        ],
+        "comparison": ["CameraDifference", "compare_cameras"],
+        "cross_validation": [
+            "BoardShapeChoice",
+            "Bootstrap",
+            "CrossValidation",
+            "Fold",
+            "bootstrap_views",
+            "choose_board_shape",
+            "cross_validate",
+        ],
+        "drift": ["SIGNIFICANCE", "Drift", "UncertainCamera", "choose_covariance", "measure_drift"],
+        "error_sources": ["ErrorSources", "separate_error_sources"],
+        "finding": [
+            "REMEDY_OF_LENS",
+            "Action",
+            "ActionKind",
+            "Cause",
+            "Finding",
+            "find_explanation",
+        ],
+        "findings": ["list_findings"],
+        "fleet_spread": ["MIN_FLEET", "OUTLIER_Z", "FleetSpread", "measure_fleet_spread"],
+        "lens_choice": [
+            "CANDIDATES",
+            "SIMPLEST_MODEL",
+            "LensChoice",
+            "choose_lens",
+            "choose_lens_stepwise",
+        ],
+        "lens_trial": ["LensTrial"],
+        "method_comparison": [
+            "Distortion",
+            "LineTrial",
+            "MethodComparison",
+            "MethodTrial",
+            "compare_methods",
+            "measure_radial_shift",
+        ],
+        "outliers": ["Rejection", "Screening", "screen_outliers"],
+        "residual_checks": ["NoiseCheck", "NoiseReport", "check_residuals"],
+        "residual_statistics": [
+            "Histogram",
+            "ResidualSummary",
+            "make_component_histogram",
+            "make_length_histogram",
+            "stack_residuals",
+            "summarise_residuals",
+        ],
+        "series": ["MIN_SETTINGS", "SPLINE", "Series", "Setting", "fit_series"],
+        "verdict": ["Grade", "PixelError", "Verdict", "judge_calibration"],
+        "view_weights": ["calibrate_weighted"],
+    },
+)

@@ -9,44 +9,59 @@ drawing. Nothing here looks at images: finding boards is the task of ``detection
 
 from __future__ import annotations
 
-from calibgui.engine.boards.april_grid import AprilGrid
-from calibgui.engine.boards.apriltags import FAMILIES
-from calibgui.engine.boards.board import Board
-from calibgui.engine.boards.charuco import Charuco
-from calibgui.engine.boards.checkerboard import CHECKERBOARD, Checkerboard, checkerboard_symmetry
-from calibgui.engine.boards.circle_grid import Circles
-from calibgui.engine.boards.kinds import KINDS
-from calibgui.engine.boards.pattern import Pattern, Symmetry
-from calibgui.engine.boards.printed_pattern import (
-    PrintedDiscs,
-    PrintedPattern,
-    PrintedRectangles,
-    PrintedSquaresAndDots,
-)
-from calibgui.engine.boards.puzzleboard import CODE_LINES, PuzzleBoard
-from calibgui.engine.boards.shape import BoardShape, BoardShapeModel, BoardShapePrior
-from calibgui.engine.boards.tagged_checkerboard import TaggedCheckerboard
+from typing import TYPE_CHECKING
 
-__all__ = [
-    "CHECKERBOARD",
-    "CODE_LINES",
-    "FAMILIES",
-    "KINDS",
-    "AprilGrid",
-    "Board",
-    "BoardShape",
-    "BoardShapeModel",
-    "BoardShapePrior",
-    "Charuco",
-    "Checkerboard",
-    "Circles",
-    "Pattern",
-    "PrintedDiscs",
-    "PrintedPattern",
-    "PrintedRectangles",
-    "PrintedSquaresAndDots",
-    "PuzzleBoard",
-    "Symmetry",
-    "TaggedCheckerboard",
-    "checkerboard_symmetry",
-]
+from calibgui.engine.faces import load_on_demand
+
+if TYPE_CHECKING:
+    from calibgui.engine.boards.april_grid import AprilGrid as AprilGrid
+    from calibgui.engine.boards.apriltags import FAMILIES as FAMILIES
+    from calibgui.engine.boards.board import Board as Board
+    from calibgui.engine.boards.charuco import Charuco as Charuco
+    from calibgui.engine.boards.checkerboard import (
+        CHECKERBOARD as CHECKERBOARD,
+        Checkerboard as Checkerboard,
+        checkerboard_symmetry as checkerboard_symmetry,
+    )
+    from calibgui.engine.boards.circle_grid import Circles as Circles
+    from calibgui.engine.boards.kinds import KINDS as KINDS
+    from calibgui.engine.boards.pattern import Pattern as Pattern, Symmetry as Symmetry
+    from calibgui.engine.boards.printed_pattern import (
+        PrintedDiscs as PrintedDiscs,
+        PrintedPattern as PrintedPattern,
+        PrintedRectangles as PrintedRectangles,
+        PrintedSquaresAndDots as PrintedSquaresAndDots,
+    )
+    from calibgui.engine.boards.puzzleboard import (
+        CODE_LINES as CODE_LINES,
+        PuzzleBoard as PuzzleBoard,
+    )
+    from calibgui.engine.boards.shape import (
+        BoardShape as BoardShape,
+        BoardShapeModel as BoardShapeModel,
+        BoardShapePrior as BoardShapePrior,
+    )
+    from calibgui.engine.boards.tagged_checkerboard import TaggedCheckerboard as TaggedCheckerboard
+
+load_on_demand(
+    __name__,
+    {
+        "april_grid": ["AprilGrid"],
+        "apriltags": ["FAMILIES"],
+        "board": ["Board"],
+        "charuco": ["Charuco"],
+        "checkerboard": ["CHECKERBOARD", "Checkerboard", "checkerboard_symmetry"],
+        "circle_grid": ["Circles"],
+        "kinds": ["KINDS"],
+        "pattern": ["Pattern", "Symmetry"],
+        "printed_pattern": [
+            "PrintedDiscs",
+            "PrintedPattern",
+            "PrintedRectangles",
+            "PrintedSquaresAndDots",
+        ],
+        "puzzleboard": ["CODE_LINES", "PuzzleBoard"],
+        "shape": ["BoardShape", "BoardShapeModel", "BoardShapePrior"],
+        "tagged_checkerboard": ["TaggedCheckerboard"],
+    },
+)

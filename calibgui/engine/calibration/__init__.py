@@ -26,66 +26,78 @@ tables, correlations.
 
 from __future__ import annotations
 
-from calibgui.engine.calibration.calibrate import calibrate
-from calibgui.engine.calibration.conversion import (
-    Conversion,
-    convert_camera,
-    find_followed_angle,
-)
-from calibgui.engine.calibration.initialisation.single_view_pose import evaluate_cosines_equation
-from calibgui.engine.calibration.methods import DEFAULT_METHOD, METHODS, check_method
-from calibgui.engine.calibration.methods.method import Method
-from calibgui.engine.calibration.observations import Observation
-from calibgui.engine.calibration.partial.degeneracy import find_copies, is_in_one_spot
-from calibgui.engine.calibration.problem import recover_arguments
-from calibgui.engine.calibration.refinement.covariances import (
-    compute_correlations,
-    make_paper_table,
-)
-from calibgui.engine.calibration.refit import Refit, refit
-from calibgui.engine.calibration.result import (
-    Assumption,
-    Calibration,
-    Cost,
-    Degeneracy,
-    DegenerateError,
-    Diagnosis,
-    Iteration,
-    Report,
-    StageOne,
-    Status,
-    Undetermined,
-    ViewResiduals,
-)
+from typing import TYPE_CHECKING
 
-__all__ = [
-    "DEFAULT_METHOD",
-    "METHODS",
-    "Assumption",
-    "Calibration",
-    "Conversion",
-    "Cost",
-    "Degeneracy",
-    "DegenerateError",
-    "Diagnosis",
-    "Iteration",
-    "Method",
-    "Observation",
-    "Refit",
-    "Report",
-    "StageOne",
-    "Status",
-    "Undetermined",
-    "ViewResiduals",
-    "calibrate",
-    "check_method",
-    "compute_correlations",
-    "convert_camera",
-    "evaluate_cosines_equation",
-    "find_copies",
-    "find_followed_angle",
-    "is_in_one_spot",
-    "make_paper_table",
-    "recover_arguments",
-    "refit",
-]
+from calibgui.engine.faces import load_on_demand
+
+if TYPE_CHECKING:
+    from calibgui.engine.calibration.calibrate import calibrate as calibrate
+    from calibgui.engine.calibration.conversion import (
+        Conversion as Conversion,
+        convert_camera as convert_camera,
+        find_followed_angle as find_followed_angle,
+    )
+    from calibgui.engine.calibration.initialisation.single_view_pose import (
+        evaluate_cosines_equation as evaluate_cosines_equation,
+    )
+    from calibgui.engine.calibration.methods import (
+        DEFAULT_METHOD as DEFAULT_METHOD,
+        METHODS as METHODS,
+        check_method as check_method,
+    )
+    from calibgui.engine.calibration.methods.method import Method as Method
+    from calibgui.engine.calibration.observations import Observation as Observation
+    from calibgui.engine.calibration.partial.degeneracy import (
+        find_copies as find_copies,
+        is_in_one_spot as is_in_one_spot,
+    )
+    from calibgui.engine.calibration.problem import recover_arguments as recover_arguments
+    from calibgui.engine.calibration.refinement.covariances import (
+        compute_correlations as compute_correlations,
+        make_paper_table as make_paper_table,
+    )
+    from calibgui.engine.calibration.refit import Refit as Refit, refit as refit
+    from calibgui.engine.calibration.result import (
+        Assumption as Assumption,
+        Calibration as Calibration,
+        Cost as Cost,
+        Degeneracy as Degeneracy,
+        DegenerateError as DegenerateError,
+        Diagnosis as Diagnosis,
+        Iteration as Iteration,
+        Report as Report,
+        StageOne as StageOne,
+        Status as Status,
+        Undetermined as Undetermined,
+        ViewResiduals as ViewResiduals,
+    )
+
+load_on_demand(
+    __name__,
+    {
+        "calibrate": ["calibrate"],
+        "conversion": ["Conversion", "convert_camera", "find_followed_angle"],
+        "initialisation.single_view_pose": ["evaluate_cosines_equation"],
+        "methods": ["DEFAULT_METHOD", "METHODS", "check_method"],
+        "methods.method": ["Method"],
+        "observations": ["Observation"],
+        "partial.degeneracy": ["find_copies", "is_in_one_spot"],
+        "problem": ["recover_arguments"],
+        "refinement.covariances": ["compute_correlations", "make_paper_table"],
+        "refit": ["Refit", "refit"],
+        "result": [
+            "Assumption",
+            "Calibration",
+            "Cost",
+            "Degeneracy",
+            "DegenerateError",
+            "Diagnosis",
+            "Iteration",
+            "Report",
+            "StageOne",
+            "Status",
+            "Undetermined",
+            "ViewResiduals",
+        ],
+    },
+)

@@ -6,44 +6,53 @@
 
 from __future__ import annotations
 
-from calibgui.engine.camera.camera import Camera, check_image_size
-from calibgui.engine.camera.distortion import (
-    Displacement,
-    DisplacementPart,
-    compute_displacement,
-    distort_points,
-    project_points,
-    undistort_points,
-)
-from calibgui.engine.camera.model import Lens
-from calibgui.engine.camera.models import (
-    MODELS,
-    PINHOLE,
-    find_model,
-    parameter_names,
-    resolve_model_id,
-)
-from calibgui.engine.camera.models.lucchese import Lucchese
-from calibgui.engine.camera.models.splined_stereographic import SplinedStereographic
-from calibgui.engine.camera.projection import pixels_from_rays, rays_from_pixels
+from typing import TYPE_CHECKING
 
-__all__ = [
-    "MODELS",
-    "PINHOLE",
-    "Camera",
-    "Displacement",
-    "DisplacementPart",
-    "Lens",
-    "Lucchese",
-    "SplinedStereographic",
-    "check_image_size",
-    "compute_displacement",
-    "distort_points",
-    "find_model",
-    "parameter_names",
-    "pixels_from_rays",
-    "project_points",
-    "rays_from_pixels",
-    "resolve_model_id",
-    "undistort_points",
-]
+from calibgui.engine.faces import load_on_demand
+
+if TYPE_CHECKING:
+    from calibgui.engine.camera.camera import Camera as Camera, check_image_size as check_image_size
+    from calibgui.engine.camera.distortion import (
+        Displacement as Displacement,
+        DisplacementPart as DisplacementPart,
+        compute_displacement as compute_displacement,
+        distort_points as distort_points,
+        project_points as project_points,
+        undistort_points as undistort_points,
+    )
+    from calibgui.engine.camera.model import Lens as Lens
+    from calibgui.engine.camera.models import (
+        MODELS as MODELS,
+        PINHOLE as PINHOLE,
+        find_model as find_model,
+        parameter_names as parameter_names,
+        resolve_model_id as resolve_model_id,
+    )
+    from calibgui.engine.camera.models.lucchese import Lucchese as Lucchese
+    from calibgui.engine.camera.models.splined_stereographic import (
+        SplinedStereographic as SplinedStereographic,
+    )
+    from calibgui.engine.camera.projection import (
+        pixels_from_rays as pixels_from_rays,
+        rays_from_pixels as rays_from_pixels,
+    )
+
+load_on_demand(
+    __name__,
+    {
+        "camera": ["Camera", "check_image_size"],
+        "distortion": [
+            "Displacement",
+            "DisplacementPart",
+            "compute_displacement",
+            "distort_points",
+            "project_points",
+            "undistort_points",
+        ],
+        "model": ["Lens"],
+        "models": ["MODELS", "PINHOLE", "find_model", "parameter_names", "resolve_model_id"],
+        "models.lucchese": ["Lucchese"],
+        "models.splined_stereographic": ["SplinedStereographic"],
+        "projection": ["pixels_from_rays", "rays_from_pixels"],
+    },
+)

@@ -12,32 +12,46 @@ draw or compare them: `find_saddles` and `classify_saddles` find X-junctions in 
 
 from __future__ import annotations
 
-from calibgui.engine.detection.checkerboard.find_checkerboard import METHODS
-from calibgui.engine.detection.checkerboard.saddle import refine_saddles
-from calibgui.engine.detection.checkerboard.x_junctions import classify_saddles, find_saddles
-from calibgui.engine.detection.corners import (
-    Corners,
-    OtherBoard,
-    RejectedCorner,
-    find_usable_covariances,
-)
-from calibgui.engine.detection.find_corners import find_corners
-from calibgui.engine.detection.lattice import MIN_LINES
-from calibgui.engine.detection.printed_marks import Marks, look_for_marks
-from calibgui.engine.detection.region_of_interest import check_outline
+from typing import TYPE_CHECKING
 
-__all__ = [
-    "METHODS",
-    "MIN_LINES",
-    "Corners",
-    "Marks",
-    "OtherBoard",
-    "RejectedCorner",
-    "check_outline",
-    "classify_saddles",
-    "find_corners",
-    "find_saddles",
-    "find_usable_covariances",
-    "look_for_marks",
-    "refine_saddles",
-]
+from calibgui.engine.faces import load_on_demand
+
+if TYPE_CHECKING:
+    from calibgui.engine.detection.checkerboard.saddle import refine_saddles as refine_saddles
+    from calibgui.engine.detection.checkerboard.x_junctions import (
+        classify_saddles as classify_saddles,
+        find_saddles as find_saddles,
+    )
+    from calibgui.engine.detection.corners import (
+        METHODS as METHODS,
+        Corners as Corners,
+        OtherBoard as OtherBoard,
+        RejectedCorner as RejectedCorner,
+        find_usable_covariances as find_usable_covariances,
+    )
+    from calibgui.engine.detection.find_corners import find_corners as find_corners
+    from calibgui.engine.detection.lattice import MIN_LINES as MIN_LINES
+    from calibgui.engine.detection.printed_marks import (
+        Marks as Marks,
+        look_for_marks as look_for_marks,
+    )
+    from calibgui.engine.detection.region_of_interest import check_outline as check_outline
+
+load_on_demand(
+    __name__,
+    {
+        "checkerboard.saddle": ["refine_saddles"],
+        "checkerboard.x_junctions": ["classify_saddles", "find_saddles"],
+        "corners": [
+            "METHODS",
+            "Corners",
+            "OtherBoard",
+            "RejectedCorner",
+            "find_usable_covariances",
+        ],
+        "find_corners": ["find_corners"],
+        "lattice": ["MIN_LINES"],
+        "printed_marks": ["Marks", "look_for_marks"],
+        "region_of_interest": ["check_outline"],
+    },
+)

@@ -11,6 +11,8 @@ from calibgui.engine.arrays import Array, BoolArray, GridSize, IntArray, freeze,
 from calibgui.engine.boards.checkerboard import CHECKERBOARD
 from calibgui.engine.boards.pattern import Pattern, Symmetry
 
+METHODS = ("edges", "saddle")
+"""The methods by which corners are located: the edge model, and the paper's saddle points."""
 _MIN_VARIANCE = 1e-100
 """Variance of a corner below which its covariance cannot be inverted, px^2."""
 _MAX_VARIANCE_RATIO = 1e12

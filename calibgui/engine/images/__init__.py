@@ -2,63 +2,79 @@
 
 from __future__ import annotations
 
-from calibgui.engine.images.exif import Exif
-from calibgui.engine.images.headers import Header
-from calibgui.engine.images.lost_angles import (
-    LostAngles,
-    describe_lost_angles,
-    measure_lost_angles,
-)
-from calibgui.engine.images.projections import IdealCamera, Projection, list_cube_rotations
-from calibgui.engine.images.reading import (
-    FORMATS,
-    Image,
-    Pixels,
-    read_colour,
-    read_image,
-    read_image_header,
-    read_image_size,
-    stretch_levels,
-    write_image,
-)
-from calibgui.engine.images.rectification import Extent, compute_board_extent, rectify_image
-from calibgui.engine.images.rendering import Appearance, render_view
-from calibgui.engine.images.resampling import ResampledImage
-from calibgui.engine.images.sampling import make_mesh
-from calibgui.engine.images.undistortion import (
-    FieldOfView,
-    choose_ideal_cameras,
-    make_ideal_image,
-    undistort_image,
-)
+from typing import TYPE_CHECKING
 
-__all__ = [
-    "FORMATS",
-    "Appearance",
-    "Exif",
-    "Extent",
-    "FieldOfView",
-    "Header",
-    "IdealCamera",
-    "Image",
-    "LostAngles",
-    "Pixels",
-    "Projection",
-    "ResampledImage",
-    "choose_ideal_cameras",
-    "compute_board_extent",
-    "describe_lost_angles",
-    "list_cube_rotations",
-    "make_ideal_image",
-    "make_mesh",
-    "measure_lost_angles",
-    "read_colour",
-    "read_image",
-    "read_image_header",
-    "read_image_size",
-    "rectify_image",
-    "render_view",
-    "stretch_levels",
-    "undistort_image",
-    "write_image",
-]
+from calibgui.engine.faces import load_on_demand
+
+if TYPE_CHECKING:
+    from calibgui.engine.images.exif import Exif as Exif
+    from calibgui.engine.images.headers import Header as Header
+    from calibgui.engine.images.lost_angles import (
+        LostAngles as LostAngles,
+        describe_lost_angles as describe_lost_angles,
+        measure_lost_angles as measure_lost_angles,
+    )
+    from calibgui.engine.images.projections import (
+        IdealCamera as IdealCamera,
+        Projection as Projection,
+        list_cube_rotations as list_cube_rotations,
+    )
+    from calibgui.engine.images.reading import (
+        FORMATS as FORMATS,
+        Image as Image,
+        Pixels as Pixels,
+        read_colour as read_colour,
+        read_image as read_image,
+        read_image_header as read_image_header,
+        read_image_size as read_image_size,
+        stretch_levels as stretch_levels,
+        write_image as write_image,
+    )
+    from calibgui.engine.images.rectification import (
+        Extent as Extent,
+        compute_board_extent as compute_board_extent,
+        rectify_image as rectify_image,
+    )
+    from calibgui.engine.images.rendering import (
+        Appearance as Appearance,
+        render_view as render_view,
+    )
+    from calibgui.engine.images.resampling import ResampledImage as ResampledImage
+    from calibgui.engine.images.sampling import make_mesh as make_mesh
+    from calibgui.engine.images.undistortion import (
+        FieldOfView as FieldOfView,
+        choose_ideal_cameras as choose_ideal_cameras,
+        make_ideal_image as make_ideal_image,
+        undistort_image as undistort_image,
+    )
+
+load_on_demand(
+    __name__,
+    {
+        "exif": ["Exif"],
+        "headers": ["Header"],
+        "lost_angles": ["LostAngles", "describe_lost_angles", "measure_lost_angles"],
+        "projections": ["IdealCamera", "Projection", "list_cube_rotations"],
+        "reading": [
+            "FORMATS",
+            "Image",
+            "Pixels",
+            "read_colour",
+            "read_image",
+            "read_image_header",
+            "read_image_size",
+            "stretch_levels",
+            "write_image",
+        ],
+        "rectification": ["Extent", "compute_board_extent", "rectify_image"],
+        "rendering": ["Appearance", "render_view"],
+        "resampling": ["ResampledImage"],
+        "sampling": ["make_mesh"],
+        "undistortion": [
+            "FieldOfView",
+            "choose_ideal_cameras",
+            "make_ideal_image",
+            "undistort_image",
+        ],
+    },
+)

@@ -7,23 +7,30 @@ the board next.
 
 from __future__ import annotations
 
-from calibgui.engine.uncertainty.next_view import NextView, propose_views
-from calibgui.engine.uncertainty.number_of_views import (
-    QUANTITIES,
-    ViewCountStudy,
-    study_number_of_views,
-)
-from calibgui.engine.uncertainty.projection_uncertainty import (
-    ProjectionUncertainty,
-    estimate_projection_uncertainty,
-)
+from typing import TYPE_CHECKING
 
-__all__ = [
-    "QUANTITIES",
-    "NextView",
-    "ProjectionUncertainty",
-    "ViewCountStudy",
-    "estimate_projection_uncertainty",
-    "propose_views",
-    "study_number_of_views",
-]
+from calibgui.engine.faces import load_on_demand
+
+if TYPE_CHECKING:
+    from calibgui.engine.uncertainty.next_view import (
+        NextView as NextView,
+        propose_views as propose_views,
+    )
+    from calibgui.engine.uncertainty.number_of_views import (
+        QUANTITIES as QUANTITIES,
+        ViewCountStudy as ViewCountStudy,
+        study_number_of_views as study_number_of_views,
+    )
+    from calibgui.engine.uncertainty.projection_uncertainty import (
+        ProjectionUncertainty as ProjectionUncertainty,
+        estimate_projection_uncertainty as estimate_projection_uncertainty,
+    )
+
+load_on_demand(
+    __name__,
+    {
+        "next_view": ["NextView", "propose_views"],
+        "number_of_views": ["QUANTITIES", "ViewCountStudy", "study_number_of_views"],
+        "projection_uncertainty": ["ProjectionUncertainty", "estimate_projection_uncertainty"],
+    },
+)

@@ -223,7 +223,7 @@ class MainWindow(QMainWindow):
         )
 
     def prepare(self) -> None:
-        """Import beside the main thread what will be needed: SciPy, the panels, the solver.
+        """Import beside the main thread what will be needed: detectors, SciPy, panels, solver.
 
         Once there is a result, the panels on it are built before they are asked for.
 
@@ -404,6 +404,8 @@ def _accept_copy(event: QDropEvent) -> None:
 _SOLVER_KERNELS = ("board_shape", "homography", "normal_equations", "schur", "stage_one")
 """Modules of ``engine.kernels`` that a calibration uses."""
 _NEEDED_SOON = (
+    "calibgui.engine.detection.find_corners",
+    "calibgui.engine.redetection.redetect_corners",
     "scipy.stats",
     "calibgui.gui.panels.analysis",
     *(f"calibgui.engine.kernels.{name}" for name in _SOLVER_KERNELS if COMPILED),

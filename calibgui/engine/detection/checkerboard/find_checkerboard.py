@@ -47,7 +47,7 @@ from calibgui.engine.detection.checkerboard.saddle import refine_lattice
 from calibgui.engine.detection.checkerboard.thresholds import THRESHOLDS
 from calibgui.engine.detection.checkerboard.undisturbed_fit import fit_undisturbed
 from calibgui.engine.detection.checkerboard.x_corner_fit import XCornerFit
-from calibgui.engine.detection.corners import Corners, OtherBoard, RejectedCorner
+from calibgui.engine.detection.corners import METHODS, Corners, OtherBoard, RejectedCorner
 from calibgui.engine.detection.detector_io import check_grey_levels, list_rejected_corners
 from calibgui.engine.detection.lattice import (
     MIN_CORNERS,
@@ -59,8 +59,6 @@ from calibgui.engine.detection.lattice import (
 )
 from calibgui.engine.errors import NoBoardError
 
-METHODS = ("edges", "saddle")
-"""The methods by which corners are located: the edge model, and the paper's saddle points."""
 _MAX_ROUNDS = 4
 """Number of times that gaps are tried again, and that corners are left out and the rest fitted
 again; a board that has not come to rest by then is none."""

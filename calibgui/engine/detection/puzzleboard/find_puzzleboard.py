@@ -18,7 +18,6 @@ from calibgui.engine.boards.puzzleboard import PuzzleBoard
 from calibgui.engine.detection import region_of_interest as region
 from calibgui.engine.detection.checkerboard import a_contrario
 from calibgui.engine.detection.checkerboard.find_checkerboard import (
-    METHODS,
     RefinedBoard,
     assemble_corners,
     refine_board,
@@ -33,7 +32,7 @@ from calibgui.engine.detection.checkerboard.pyramid_search import (
 )
 from calibgui.engine.detection.checkerboard.saddle import refine_lattice
 from calibgui.engine.detection.checkerboard.thresholds import THRESHOLDS
-from calibgui.engine.detection.corners import Corners
+from calibgui.engine.detection.corners import METHODS, Corners
 from calibgui.engine.detection.detector_io import check_grey_levels
 from calibgui.engine.detection.lattice import (
     Lattice,
