@@ -154,11 +154,14 @@ class Analysis(QWidget):
         return panel
 
     def _bring_to_front(self, area: PanelArea) -> None:
-        """Fill a panel now and paint it in the next turn: together they take too long for one."""
         if self.stack.currentWidget() is not area:
-            area.setUpdatesEnabled(False)
+            self._put_off_painting(area)
             self.stack.setCurrentWidget(area)
-            QTimer.singleShot(_TURN, area, lambda: area.setUpdatesEnabled(True))
+
+    def _put_off_painting(self, area: QWidget) -> None:
+        """Paint a panel in the next turn: to fill it, too, would take too long for one."""
+        area.setUpdatesEnabled(False)
+        QTimer.singleShot(_TURN, area, lambda: area.setUpdatesEnabled(True))
 
     def build_next(self) -> bool:
         """Build the first panel that is not there yet; return False if all are."""
@@ -264,6 +267,8 @@ class Analysis(QWidget):
         if result is self._shown:
             return
         self._shown = result
+        if (front := self.stack.currentWidget()) is not None:
+            self._put_off_painting(front)
         for panel in self._built.values():
             panel.show_result(result)
         self._select(self._session.image, self._session.corner)

@@ -53,7 +53,15 @@ def test_a_panel_is_filled_in_one_turn_and_painted_in_the_next(
 ) -> None:
     analysis = full.need_analysis()
     panel = analysis.show_panel(CoveragePanel)
-    assert panel.isVisible() and panel.advice.text(), "it is filled at once"
-    QApplication.sendPostedEvents()  # what else this turn of the event loop does
-    assert not panel.updatesEnabled()
+
+    def is_painted_next() -> bool:
+        assert panel.isVisible() and panel.advice.text(), "it is filled at once"
+        QApplication.sendPostedEvents()  # what else this turn of the event loop does
+        return not panel.updatesEnabled()
+
+    assert is_painted_next()
+    qtbot.waitUntil(panel.updatesEnabled)
+    panel.advice.clear()
+    full.session.show_result("Calibration 1")
+    assert is_painted_next(), "as at another result"
     qtbot.waitUntil(panel.updatesEnabled)
