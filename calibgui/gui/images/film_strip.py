@@ -238,7 +238,9 @@ class FilmStrip(QWidget):
         top = self.list.top
         self.list.set_threshold(None)
         if top > 0:  # three digits of the largest error are as fine as it can be dragged
+            self.threshold.blockSignals(True)  # the last threshold, rounded, is nobody's choice
             self.threshold.setDecimals(int(np.clip(2 - np.floor(np.log10(top)), 1, 4)))
+            self.threshold.blockSignals(False)
         self._show_threshold(top)
         self.threshold.setEnabled(top > 0)
 

@@ -31,8 +31,11 @@ class Axis(pg.AxisItem):  # type: ignore[misc]  # pyqtgraph is not typed
     write_number: Callable[[float], str] | None = None
     """A function that writes the numbers, as dates for example; None for plain numbers."""
 
-    def updateAutoSIPrefix(self) -> None:  # noqa: N802 - pyqtgraph's name
-        """Choose no prefix of a unit, for which the label is written anew at every change."""
+    def __init__(self, side: str) -> None:
+        super().__init__(side)
+        # A prefix of the unit is never chosen, for which the label is written at every change. The
+        # numbers are drawn anew only where pyqtgraph knows that.
+        self.enableAutoSIPrefix(False)
 
     def tickSpacing(self, low: float, high: float, size: float) -> list[tuple[float, float]]:  # noqa: N802 - pyqtgraph's name
         levels = list(super().tickSpacing(low, high, size))

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from PySide6.QtCore import QPoint, Qt
@@ -126,6 +128,18 @@ def test_the_threshold_can_be_typed(full: MainWindow, qtbot: QtBot) -> None:
     assert strip.list.threshold == 0.0
     assert len(strip.above) == 6
     assert not strip.exclude_above.isEnabled(), "nothing would be left"
+
+
+def test_a_result_with_other_errors_puts_the_threshold_above_them(full: MainWindow) -> None:
+    session, strip = full.session, full.images
+    assert session.result is not None
+    calibration = session.result.calibration
+    larger = tuple(replace(one, image=1000 * one.image) for one in calibration.residuals)
+    worse = replace(session.result, calibration=replace(calibration, residuals=larger))
+    chosen = strip.chosen
+    session.edit("Calibrate", lambda p: replace(p, results={session.result_name: worse}))
+    assert strip.threshold.value() == pytest.approx(strip.list.top, rel=0.01)
+    assert strip.above == [] and strip.chosen == chosen
 
 
 def test_a_bar_is_as_high_as_its_error_in_the_colour_of_its_view(full: MainWindow) -> None:

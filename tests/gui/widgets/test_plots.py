@@ -150,3 +150,21 @@ def test_text_is_legible_on_its_background() -> None:
         for text, back in pairs:
             bright, dark = sorted((luminance(text), luminance(back)), reverse=True)
             assert (bright + 0.05) / (dark + 0.05) >= 4.5, (text, back)
+
+
+def paint_axis(plot: Plot, axis: Axis) -> QImage:
+    return plot.grab(plot.mapFromScene(axis.mapToScene(axis.rect())).boundingRect()).toImage()
+
+
+def test_the_numbers_of_axes_and_colour_bar_follow_what_is_shown(qtbot: QtBot) -> None:
+    """Without another size, at which all is drawn anew."""
+    plot = example(qtbot)
+    bar = ColourBar(plot, "corners", pg.colormap.get("viridis"))
+    plot.show()
+    qtbot.waitExposed(plot)
+    axes = plot.area.left, plot.area.bottom, bar.axis
+    before = [paint_axis(plot, axis) for axis in axes]
+    plot.box.setRange(xRange=(3, 5), yRange=(20, 40), padding=0)
+    bar.set_levels(0, 60)
+    for axis, painted in zip(axes, before, strict=True):
+        assert paint_axis(plot, axis) != painted
