@@ -124,7 +124,7 @@ def check_refit(result: Result, expressed: Refit, path: Path) -> None:
         f"({u:.0f}, {v:.0f}) px; {np.mean(~(error < MAX_REFIT_ERROR)):.0%} of the corners are off "
         f"by {MAX_REFIT_ERROR:g} px or more.",
         "Export the camera as calibrated with the format 'result' or 'python', or write "
-        f"undistorted images. Calibrating with --model {model} shows whether that model fits.",
+        f"undistorted images. Calibrating with the lens model {model} shows whether it fits.",
     )
 
 

@@ -193,7 +193,7 @@ def describe_lens_error(calibration: Calibration, rms: float, does_harm: bool = 
     if calibration.board_shape is not None:
         text += " The board's estimated shape stands in for the lens: do not rely on it."
     if not does_harm:
-        return f"{text} Another lens model may be closer (--model auto)."
+        return f"{text} Another lens model may be closer: compare them."
     return f"{text} {REMEDY_OF_LENS}"
 
 

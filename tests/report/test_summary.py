@@ -76,7 +76,7 @@ def test_a_lens_that_is_not_followed_is_named_and_the_board_is_not(good: Result)
     caution = texts(wrong, Tone.CAUTION)
     assert "The lens model pinhole does not follow this lens" in caution
     assert f"{wrong.calibration.lens_error:.2g} px (rms)" in caution
-    assert "--model auto" in caution
+    assert "Compare the lens models" in caution
     assert "not flat" not in caution
     assert "stands in" not in caution
     free = texts(solved(everywhere(), model="pinhole", board_shape="bow"), Tone.CAUTION)

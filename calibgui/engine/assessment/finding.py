@@ -14,8 +14,8 @@ MIN_HARM_PX = 0.05
 alarms counts, whatever it is."""
 
 REMEDY_OF_LENS = (
-    "Compare the lens models and take the one that is recommended (--model auto); if it is this "
-    "one, add views up to the image's edges, which determine more of the lens."
+    "Compare the lens models and take the one that is recommended; if it is this one, add views up "
+    "to the image's edges, which determine more of the lens."
 )
 """Sentence on what to do about a lens that its model does not follow."""
 

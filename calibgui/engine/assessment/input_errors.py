@@ -288,7 +288,7 @@ def describe_misplaced_corners(
         Cause.MISPLACED_CORNERS,
         f"Corners are not where the others say, in {listed}{more}.",
         f"Without them the RMS falls from {before:.3g} to {after:.3g} px; {describe_harm(harm)}.",
-        "Leave outliers out (--robust), or look at the corners of these views.",
+        "Leave outliers out, or look at the corners of these views.",
         harm,
         chosen,
         Action(_choose_action(screening), chosen),

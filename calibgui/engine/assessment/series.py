@@ -137,12 +137,12 @@ def _check_settings(settings: Sequence[Setting]) -> None:
         listed = ", ".join(sorted({camera.model for camera in cameras}))
         raise CalibrationError(
             f"The results have different lens models: {listed}.",
-            "Calibrate all settings with one (--model).",
+            "Calibrate all settings with one lens model.",
         )
     if len({tuple(_find_free(setting)) for setting in settings}) > 1:
         raise CalibrationError(
             "Different parameters are held in the results.",
-            "Calibrate all settings with the same ones free (--fix, --free).",
+            "Calibrate all settings with the same ones free.",
         )
 
 

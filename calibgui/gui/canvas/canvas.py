@@ -266,8 +266,9 @@ class Canvas(QGraphicsView):
                 self.residual_scale,
                 self.opacity,
             )
+            texts: list[QRectF] = []
             for drawing, opacity in drawings:
-                paint_labels(painter, drawing, self.to_screen, opacity)
+                paint_labels(painter, drawing, self.to_screen, opacity, texts)
             corners = self.marks.corners
             if self._highlight is not None and corners is not None:
                 at = self.to_screen(trace_hull(corners.uv))

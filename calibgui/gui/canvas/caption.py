@@ -22,7 +22,7 @@ class Caption(QLabel):
         self._cursor = QPoint(-1, -1)
         self._name = self._reading = ""
         self.setFont(theme.fixed_font())
-        self.setMargin(2)
+        self.setMargin(theme.SPACING // 2)
         self.setAttribute(Qt.WidgetAttribute.WA_TransparentForMouseEvents)
         halo = theme.HALO
         self.setStyleSheet(

@@ -27,6 +27,9 @@ _ARROWS = 16
 _FULL = 0.9
 """Length of the longest arrow, in distances between arrows."""
 
+_PLACES_OF_LABEL = np.array([0.5, 0.4, 0.6, 0.3, 0.7, 0.2, 0.8])
+"""Places of a label along its line, of the line's length, the best one first."""
+
 Work = Callable[[Result, Job], Drawing]
 
 
@@ -103,7 +106,7 @@ class Evidence(QObject):
         lines = tuple(_trace_arrow(a, scale * d) for a, d in zip(at, vector, strict=True))
         corner = np.array([0.0, camera.size[1] - 1.0])  # the image's name stands at the upper left
         text = self.tr("displacement × {0:.2g}, at most {1:.2f} px").format(scale, longest)
-        return Drawing(camera.size, theme.DISPLACED, lines, ((corner, text),))
+        return Drawing(camera.size, theme.DISPLACED, lines, ((corner[None], text),))
 
     def _draw_uncertainty(self, result: Result, _: Job) -> Drawing:
         from calibgui.engine.uncertainty import estimate_projection_uncertainty  # slow to load
@@ -127,7 +130,7 @@ class Evidence(QObject):
             result.calibration.camera.size,
             theme.NEXT_VIEW,
             (outline,),
-            ((outline[0], self.tr("next view")),),
+            ((outline, self.tr("next view")),),
             ((view.corners, theme.NEXT_VIEW),),
         )
 
@@ -152,7 +155,10 @@ def _place_cells(size: Size, count: int) -> tuple[Array, Array]:
 def _trace_contours(
     u: Array, v: Array, values: Array, levels: Iterable[float], text: str
 ) -> tuple[tuple[Array, ...], tuple[tuple[Array, str], ...]]:
-    """Return the lines of `values` (m, n) at `levels`, and a label for the longest of each."""
+    """Return the lines of `values` (m, n) at `levels`, and a label for the longest of each.
+
+    Each label may stand at the middle of its line, or at one of few places along it.
+    """
     from contourpy import contour_generator  # slow to load
 
     contours = contour_generator(u, v, np.ma.masked_invalid(values))
@@ -163,7 +169,8 @@ def _trace_contours(
         lines += found
         if found:
             longest = max(found, key=len)
-            labels.append((longest[len(longest) // 2], text.format(level)))
+            order = (len(longest) * _PLACES_OF_LABEL).astype(int)
+            labels.append((longest[order], text.format(level)))
     return tuple(lines), tuple(labels)
 
 

@@ -67,7 +67,7 @@ class Drawing:
     lines: tuple[Array, ...] = ()
     """Open lines (n, 2)."""
     labels: tuple[tuple[Array, str], ...] = ()
-    """Texts at places (2,)."""
+    """Texts at places (n, 2), of which the first is taken where no other text stands."""
     dots: tuple[tuple[Array, QColor], ...] = ()
     """Dots (n, 2), with the colour of each group."""
 
@@ -141,11 +141,25 @@ def paint_drawing(painter: QPainter, drawing: Drawing, to_screen: ToScreen, opac
             draw_polyline(painter, to_screen(line), drawing.colour)
 
 
-def paint_labels(painter: QPainter, drawing: Drawing, to_screen: ToScreen, opacity: float) -> None:
-    """Write the texts of what lies over the images, on a painter in the widget's coordinates."""
+def paint_labels(
+    painter: QPainter,
+    drawing: Drawing,
+    to_screen: ToScreen,
+    opacity: float,
+    taken: list[QRectF],
+) -> None:
+    """Write the texts of what lies over the images, on a painter in the widget's coordinates.
+
+    Args:
+        painter, drawing, to_screen, opacity: where, what and how.
+        taken: boxes of texts that are written; those of this drawing are added.
+    """
     with fade(painter, opacity):
-        for at, text in drawing.labels:
-            draw_label(painter, to_screen(at[None])[0], text, drawing.colour)
+        for places, text in drawing.labels:
+            boxes = [_place_label(painter, at, text) for at in to_screen(places)]
+            free = (box for box in boxes if not any(map(box.intersects, taken)))
+            taken.append(next(free, boxes[0]))
+            _write(painter, taken[-1], text, drawing.colour)
 
 
 @contextmanager
@@ -260,7 +274,12 @@ def draw_polyline(painter: QPainter, at: Array, colour: QColor) -> None:
 
 
 def draw_label(painter: QPainter, at: Array, text: str, colour: QColor) -> None:
-    """Text beside a screen position (2,), on a dark patch: whole, if the position is in sight.
+    """Text beside a screen position (2,), on a dark patch."""
+    _write(painter, _place_label(painter, at, text), text, colour)
+
+
+def _place_label(painter: QPainter, at: Array, text: str) -> QRectF:
+    """Return the box of a text beside a screen position (2,): whole, if the position is in sight.
 
     In sight is what the painter's clip leaves: its viewport may be that of the whole window.
     """
@@ -270,6 +289,11 @@ def draw_label(painter: QPainter, at: Array, text: str, colour: QColor) -> None:
     if room.contains(QPointF(*at)):
         box.moveRight(min(box.right(), room.right()))
         box.moveBottom(min(box.bottom(), room.bottom()))
+    return box
+
+
+def _write(painter: QPainter, box: QRectF, text: str, colour: QColor) -> None:
+    """Text in a box, on a dark patch."""
     painter.setPen(Qt.PenStyle.NoPen)
     painter.setBrush(theme.HALO)
     painter.drawRoundedRect(box, 3, 3)

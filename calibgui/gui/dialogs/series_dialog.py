@@ -37,6 +37,7 @@ from calibgui.engine.errors import CalibrationError
 from calibgui.formats import EXPORTERS
 from calibgui.formats.exporter import Exporter, ExportReport
 from calibgui.gui.jobs.jobs import Jobs
+from calibgui.gui.panels.estimates import estimate_columns
 from calibgui.gui.panels.latest import Latest
 from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.actions import add_close_button
@@ -46,7 +47,6 @@ from calibgui.gui.widgets.tab_bar import TabWidget
 from calibgui.gui.widgets.tables import Column, Table, with_decimals, with_digits
 from calibgui.gui.widgets.wrapped_label import WrappedLabel
 from calibgui.report.names import tell_apart
-from calibgui.report.numbers import format_with_sigma
 from calibgui.report.series import list_sentences
 
 _STEPS = 100
@@ -363,12 +363,12 @@ class SeriesDialog(QDialog):
         if known is None:
             self.camera.show_columns([])
             return
-        sigma = np.sqrt(np.diag(known.covariance)).tolist()
-        pairs = list(zip(known.camera.params.tolist(), sigma, strict=True))
+        names, sigma = known.camera.names, np.sqrt(np.diag(known.covariance))
         self.camera.show_columns(
             [
-                Column(self.tr("Parameter"), known.camera.names),
-                Column(self.tr("Value"), pairs, lambda pair: format_with_sigma(*pair)),
+                Column(self.tr("Parameter"), names),
+                *estimate_columns(self.tr("Value"), known.camera.params, sigma),
+                Column(self.tr("Unit"), [self.tr("px")] * 4 + [""] * (len(names) - 4)),
             ]
         )
 

@@ -234,7 +234,8 @@ class Analysis(QWidget):
         self.results.clear()
         self.results.addItems(names)
         self.results.setCurrentText(self._session.result_name)
-        self.more.setEnabled(bool(names))
+        for control in (self.results, self.more):
+            control.setEnabled(bool(names))
         self.compare.clear()
         for name in names:
             if name != self._session.result_name:

@@ -6,6 +6,7 @@ import math
 from collections.abc import Sequence
 
 from PySide6.QtCore import QCoreApplication, Signal
+from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import QButtonGroup, QGridLayout, QSizePolicy, QToolButton, QWidget
 
 from calibgui.gui.panels.panel import Panel
@@ -13,24 +14,22 @@ from calibgui.gui.panels.panel import Panel
 _MAX_PER_ROW = 3
 _ROWS = 2
 """Of every group, so that choosing another one moves nothing."""
+_WIDE = 640
+"""Width from which one row has room for every group, device-independent px."""
 
 
 class PanelChooser(QWidget):
-    """Shows every name at once, in two rows of equally many, or nearly so."""
+    """Shows every name at once, in two rows of equally many, or nearly so; in one if it is wide."""
 
     chosen = Signal(object)
     """The kind of panel that the user chose."""
 
     def __init__(self, kinds: Sequence[type[Panel]]) -> None:
         super().__init__()
-        per_row = math.ceil(len(kinds) / _ROWS)
-        assert per_row <= _MAX_PER_ROW
+        assert len(kinds) <= _ROWS * _MAX_PER_ROW
         self.buttons: dict[type[Panel], QToolButton] = {}
         group = QButtonGroup(self)
-        grid = QGridLayout(self)
-        grid.setContentsMargins(0, 0, 0, 0)
-        grid.setSpacing(2)
-        for k, kind in enumerate(kinds):
+        for kind in kinds:
             button = QToolButton()
             button.setText(QCoreApplication.translate(kind.__name__, kind.title))
             button.setCheckable(True)
@@ -38,13 +37,30 @@ class PanelChooser(QWidget):
             button.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
             button.clicked.connect(lambda _=False, kind=kind: self.chosen.emit(kind))
             group.addButton(button)
-            grid.addWidget(button, k // per_row, k % per_row)
             self.buttons[kind] = button
-        height = next(iter(self.buttons.values())).sizeHint().height()
+        self._grid = QGridLayout(self)
+        self._grid.setContentsMargins(0, 0, 0, 0)
+        self._grid.setSpacing(2)
+        self._rows = 0
+        self._arrange(_ROWS)
+
+    def _arrange(self, rows: int) -> None:
+        if rows == self._rows:
+            return
+        self._rows = rows
+        buttons = list(self.buttons.values())
+        per_row = math.ceil(len(buttons) / rows)
+        for k, button in enumerate(buttons):
+            self._grid.addWidget(button, k // per_row, k % per_row)
+        height = buttons[0].sizeHint().height()
         for row in range(_ROWS):
-            grid.setRowMinimumHeight(row, height)
-        for column in range(per_row):
-            grid.setColumnStretch(column, 1)
+            self._grid.setRowMinimumHeight(row, height if row < rows else 0)
+        for column in range(len(buttons)):
+            self._grid.setColumnStretch(column, 1 if column < per_row else 0)
+
+    def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name
+        super().resizeEvent(event)
+        self._arrange(1 if event.size().width() >= _WIDE else _ROWS)
 
     def show_chosen(self, kind: type[Panel]) -> None:
         """Show which panel is chosen, without announcing it."""

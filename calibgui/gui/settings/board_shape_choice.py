@@ -70,10 +70,14 @@ class BoardShapeChoice(QWidget):
         )
         self.known = QCheckBox(self.tr("known to"))
         self.in_plane = self._make_length(
-            _OFFICE_PRIOR.in_plane, self.tr("Standard deviation of the print in the plane, mm")
+            _OFFICE_PRIOR.in_plane,
+            self.tr(" mm in plane"),
+            self.tr("Standard deviation of the print in the plane, mm"),
         )
         self.out_of_plane = self._make_length(
-            _OFFICE_PRIOR.out_of_plane, self.tr("Standard deviation out of the plane: flatness, mm")
+            _OFFICE_PRIOR.out_of_plane,
+            self.tr(" mm off plane"),
+            self.tr("Standard deviation out of the plane: flatness, mm"),
         )
         self.known.setToolTip(
             self.tr(
@@ -127,10 +131,8 @@ class BoardShapeChoice(QWidget):
         self.model.addItem(text, model)
         self.model.setItemData(self.model.count() - 1, tip, Qt.ItemDataRole.ToolTipRole)
 
-    def _make_length(self, value: float, tip: str) -> QDoubleSpinBox:
-        box = QDoubleSpinBox(
-            decimals=3, minimum=0.001, maximum=9.0, singleStep=0.05, suffix=self.tr(" mm")
-        )
+    def _make_length(self, value: float, unit: str, tip: str) -> QDoubleSpinBox:
+        box = QDoubleSpinBox(decimals=3, minimum=0.001, maximum=9.0, singleStep=0.05, suffix=unit)
         box.setValue(value)
         box.setKeyboardTracking(False)
         box.setButtonSymbols(QDoubleSpinBox.ButtonSymbols.NoButtons)

@@ -52,6 +52,10 @@ _WIDE = 640
 """Width from which the buttons stand beside the words, device-independent px."""
 _LINES_OF_REASON, _LINES_OF_FIGURES = 2, 3
 """Lines that are reserved in a narrow bar, so that another verdict moves nothing below it."""
+_LOW = 600
+"""Height of the window below which the first figure stands for all, device-independent px."""
+_SIZE_OF_FIGURES = 0.9
+"""Size of the figures' letters, of the others': each figure has one line in the least width."""
 
 
 class VerdictBar(QFrame):
@@ -79,16 +83,11 @@ class VerdictBar(QFrame):
         font.setPointSizeF(1.25 * font.pointSizeF())
         self.headline.setFont(font)
         self.reason, self.figures = WrappedLabel(), WrappedLabel()
-        self.figures.setToolTip(
-            self.tr(
-                "How far off the camera puts a distant point in the image (one standard "
-                "deviation). The covered part is where corners were found, the edge the mean along "
-                "the image's border. Where the remedy of a finding was tried, this is the distance "
-                "to the camera that it gives, and the uncertainty of that one; otherwise it is the "
-                "calibration's own uncertainty, as in the panel Uncertainty."
-            )
-        )
+        font = self.figures.font()
+        font.setPointSizeF(_SIZE_OF_FIGURES * font.pointSizeF())
+        self.figures.setFont(font)
         self._figures: list[str] = []
+        self._is_low = False
         self.button = QPushButton(self.tr("Remedy"))
         self.button.clicked.connect(self._do_first)
         self.unfold = QPushButton()
@@ -145,15 +144,30 @@ class VerdictBar(QFrame):
         is_wide = event.size().width() >= _WIDE
         direction = QBoxLayout.Direction
         self._row.setDirection(direction.LeftToRight if is_wide else direction.TopToBottom)
-        line = self.fontMetrics().lineSpacing()
-        for label, lines in ((self.reason, _LINES_OF_REASON), (self.figures, _LINES_OF_FIGURES)):
+        lines_of_figures = 1 if self._is_low else _LINES_OF_FIGURES
+        for label, lines in ((self.reason, _LINES_OF_REASON), (self.figures, lines_of_figures)):
+            line = label.fontMetrics().lineSpacing()
             label.setMinimumHeight(line * (1 if is_wide else lines))
         self._show_figures()
+
+    def fit_height(self, of_window: int) -> None:
+        """Leave room to what is below in a window that is not high."""
+        self._is_low = of_window < _LOW
+        self.resizeEvent(QResizeEvent(self.size(), self.size()))
 
     def _show_figures(self) -> None:
         """Show the figures in a line each, or one after the other where there is room."""
         is_wide = self._row.direction() is QBoxLayout.Direction.LeftToRight
-        self.figures.setText(("; " if is_wide else "\n").join(self._figures))
+        shown = self._figures if is_wide or not self._is_low else self._figures[:1]
+        self.figures.setText(("; " if is_wide else "\n").join(shown))
+        meaning = self.tr(
+            "How far off the camera puts a distant point in the image (one standard deviation). "
+            "The covered part is where corners were found, the edge the mean along the image's "
+            "border. Where the remedy of a finding was tried, this is the distance to the camera "
+            "that it gives, and the uncertainty of that one; otherwise it is the calibration's "
+            "own uncertainty, as in the panel Uncertainty."
+        )
+        self.figures.setToolTip("\n".join([*self._figures, meaning]))
 
     def _judge(self, result: Result | None) -> None:
         """Find out what the shown result is worth, beside the window."""

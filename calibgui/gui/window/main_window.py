@@ -8,7 +8,7 @@ from traceback import extract_tb
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QEvent, QSettings, QSize, Qt, QTimer
-from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent
+from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent, QResizeEvent
 from PySide6.QtWidgets import (
     QApplication,
     QHBoxLayout,
@@ -378,6 +378,10 @@ class MainWindow(QMainWindow):
         urls = event.mimeData().urls()
         self.files.open_paths([url.toLocalFile() for url in urls if url.isLocalFile()])
         _accept_copy(event)
+
+    def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name
+        super().resizeEvent(event)
+        self.verdict.fit_height(event.size().height())
 
     def changeEvent(self, event: QEvent) -> None:  # noqa: N802 - Qt's name
         super().changeEvent(event)

@@ -30,6 +30,7 @@ from calibgui.gui.panels.convergence import ConvergencePanel
 from calibgui.gui.panels.groups import Group
 from calibgui.gui.panels.result import ResultPanel
 from calibgui.gui.panels.stage_one import StageOnePanel
+from calibgui.gui.verdict.texts import describe_pixel_error
 from calibgui.gui.widgets.elided import ElidedLabel
 from calibgui.gui.window.main_window import MainWindow
 from tests.app import examples
@@ -279,6 +280,54 @@ def test_another_verdict_moves_nothing(full: MainWindow, qtbot: QtBot) -> None:
     for _ in range(3):
         QApplication.processEvents()
     assert (full.inspector.tabs.geometry(), full.calibrate.geometry()) == places
+
+
+def test_figures_of_four_digits_have_a_line_each_in_the_least_width(
+    full: MainWindow, qtbot: QtBot
+) -> None:
+    verdict = full.verdict
+    qtbot.waitUntil(lambda: verdict.verdict is not None)
+    resize(full, qtbot, 960, 720)
+    assert verdict.verdict is not None
+    error = replace(verdict.verdict.error, centre=0.0058, covered=0.0048, edge=0.0088, worst=0.0098)
+    line = describe_pixel_error(error)
+    assert line.count("0.00") == 4
+    verdict.figures.setText("\n".join([line] * 3))
+    reserved = verdict.figures.minimumHeight()
+    assert verdict.figures.heightForWidth(verdict.figures.width()) == reserved
+
+
+def test_a_low_window_leaves_its_height_to_what_is_below_the_verdict(
+    full: MainWindow, qtbot: QtBot
+) -> None:
+    verdict = full.verdict
+    qtbot.waitUntil(lambda: verdict.verdict is not None)
+    resize(full, qtbot, 960, 720)
+    tall, figures = verdict.height(), verdict.figures.text().split("\n")
+    full.resize(960, 500)
+    qtbot.waitUntil(lambda: verdict.height() < tall - 20)
+    assert verdict.figures.text() == figures[0]
+    assert all(figure in verdict.figures.toolTip() for figure in figures)
+    full.resize(960, 720)
+    qtbot.waitUntil(lambda: verdict.height() == tall)
+
+
+def test_names_of_panels_take_one_row_where_there_is_room(full: MainWindow, qtbot: QtBot) -> None:
+    resize(full, qtbot, 1280, 720)
+    analysis = full.need_analysis()
+
+    def list_heights() -> list[set[int]]:
+        heights = []
+        for group, kinds in GROUPS.items():
+            analysis.show_panel(kinds[0])
+            buttons = analysis.choosers[group].buttons.values()
+            heights.append({button.y() for button in buttons})
+        return heights
+
+    assert {len(heights) for heights in list_heights()} == {2}
+    full.change_room()
+    qtbot.waitUntil(lambda: {len(heights) for heights in list_heights()} == {1})
+    assert list_clipped(full, qtbot) == []
 
 
 def test_what_opens_at_the_verdict_stands_beside_or_below_it(
