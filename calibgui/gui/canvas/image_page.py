@@ -224,7 +224,8 @@ class ImagePage(QWidget):
         """Say what is known of the chosen corner, or of the image if none is chosen."""
         corners, k = marks.corners, marks.chosen
         if corners is None or not 0 <= k < len(corners):
-            text = status_text(view)
+            status = status_text(view)
+            text = status[:1].upper() + status[1:]
             if marks.measured is not None and marks.predicted is not None:
                 residuals = marks.measured - marks.predicted
                 rms = math.sqrt(float((residuals**2).sum(axis=1).mean()))

@@ -88,6 +88,7 @@ class Analysis(QWidget):
     """See `Panel.lens_wanted`."""
     method_wanted = Signal(str, object)
     """See `Panel.method_wanted`."""
+    export_wanted = Signal()
     rename_wanted = Signal(str)
     delete_wanted = Signal(str)
     group_shown = Signal(Group)
@@ -205,6 +206,9 @@ class Analysis(QWidget):
             lambda row: self._session.show_result(self.results.itemText(row))
         )
         self.state = QLabel()
+        self.export = QPushButton(self.tr("Export…"))
+        self.export.setToolTip(self.tr("Write the camera for another program (Ctrl+E)"))
+        self.export.clicked.connect(self.export_wanted)
         self.more = QPushButton(self.tr("Manage"))
         self.more.setToolTip(self.tr("Rename, delete or compare results"))
         menu = QMenu(self.more)
@@ -219,8 +223,8 @@ class Analysis(QWidget):
         bar = QHBoxLayout()
         bar.setContentsMargins(0, 0, theme.SPACING, 0)
         bar.addWidget(self.results, 1)
-        bar.addWidget(self.state)
-        bar.addWidget(self.more)
+        for widget in (self.state, self.export, self.more):
+            bar.addWidget(widget)
         return bar
 
     def _project_changed(self, before: Project, after: Project) -> None:
@@ -234,7 +238,7 @@ class Analysis(QWidget):
         self.results.clear()
         self.results.addItems(names)
         self.results.setCurrentText(self._session.result_name)
-        for control in (self.results, self.more):
+        for control in (self.results, self.export, self.more):
             control.setEnabled(bool(names))
         self.compare.clear()
         for name in names:

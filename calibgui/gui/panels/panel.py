@@ -41,9 +41,7 @@ class Panel(QWidget):
 
     title: ClassVar[str] = ""
     hint: ClassVar[str] = str(
-        QT_TRANSLATE_NOOP(
-            "Panel", "Nothing is calibrated yet. Add images of a board and press Calibrate."
-        )
+        QT_TRANSLATE_NOOP("Panel", "Nothing is calibrated yet. What Calibrate finds is shown here.")
     )
     """Shown while there is no result."""
 

@@ -118,7 +118,7 @@ class ResultPanel(Panel):
             elif name in assumed:
                 remarks.append(self.tr("assumed"))
             elif name not in names[:4] and abs(value) < 2 * sigma:
-                remarks.append(self.tr("not told from 0"))
+                remarks.append(self.tr("may be 0"))
             else:
                 remarks.append("")
         return remarks

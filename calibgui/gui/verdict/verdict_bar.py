@@ -55,7 +55,8 @@ _LINES_OF_REASON, _LINES_OF_FIGURES = 2, 3
 _LOW = 600
 """Height of the window below which the first figure stands for all, device-independent px."""
 _SIZE_OF_FIGURES = 0.9
-"""Size of the figures' letters, of the others': each figure has one line in the least width."""
+"""Size of the figures' letters, of the others': each figure has one line, in the least width if
+errors are of 0.01 px or more, else in a window of 1280 px."""
 
 
 class VerdictBar(QFrame):
@@ -72,7 +73,7 @@ class VerdictBar(QFrame):
         self.setObjectName("verdict")
         self._session = session
         self._result: Result | None = None
-        self._is_old = False
+        self._is_old = self._is_running = False
         self.verdict: Verdict | None = None
         self._work = Latest(session.jobs, self)
         self.remedier = Remedier(session)
@@ -150,6 +151,13 @@ class VerdictBar(QFrame):
             label.setMinimumHeight(line * (1 if is_wide else lines))
         self._show_figures()
 
+    def show_running(self, running: bool) -> None:
+        """Say that a first result is on its way, or that there is none."""
+        if running is not self._is_running:
+            self._is_running = running
+            if self._result is None:
+                self._show()
+
     def fit_height(self, of_window: int) -> None:
         """Leave room to what is below in a window that is not high."""
         self._is_low = of_window < _LOW
@@ -210,8 +218,8 @@ class VerdictBar(QFrame):
         self._show_reason()
         self.mark.show_grade(None if verdict is None else verdict.grade)
         if verdict is None or result is None:
-            nothing = self.tr("NOT CALIBRATED") if result is None else self.tr("JUDGING…")
-            self.headline.setText(nothing)
+            first = self.tr("CALIBRATING…") if self._is_running else self.tr("NOT CALIBRATED")
+            self.headline.setText(first if result is None else self.tr("JUDGING…"))
             self._figures = [] if result is None else [describe_fit(result)]
         else:
             self.headline.setText(describe_grade(verdict.grade, verdict.times_better))

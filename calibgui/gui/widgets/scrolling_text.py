@@ -11,12 +11,15 @@ from PySide6.QtWidgets import QFrame, QSizePolicy, QTextBrowser
 from calibgui.gui.widgets.focus_ring import FocusRing
 from calibgui.gui.widgets.wrapped_label import join_values
 
+_SHARE = 0.1
+"""Share of the window's height that the text may take, if that is more than its lines."""
+
 
 class ScrollingText(QTextBrowser):
     """Shows text without a frame, that can be selected.
 
     Args:
-        lines: the most that are shown at once.
+        lines: the most that are shown at once in a window that is not high.
     """
 
     def __init__(self, lines: int) -> None:
@@ -40,5 +43,6 @@ class ScrollingText(QTextBrowser):
         self._fit()
 
     def _fit(self) -> None:
-        most = self._lines * self.fontMetrics().lineSpacing()
-        self.setFixedHeight(min(math.ceil(self.document().size().height()), most))
+        line = self.fontMetrics().lineSpacing()
+        lines = max(self._lines, math.floor(_SHARE * self.window().height() / line))
+        self.setFixedHeight(min(math.ceil(self.document().size().height()), lines * line))

@@ -205,6 +205,7 @@ class MainWindow(QMainWindow):
             self.analysis.save_wanted.connect(self.files.save_changed_images)
             self.analysis.lens_wanted.connect(self._calibrate_with_lens)
             self.analysis.method_wanted.connect(self._calibrate_with_method)
+            self.analysis.export_wanted.connect(self.files.export)
             self.analysis.rename_wanted.connect(self.files.rename_result)
             self.analysis.delete_wanted.connect(self.files.delete_result)
             self.analysis.group_shown.connect(self.inspector.show_group)
@@ -334,6 +335,7 @@ class MainWindow(QMainWindow):
 
     def _show_calibrate(self) -> None:
         running, stopping = self.calibrator.running, self.calibrator.stopping
+        self.verdict.show_running(running)
         self.calibrate.setText(
             self.tr("Stopping…")
             if stopping

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from PySide6.QtWidgets import QHBoxLayout, QProgressBar, QToolButton, QWidget
+from PySide6.QtWidgets import QHBoxLayout, QProgressBar, QToolButton, QVBoxLayout, QWidget
 
 from calibgui.gui.jobs.job import Job
 from calibgui.gui.jobs.jobs import Jobs
+from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.elided import ElidedLabel
 
-_BAR_WIDTH = 72
+_BAR_HEIGHT = 8
 
 
 class Progress(QWidget):
@@ -19,7 +20,7 @@ class Progress(QWidget):
         self._jobs = jobs
         self.label = ElidedLabel()
         self.bar = QProgressBar()
-        self.bar.setFixedWidth(_BAR_WIDTH)
+        self.bar.setFixedHeight(_BAR_HEIGHT)
         self.bar.setTextVisible(False)
         self.cancel = QToolButton()
         self.cancel.setText(self.tr("Cancel"))
@@ -27,8 +28,11 @@ class Progress(QWidget):
         self.cancel.clicked.connect(self._cancel)
         row = QHBoxLayout(self)
         row.setContentsMargins(0, 0, 0, 0)
-        row.addWidget(self.label, 1)
-        row.addWidget(self.bar)
+        shown = QVBoxLayout()
+        shown.setSpacing(theme.SPACING // 4)
+        shown.addWidget(self.label)
+        shown.addWidget(self.bar)
+        row.addLayout(shown, 1)
         row.addWidget(self.cancel)
         keeping = self.sizePolicy()
         keeping.setRetainSizeWhenHidden(True)  # what stands beside it must not move

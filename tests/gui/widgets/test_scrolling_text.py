@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from PySide6.QtWidgets import QApplication
+from PySide6.QtWidgets import QApplication, QVBoxLayout, QWidget
 from pytestqt.qtbot import QtBot
 
 from calibgui.gui.widgets.scrolling_text import ScrollingText
@@ -24,6 +24,18 @@ def test_it_is_as_high_as_its_text_up_to_some_lines(qtbot: QtBot) -> None:
     shown.resize(5000, 50)
     QApplication.processEvents()
     assert shown.height() < 3 * line
+
+
+def test_a_high_window_has_room_for_more(qtbot: QtBot) -> None:
+    window = QWidget()
+    qtbot.addWidget(window)
+    shown = ScrollingText(3)
+    QVBoxLayout(window).addWidget(shown)
+    window.resize(300, 1000)
+    window.show()
+    shown.show_text("Words that take more than the lines that there are. " * 20)
+    line = shown.fontMetrics().lineSpacing()
+    assert 100 - line < shown.height() <= 100 and shown.height() % line == 0
 
 
 def test_numbers_stay_with_their_units(qtbot: QtBot) -> None:

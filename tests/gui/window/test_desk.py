@@ -25,13 +25,16 @@ from pytestqt.qtbot import QtBot
 
 from calibgui.app.document import Document
 from calibgui.engine.errors import CalibrationError
+from calibgui.gui.dialogs.export_dialog import ExportDialog
 from calibgui.gui.panels.analysis import GROUPS, PANELS
 from calibgui.gui.panels.convergence import ConvergencePanel
 from calibgui.gui.panels.groups import Group
 from calibgui.gui.panels.result import ResultPanel
 from calibgui.gui.panels.stage_one import StageOnePanel
 from calibgui.gui.verdict.texts import describe_pixel_error
+from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.elided import ElidedLabel
+from calibgui.gui.window.inspector import Inspector
 from calibgui.gui.window.main_window import MainWindow
 from tests.app import examples
 from tests.gui.hand import Hand
@@ -282,19 +285,18 @@ def test_another_verdict_moves_nothing(full: MainWindow, qtbot: QtBot) -> None:
     assert (full.inspector.tabs.geometry(), full.calibrate.geometry()) == places
 
 
-def test_figures_of_four_digits_have_a_line_each_in_the_least_width(
-    full: MainWindow, qtbot: QtBot
-) -> None:
-    verdict = full.verdict
-    qtbot.waitUntil(lambda: verdict.verdict is not None)
-    resize(full, qtbot, 960, 720)
-    assert verdict.verdict is not None
-    error = replace(verdict.verdict.error, centre=0.0058, covered=0.0048, edge=0.0088, worst=0.0098)
-    line = describe_pixel_error(error)
-    assert line.count("0.00") == 4
-    verdict.figures.setText("\n".join([line] * 3))
-    reserved = verdict.figures.minimumHeight()
-    assert verdict.figures.heightForWidth(verdict.figures.width()) == reserved
+@pytest.mark.parametrize(("width", "error"), [(960, 0.088), (1280, 0.0088)])
+def test_every_figure_has_a_line(full: MainWindow, qtbot: QtBot, width: int, error: float) -> None:
+    bar = full.verdict
+    qtbot.waitUntil(lambda: bar.verdict is not None)
+    resize(full, qtbot, width, 720)
+    assert bar.verdict is not None
+    errors = dict.fromkeys(("centre", "covered", "edge", "worst"), error)
+    line = describe_pixel_error(replace(bar.verdict.error, **errors))
+    bar.figures.setText("\n".join([line] * 3))
+    beside = bar.width() - bar.figures.width()
+    room = min(bar.width(), Inspector.WIDTH - 2 * theme.SPACING) if width == 960 else bar.width()
+    assert bar.figures.heightForWidth(room - beside) == bar.figures.minimumHeight()
 
 
 def test_a_low_window_leaves_its_height_to_what_is_below_the_verdict(
@@ -310,6 +312,27 @@ def test_a_low_window_leaves_its_height_to_what_is_below_the_verdict(
     assert all(figure in verdict.figures.toolTip() for figure in figures)
     full.resize(960, 720)
     qtbot.waitUntil(lambda: verdict.height() == tall)
+
+
+def test_a_result_is_exported_from_beside_its_name(full: MainWindow, qtbot: QtBot) -> None:
+    resize(full, qtbot, 960, 720)
+    qtbot.mouseClick(full.need_analysis().export, Qt.MouseButton.LeftButton)
+    qtbot.waitUntil(lambda: isinstance(QApplication.activeModalWidget(), ExportDialog))
+    dialog = QApplication.activeModalWidget()
+    assert dialog is not None
+    dialog.close()
+    full.session.begin(Document())
+    assert not full.need_analysis().export.isEnabled()
+
+
+def test_a_first_calibration_is_said_to_be_on_its_way(window: MainWindow, qtbot: QtBot) -> None:
+    headline = window.verdict.headline
+    assert headline.text() == "NOT CALIBRATED"
+    window.files.open_sample()
+    qtbot.waitUntil(lambda: headline.text() == "CALIBRATING…", timeout=20_000)
+    window.calibrate.click()
+    qtbot.waitUntil(lambda: headline.text() == "NOT CALIBRATED", timeout=20_000)
+    qtbot.waitUntil(lambda: not window.session.jobs.running, timeout=20_000)
 
 
 def test_names_of_panels_take_one_row_where_there_is_room(full: MainWindow, qtbot: QtBot) -> None:
