@@ -12,7 +12,7 @@ import scipy
 import calibgui
 from calibgui.dataset.view import View
 from calibgui.engine import opencv
-from calibgui.engine.boards import Board
+from calibgui.engine.boards import AprilGrid, Board
 from calibgui.engine.calibration import Calibration, Observation
 from calibgui.engine.geometry import PaperPose, paper_from_pose
 
@@ -66,7 +66,11 @@ class Result:
         """Condition under which all lengths hold, as "if squares are 30 mm"; empty if they do."""
         if self.lengths_confirmed or self.board is None:
             return ""
-        return f"if squares are {self.board.square:g} mm"
+        length = f"{self.board.square:g} mm"
+        if not self.board.pattern.has_squares:
+            return f"if circles are {length} apart"
+        parts = "tags" if isinstance(self.board.pattern, AprilGrid) else "squares"
+        return f"if {parts} are {length}"
 
     def paper_poses(self) -> tuple[PaperPose, ...]:
         """Return the paper's external parameters of the used views.

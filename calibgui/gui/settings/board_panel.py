@@ -153,8 +153,10 @@ class BoardPanel(QWidget):
         circles = not project.pattern.has_squares
         self._form.setRowVisible(self.method, not circles)
         self.by_hand.setChecked(project.by_hand)
-        self.counted.setText(self.tr("Circles") if circles else self.tr("Inner corners"))
-        square = self.tr("Tag") if isinstance(project.pattern, AprilGrid) else self.tr("Square")
+        tags = isinstance(project.pattern, AprilGrid)
+        corners = self.tr("Corners") if tags else self.tr("Inner corners")
+        self.counted.setText(self.tr("Circles") if circles else corners)
+        square = self.tr("Tag") if tags else self.tr("Square")
         self.side.setText(self.tr("Distance") if circles else square)
         if not self._typing:
             self._show_board()

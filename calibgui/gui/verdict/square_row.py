@@ -7,6 +7,7 @@ from PySide6.QtWidgets import QDoubleSpinBox, QHBoxLayout, QLabel, QPushButton, 
 
 from calibgui.app.project import Project, confirm_lengths, set_square
 from calibgui.dataset import ViewStatus
+from calibgui.engine.boards import AprilGrid, Pattern
 from calibgui.gui.session.session import Session
 from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.number_box import fit_width
@@ -23,7 +24,7 @@ class SquareRow(QWidget):
         super().__init__()
         self._session = session
         self.counted = WrappedLabel()
-        self.side = QLabel(self.tr("Side of a square:"))
+        self.side = QLabel()
         self.square = QDoubleSpinBox(decimals=3, minimum=0.001, maximum=100_000.0)
         fit_width(self.square, "100000.00 mm")
         self.square.setAccessibleName(self.tr("Side of a square"))
@@ -63,6 +64,7 @@ class SquareRow(QWidget):
         if self.isHidden():
             return
         self.counted.setText(self._ask(project))
+        self.side.setText(self._name_side(project.pattern))
         if not self.square.hasFocus():
             self.square.blockSignals(True)
             self.square.setValue(project.square / project.unit.mm)
@@ -72,15 +74,40 @@ class SquareRow(QWidget):
 
     def _ask(self, project: Project) -> str:
         """Return the question, with what is known of the board."""
-        board = project.board
-        if board is not None:
-            return self.tr(
+        pattern, board = project.pattern, project.board
+        if not pattern.has_squares:
+            known = self.tr(
+                "How far apart are the circles? The board has {0} × {1} circles as counted; "
+                "lengths hold if circles are {2:g} {3} apart."
+            )
+            counting = self.tr("How far apart are the circles? The board is being counted.")
+            unknown = self.tr("How far apart are the circles? No board has been found yet.")
+        elif isinstance(pattern, AprilGrid):
+            known = self.tr(
+                "How long are the tags' sides? The board has {0} × {1} corners as counted; "
+                "lengths hold if tags are {2:g} {3}."
+            )
+            counting = self.tr("How long are the tags' sides? The board is being counted.")
+            unknown = self.tr("How long are the tags' sides? No board has been found yet.")
+        else:
+            known = self.tr(
                 "How long are the squares? The board has {0} × {1} inner corners as counted; "
                 "lengths hold if squares are {2:g} {3}."
-            ).format(board.rows, board.cols, project.square / project.unit.mm, project.unit)
-        if any(view.status is ViewStatus.WAITING for view in project.views):
-            return self.tr("How long are the squares? The board is being counted.")
-        return self.tr("How long are the squares? No board has been found yet.")
+            )
+            counting = self.tr("How long are the squares? The board is being counted.")
+            unknown = self.tr("How long are the squares? No board has been found yet.")
+        if board is not None:
+            length = project.square / project.unit.mm
+            return known.format(board.rows, board.cols, length, project.unit)
+        is_waiting = any(view.status is ViewStatus.WAITING for view in project.views)
+        return counting if is_waiting else unknown
+
+    def _name_side(self, pattern: Pattern) -> str:
+        if not pattern.has_squares:
+            return self.tr("Distance of circles:")
+        if isinstance(pattern, AprilGrid):
+            return self.tr("Side of a tag:")
+        return self.tr("Side of a square:")
 
     def _name_button(self, project: Project) -> None:
         text = self.tr("Confirm {0:g} {1}")

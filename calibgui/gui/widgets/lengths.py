@@ -5,15 +5,23 @@ from __future__ import annotations
 from PySide6.QtCore import QCoreApplication
 
 from calibgui.dataset import Result
+from calibgui.engine.boards import AprilGrid
 
 translate = QCoreApplication.translate
 
 
 def describe_condition(result: Result) -> str:
     """Describe what lengths rest on, as " if squares are 30 mm"; empty if they are confirmed."""
-    if result.lengths_confirmed or result.board is None:
+    board = result.board
+    if result.lengths_confirmed or board is None:
         return ""
-    return translate("lengths", " if squares are {0:g} mm").format(result.board.square)
+    if not board.pattern.has_squares:
+        text = translate("lengths", " if circles are {0:g} mm apart")
+    elif isinstance(board.pattern, AprilGrid):
+        text = translate("lengths", " if tags are {0:g} mm")
+    else:
+        text = translate("lengths", " if squares are {0:g} mm")
+    return text.format(board.square)
 
 
 def state_condition(result: Result) -> str:

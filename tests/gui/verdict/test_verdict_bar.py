@@ -20,11 +20,13 @@ from calibgui.app.project import Project, record_result
 from calibgui.app.settings import Settings
 from calibgui.dataset import CornerSet, View
 from calibgui.engine.assessment import Cause, Grade
+from calibgui.engine.boards import AprilGrid, Circles, Pattern
 from calibgui.engine.numbers import format_two_digits
 from calibgui.gui.panels.coverage import CoveragePanel
 from calibgui.gui.panels.residuals import ResidualsPanel
 from calibgui.gui.verdict.before_after import BeforeAndAfter
 from calibgui.gui.verdict.verdict_bar import VerdictBar
+from calibgui.gui.widgets.lengths import describe_condition
 from calibgui.gui.window.main_window import MainWindow
 from tests.app import examples
 
@@ -227,6 +229,34 @@ def test_the_length_of_squares_is_asked_until_it_is_confirmed(
     assert "Out of date" not in bar.reason.text()  # it was calibrated anew at once
     result = window.session.result
     assert result is not None and result.board is not None and result.board.square == 25.0
+
+
+@pytest.mark.parametrize(
+    ("pattern", "question", "side", "condition"),
+    [
+        (
+            Circles(),
+            "How far apart are the circles?",
+            "Distance of circles:",
+            "circles are {} apart",
+        ),
+        (AprilGrid(), "How long are the tags' sides?", "Side of a tag:", "tags are {}"),
+    ],
+    ids=["circles", "aprilgrid"],
+)
+def test_what_is_asked_of_other_boards_than_squares(
+    window: MainWindow, plain: Project, pattern: Pattern, question: str, side: str, condition: str
+) -> None:
+    project = replace(plain, lengths_confirmed=False)
+    assert project.board is not None
+    board = replace(project.board, pattern=pattern)
+    result = replace(next(iter(project.results.values())), board=board, lengths_confirmed=False)
+    assert result.condition == "if " + condition.format("30 mm")
+    assert describe_condition(result) == f" {result.condition}"
+    window.session.begin(Document(replace(project, pattern=pattern, results=MappingProxyType({}))))
+    row = window.verdict.square
+    assert row.isVisible() and row.counted.text().startswith(question)
+    assert "square" not in row.counted.text() and row.side.text() == side
 
 
 def test_a_search_that_comes_first_asks_too(window: MainWindow, plain: Project) -> None:
