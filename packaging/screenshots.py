@@ -263,13 +263,17 @@ class Photographer:
         dialog.close()
 
 
-def main() -> None:
-    """Take all pictures."""
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+def add_options(parser: argparse.ArgumentParser) -> argparse.ArgumentParser:
+    """Add the folder, the window's size and its colours to the options."""
     parser.add_argument("folder", type=Path)
     parser.add_argument("--size", default="1280x720")
     parser.add_argument("--scheme", type=theme.Scheme, default=theme.Scheme.LIGHT)
-    options = parser.parse_args()
+    return parser
+
+
+def main() -> None:
+    """Take all pictures."""
+    options = add_options(argparse.ArgumentParser(description=__doc__.splitlines()[0])).parse_args()
     options.folder.mkdir(parents=True, exist_ok=True)
     with open_window(*map(int, options.size.split("x")), options.scheme) as window:
         Photographer(window, options.folder).all()

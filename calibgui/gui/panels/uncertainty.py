@@ -103,10 +103,14 @@ class UncertaintyPanel(Panel):
     def _show(self, found: ProjectionUncertainty) -> None:
         self.found = found
         u, v, sigma = found.u, found.v, found.worst_direction
-        self.plot.show_values(sigma, surround_places(u, v), min(found.worst, _TOP * found.median))
+        self.plot.show_values(sigma, surround_places(u, v), self._find_top(found))
         self.plot.fit(found.size)
         self._draw_limit()
         self._hover(None)
+
+    def _find_top(self, found: ProjectionUncertainty) -> float:
+        """Return what the brightest colour stands for, px; a few places far beyond share it."""
+        return min(found.worst, _TOP * found.median)
 
     def _draw_limit(self) -> None:
         found, limit = self.found, self.limit.value()
@@ -115,22 +119,23 @@ class UncertaintyPanel(Panel):
         self.region.show(found.u, found.v, found.worst_direction, [limit])
         share = found.fraction(limit)
         inside = self.tr(" (inside the red line)") if 0 < share < 1 else ""
-        self.words.setText(
-            self.tr(
-                "Points {0} are imaged to {1:.3f} px at the centre, {2:.3f} px in the median, "
-                "{3:.3f} px at worst (1σ). {4:.0f} % of the image is known to {5:g} px or "
-                "better{6}."
-            ).format(
-                describe_distance(found.distance)
-                + (describe_condition(self._result) if math.isfinite(found.distance) else ""),
-                found.centre,
-                found.median,
-                found.worst,
-                100 * share,
-                limit,
-                inside,
-            )
+        text = self.tr(
+            "Points {0} are imaged to {1:.3f} px at the centre, {2:.3f} px in the median, "
+            "{3:.3f} px at worst (1σ). {4:.0f} % of the image is known to {5:g} px or "
+            "better{6}."
+        ).format(
+            describe_distance(found.distance)
+            + (describe_condition(self._result) if math.isfinite(found.distance) else ""),
+            found.centre,
+            found.median,
+            found.worst,
+            100 * share,
+            limit,
+            inside,
         )
+        if (top := self._find_top(found)) < found.worst:
+            text += self.tr(" The brightest colour is {0:.3f} px or more.").format(top)
+        self.words.setText(text)
 
     def _hover(self, position: QPointF | None) -> None:
         """Say the uncertainty under the cursor."""

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from PySide6.QtCore import QPointF, Qt
@@ -41,6 +43,18 @@ def test_map_and_words_are_the_engines(panel: UncertaintyPanel, far: ProjectionU
     for value in (far.centre, far.median, far.worst):
         assert f"{value:.3f} px" in words
     assert f"{100 * far.fraction(0.1):.0f} % of the image" in words
+
+
+def test_it_is_said_where_the_colours_end_below_the_worst(
+    panel: UncertaintyPanel, far: ProjectionUncertainty
+) -> None:
+    assert "brightest" not in panel.words.text()
+    covariance = far.covariance.copy()
+    covariance[0, 0] *= 1e4
+    panel._show(replace(far, covariance=covariance))
+    top = panel.plot.bar.levels[1]
+    assert top < 10 * far.worst
+    assert f"The brightest colour is {top:.3f} px or more." in panel.words.text()
 
 
 def test_the_limit_is_a_line_around_its_region(
