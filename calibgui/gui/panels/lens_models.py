@@ -100,7 +100,7 @@ class LensModelsPanel(OnDemandPanel[LensChoice]):
         """Show what there is to know of a lens model, and offer it."""
         shown = self._chosen = self._rows[row]
         fit = self.tr("{0}: RMS {1:.3f} px, σx {2:.3f} px and σy {3:.3f} px of {4}.").format(
-            shown.model,
+            get_lens_title(shown.model),
             shown.rms,
             shown.sigma_x,
             shown.sigma_y,

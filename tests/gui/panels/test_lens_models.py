@@ -17,6 +17,7 @@ from calibgui.engine.errors import Progress
 from calibgui.gui.panels.lens_models import LensModelsPanel
 from calibgui.gui.window.main_window import MainWindow
 from calibgui.report.lens_choice import describe_lens_choice, list_lens_rows
+from calibgui.report.lens_models import get_lens_title
 from tests.gui.panels.conftest import Shown, click_row, made, read_table
 
 LEFT = Qt.MouseButton.LeftButton
@@ -69,7 +70,8 @@ def test_the_button_compares_and_the_tables_hold_the_figures(
         np.testing.assert_allclose(field, row.field_of_view)
         assert float(image["Differs [px]"]) == pytest.approx(row.difference)
     recommended = next(row for row in rows if row.model == choice.model)
-    assert panel.remarks.text().startswith(f"{choice.model}: RMS {recommended.rms:.3f} px")
+    title = get_lens_title(choice.model)
+    assert panel.remarks.text().startswith(f"{title}: RMS {recommended.rms:.3f} px")
     assert "of 432 corners" in panel.remarks.text()
 
 
@@ -90,13 +92,14 @@ def test_the_selected_model_is_described_and_can_be_used(
     ):
         panel.tables.setCurrentWidget(table)
         click_row(qtbot, table, models.index(model))
-        assert panel.remarks.text().startswith(f"{model}: RMS")
+        assert panel.remarks.text().startswith(f"{get_lens_title(model)}: RMS")
         qtbot.mouseClick(panel.use, LEFT)
     assert wanted == [(model, held[model]) for model in ("pinhole", "brown-conrady-4")]
     for table in (panel.tables.errors, panel.tables.image):
         assert table.currentIndex().row() == models.index("brown-conrady-4")
     panel._refresh_now()
-    assert panel.remarks.text().startswith("brown-conrady-4"), "a new look keeps the selection"
+    kept = get_lens_title("brown-conrady-4")
+    assert panel.remarks.text().startswith(kept), "a new look keeps the selection"
 
 
 def test_a_comparison_holds_for_the_views_that_it_is_of(
