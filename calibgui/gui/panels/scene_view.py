@@ -48,6 +48,8 @@ _SHARE = 0.44
 """Half the drawn scene in shorter sides of the widget: the rest is for numbers around it."""
 _FADED = 0.45
 """Share of its colour that the farthest outline has; that of the nearest is 1."""
+_GROUND = 170
+"""Opacity of the patch behind a number, of 255: it is read over any board."""
 _SMOOTHED = 200
 """Outlines up to which they are smoothed: more take longer than a frame while one turns them."""
 _NUMBERED = 60
@@ -170,7 +172,12 @@ class SceneView(QWidget):
             painter.setRenderHint(QPainter.RenderHint.Antialiasing, is_smooth)
             self._paint_polygon(painter, item, corners)
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        ground = QColor(theme.current().base)
+        ground.setAlpha(_GROUND)
         for number in self.axis_numbers:  # over the boards, which stand before most of them
+            painter.setPen(Qt.PenStyle.NoPen)
+            painter.setBrush(ground)
+            painter.drawRoundedRect(number.place.adjusted(-2, 0, 2, 0), 3, 3)
             painter.setPen(number.colour)
             painter.drawText(number.place, _ONE_LINE, number.text)
         self._paint_numbers(painter, placed)
@@ -317,7 +324,7 @@ class SceneView(QWidget):
         ground = QColor(colours.accent if rank == 2 else colours.base)
         ink = QColor(colours.on_accent if rank == 2 else colours.text)
         if not rank:
-            ground.setAlpha(170)
+            ground.setAlpha(_GROUND)
             ink.setAlphaF(max(self._opacity(item.depth), 0.6))
         painter.setPen(Qt.PenStyle.NoPen)
         painter.setBrush(ground)
