@@ -159,7 +159,7 @@ def test_a_lens_that_no_model_can_follow_is_refused(fisheye: Result, tmp_path: P
         write_in_models(fisheye, file, narrow, lambda *_: "")
     assert not list(tmp_path.iterdir())
     assert str(file) in caught.value.message
-    assert "--model brown-conrady" in caught.value.hint and "'python'" in caught.value.hint
+    assert "lens model brown-conrady" in caught.value.hint and "'python'" in caught.value.hint
     # The stated place and error are the worst among the corners, by OpenCV itself.
     corners = np.concatenate([uv for uv, *_ in fisheye.observations()])
     error = moved(fisheye, express_in_format(fisheye, narrow), corners)

@@ -49,7 +49,7 @@ def test_corners_that_are_off_are_named_with_their_view(share: float) -> None:
     assert finding.cause is Cause.MISPLACED_CORNERS
     assert finding.views == (4,)
     assert "View 5" in finding.message
-    assert "--robust" in finding.remedy
+    assert "Leave outliers out" in finding.remedy
     error = compare_cameras(barrel(), calibrate(views, VGA).camera, views=CLEAN)
     assert finding.harm == pytest.approx(error.rms, rel=0.2)
 
