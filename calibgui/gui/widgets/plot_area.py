@@ -31,11 +31,13 @@ class Axis(pg.AxisItem):  # type: ignore[misc]  # pyqtgraph is not typed
     write_number: Callable[[float], str] | None = None
     """A function that writes the numbers, as dates for example; None for plain numbers."""
 
-    def __init__(self, side: str) -> None:
-        super().__init__(side)
-        # A prefix of the unit is never chosen, for which the label is written at every change. The
-        # numbers are drawn anew only where pyqtgraph knows that.
-        self.enableAutoSIPrefix(False)
+    def updateAutoSIPrefix(self) -> None:  # noqa: N802 - pyqtgraph's name
+        """Draw the numbers anew, as pyqtgraph leaves it to this method when their range changes.
+
+        No prefix of a unit is chosen, for which the label would be written at every change.
+        """
+        self.picture = None
+        self.update()
 
     def tickSpacing(self, low: float, high: float, size: float) -> list[tuple[float, float]]:  # noqa: N802 - pyqtgraph's name
         levels = list(super().tickSpacing(low, high, size))
