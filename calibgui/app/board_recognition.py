@@ -28,8 +28,9 @@ _KINDS_MARKED_IN_SQUARES = ("charuco", "tagged-checkerboard")
 """Kinds of boards with marks in their squares that a search for plain checkerboards may find."""
 _KINDS_MARKED_ON_EDGES = ("puzzleboard",)
 """Kinds of boards with marks on the squares' edges that it may find."""
-_SAMPLES = 2
-"""Number of images in which other boards are looked for, which takes seconds in each."""
+_FIRST_SAMPLES, _MAX_SAMPLES = 2, 8
+"""Numbers of images in which other boards are looked for, which takes a second in each: at first,
+and in all if these show none. A hand on a board or a blurred picture may hide what others show."""
 
 
 class FindBoard(Protocol):
@@ -97,9 +98,16 @@ def _format_size(size: GridSize) -> str:
 
 
 def choose_samples(views: Iterable[View]) -> list[str]:
-    """Return the images in which other boards are looked for where the stated one is in none."""
+    """Return the images in which other boards are looked for where the stated one is in none.
+
+    They are spread over all that were searched: the first one, that in the middle, those between.
+    """
     searched = (ViewStatus.FOUND, ViewStatus.NO_BOARD)
-    return [view.image for view in views if view.status in searched][:_SAMPLES]
+    images = [view.image for view in views if view.status in searched]
+    count = min(len(images), _MAX_SAMPLES)
+    spread = [images[k * len(images) // count] for k in range(count)]
+    first = spread[:: max(1, -(-count // _FIRST_SAMPLES))]
+    return list(dict.fromkeys([*first, *spread]))
 
 
 def find_grid_size(
@@ -215,15 +223,22 @@ def _find_best_pattern(
     search: Callable[[tuple[str, Pattern]], Corners | None],
     stop: Event | None,
 ) -> Pattern | None:
-    """Return the pattern that `search` finds in most images, of several that with most corners."""
-    tries = [(image, pattern) for image in images for pattern in patterns]
+    """Return the pattern that `search` finds in most images, of several that with most corners.
+
+    Only where the first images show none the others are searched.
+    """
+    images = list(images)
     found: Counter[str] = Counter()
     corners: Counter[str] = Counter()
-    for i, seen in map_in_processes(search, tries, stop):
-        if isinstance(seen, Corners):
-            kind = tries[i][1].kind
-            found[kind] += 1
-            corners[kind] += len(seen)
+    for some in images[:_FIRST_SAMPLES], images[_FIRST_SAMPLES:]:
+        tries = [(image, pattern) for image in some for pattern in patterns]
+        for i, seen in map_in_processes(search, tries, stop):
+            if isinstance(seen, Corners):
+                kind = tries[i][1].kind
+                found[kind] += 1
+                corners[kind] += len(seen)
+        if found:
+            break
     best = max(found, key=lambda kind: (found[kind], corners[kind]), default=None)
     return None if best is None else KINDS[best]
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from calibgui.app import board_recognition
@@ -21,6 +22,7 @@ from calibgui.engine.boards.april_grid import AprilGrid
 from calibgui.engine.boards.board import Board
 from calibgui.engine.boards.charuco import Charuco
 from calibgui.engine.boards.checkerboard import CHECKERBOARD
+from calibgui.engine.boards.circle_grid import Circles
 from calibgui.engine.boards.pattern import Pattern
 from calibgui.engine.boards.puzzleboard import PuzzleBoard
 from calibgui.engine.boards.tagged_checkerboard import TaggedCheckerboard
@@ -98,6 +100,16 @@ def test_marks_of_a_board_of_another_size_are_told(tmp_path: Path) -> None:
     error, _ = explain_missing_board(detection, (8, 12), is_any_looked_for=True)
     assert error is not None
     assert "not of 8x12" in error.message
+
+
+def test_boards_that_few_photographs_show_are_recognised(tmp_path: Path) -> None:
+    """A grid of circles is found whole or not at all."""
+    board = Board(4, 5, 30.0, Circles(diameter=0.5))
+    shown = Scene(board, _CAMERA, (0.3, 0.2, 0.1), 300.0).image()
+    for k in range(4):
+        write_image(tmp_path / f"{k}.png", shown if k == 3 else np.full_like(shown, 128))
+    views = find_views(sorted(tmp_path.iterdir())).views
+    assert recognise_pattern(views) == Circles()
 
 
 def test_a_file_that_has_gone(tmp_path: Path) -> None:
