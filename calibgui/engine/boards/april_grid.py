@@ -98,7 +98,7 @@ class AprilGrid(CodedPattern):
         )
         family, border, from_top, squares = most.most_common(1)[0][0]
         gaps = [board.spacing for board in boards if board.spacing]
-        gap = round(float(np.median(gaps)), 3) if gaps else None
+        gap = round(float(np.median(gaps)), 4) if gaps else None
         return self.fill_unknown(
             family=family, spacing=gap, border=border, from_top=from_top, corner_squares=squares
         )

@@ -29,7 +29,7 @@ from calibgui.engine.detection.apriltags.outlined_corners import (
     has_corner_squares,
     locate_outlined_corners,
 )
-from calibgui.engine.detection.apriltags.tag_gap import measure_gap
+from calibgui.engine.detection.apriltags.tag_gap import fit_gap, measure_gap
 from calibgui.engine.detection.charuco.assembly import FittedCorners, assemble_corners
 from calibgui.engine.detection.charuco.corners_between_markers import (
     predict_places,
@@ -154,12 +154,14 @@ def _locate_corners(
         gap = measure_gap(lattice.uv, gap)
         lattice, fit, rejected = _fit_outlines(grey, dark_tags, read, lattice, first, gap)
         gap = measure_gap(lattice.uv, gap)
+    require_enough_corners(lattice)
+    uv = lattice.uv[lattice.found] if fit is None else fit.uv
+    gap = fit_gap(np.argwhere(lattice.found), uv, gap)
     if stated.spacing is not None and abs(gap - stated.spacing) > _MAX_SPACING_DIFFERENCE:
         raise NoBoardError(
             f"The gap between the tags is {gap:.3f} of their side, not {stated.spacing:g}.",
             "State gap and side as measured, or leave the gap out.",
         )
-    require_enough_corners(lattice)
     seen = AprilGrid(
         tag_print.family, round(gap, 4), tag_print.border, tags.layout.from_top, has_squares
     )

@@ -1,7 +1,15 @@
 """The gap between the tags of an AprilGrid.
 
 It shows, s sides of a tag, in four corners in a row, at 0, 1, 1 + s and 2 + s on the board: their
-cross-ratio (1 + s)^2 / (s (2 + s)) is the same from every side.
+cross-ratio (1 + s)^2 / (s (2 + s)) is the same from every side. A lens changes it: under a fisheye
+a gap of 0.3 is measured as 0.31, which makes all corners of a tag disagree with those of the next.
+
+Once all corners are known, s follows from them together. Let r(s) be what a homography and a radial
+lens leave of them if they are fitted to the board with this gap. The least |r|^2 is at
+
+    s - (r . r') / (r' . r'),   r' = dr / ds,
+
+to the first order (Gauss and Newton; Golub and Pereyra 1973, with the map's parameters eliminated).
 """
 
 from __future__ import annotations
@@ -9,10 +17,19 @@ from __future__ import annotations
 import numpy as np
 
 from calibgui.engine.arrays import Array, IntArray
+from calibgui.engine.boards.april_grid import AprilGrid
+from calibgui.engine.detection.grid_map import fit_radial_homography
 from calibgui.engine.errors import NoBoardError
 
 _CORNERS = np.array([(0, 0), (0, 1), (1, 1), (1, 0)])
 """(4, 2) rows and columns of the corners of a tag from its upper left one."""
+_STEP = 0.01
+"""Change of the gap, sides of a tag, over which r' is measured."""
+_ITERATIONS = 2
+"""Number of Gauss-Newton steps: a third one changes the gap by less than 2e-5."""
+_MAX_CHANGE = 0.05
+"""Greatest difference of a fitted gap from the cross-ratios', sides of a tag: more is no lens's
+doing, but that of corners that do not tell the gap."""
 
 
 def measure_gap_of_tags(squares: IntArray, corners: Array, gap: float) -> float:
@@ -55,3 +72,31 @@ def measure_gap(uv: Array, gap: float) -> float:
             "For a checkerboard with tags in some of its squares, choose that pattern.",
         )
     return measured
+
+
+def fit_gap(grid: IntArray, uv: Array, gap: float) -> float:
+    """Fit the gap between tags, sides of a tag, to all corners of a board.
+
+    Args:
+        grid: (n, 2) rows and columns of the corners.
+        uv: (n, 2) px, where they are seen.
+        gap: `measure_gap` of them, which is returned if they do not tell it better.
+    """
+    fitted = gap
+    for _ in range(_ITERATIONS):
+        left, less, more = (
+            _compute_misfit(grid, uv, fitted + change) for change in (0.0, -_STEP, _STEP)
+        )
+        by_gap = (more - less) / (2 * _STEP)
+        with np.errstate(all="ignore"):  # tags in one row and one column show no gap
+            fitted -= float(left @ by_gap / (by_gap @ by_gap))
+        if not abs(fitted - gap) < _MAX_CHANGE:
+            return gap
+    return fitted
+
+
+def _compute_misfit(grid: IntArray, uv: Array, gap: float) -> Array:
+    """Compute what homography and lens leave, (2 n,) px, of corners if the gap is `gap` sides."""
+    places = AprilGrid(spacing=gap).locate_points(grid.astype(np.float64))
+    seen = fit_radial_homography(places, uv, are_exact=True)
+    return np.asarray((uv - seen.locate(places)).ravel())

@@ -12,7 +12,8 @@ from calibgui.engine.boards.april_grid import AprilGrid, TagLayout
 from calibgui.engine.boards.board import Board
 from calibgui.engine.boards.checkerboard import CHECKERBOARD
 from calibgui.engine.camera.camera import Camera
-from calibgui.engine.detection.apriltags.tag_gap import measure_gap
+from calibgui.engine.camera.projection import pixels_from_rays
+from calibgui.engine.detection.apriltags.tag_gap import fit_gap, measure_gap
 from calibgui.engine.detection.corners import Corners
 from calibgui.engine.detection.find_corners import find_corners
 from calibgui.engine.errors import NoBoardError
@@ -22,6 +23,7 @@ from tests.scenes.perspective import photograph_pattern
 
 CAMERA = Camera((640, 480), [560.0, 562.0, 322.0, 238.0, 0.1, 0.02, 0.0, 1e-4, 0.0, 0.0])
 WIDE = Camera((640, 480), [300.0, 300.0, 320.0, 240.0, 0.35, 0.1, 0.0, 0.0, 0.0, 0.0])
+FISHEYE = Camera((640, 480), [230.0, 230.0, 320.0, 240.0, 0.0, 0.0, 0.0, 0.0], "kannala-brandt")
 KALIBR = Scene(
     Board(8, 10, 20.0, AprilGrid("t36h11", 0.3, 2, False)), camera=CAMERA, distance=300.0
 )
@@ -60,6 +62,26 @@ def test_all_is_inferred(inverted: bool) -> None:
     assert isinstance(seen, AprilGrid)
     assert (seen.family, seen.border, seen.from_top) == ("t36h11", 2, False)
     assert seen.spacing == pytest.approx(0.3, abs=0.001)
+
+
+@pytest.mark.parametrize("grid_size", [(4, 4), (8, 6)])
+@pytest.mark.parametrize("gap", [0.3, 2 / 7])
+def test_a_lens_does_not_widen_the_gap(grid_size: tuple[int, int], gap: float) -> None:
+    """A gap that is off by a hundredth makes a calibration doubt the board."""
+    board = Board(*grid_size, 20.0, AprilGrid(spacing=gap))
+    scene = Scene(board, camera=FISHEYE, rvec=(0.4, -0.2, 0.1), distance=75.0, aside=(30.0, 10.0))
+    grid = np.indices(grid_size).reshape(2, -1).T
+    points = board.points() @ rotation_from_vector(np.array(scene.rvec))[:, :2].T
+    uv = pixels_from_rays(points + scene.pose.tvec, FISHEYE)
+    rough = measure_gap(uv.reshape(*grid_size, 2), 1.0)
+    assert abs(rough - gap) > 0.005
+    assert fit_gap(grid, uv, rough) == pytest.approx(gap, abs=3e-4)
+
+
+@pytest.mark.parametrize("corners", [[(0, 0), (0, 1), (1, 0), (1, 1)], [(0, 0), (0, 1), (0, 2)]])
+def test_corners_that_do_not_tell_the_gap_leave_it(corners: list[tuple[int, int]]) -> None:
+    grid = np.array(corners)
+    assert fit_gap(grid, 30.0 * grid[:, ::-1], 0.3) == 0.3
 
 
 @pytest.mark.parametrize("corner_squares", [True, False])
