@@ -114,10 +114,20 @@ class CircleMap:
         return compute_polynomial_terms(table, _POWERS, np.full(2, self.unit), order)
 
 
-def fit_circle_map(xy: Array, uv: Array) -> CircleMap:
-    """Fit f to points `xy` (n, 2) of the board, pitches, and their images `uv` (n, 2) px."""
+def fit_circle_map(xy: Array, uv: Array, are_exact: bool = False) -> CircleMap:
+    """Fit f to points of the board and their images.
+
+    Args:
+        xy: (n, 2) pitches.
+        uv: (n, 2) px.
+        are_exact: whether `uv` are known to a fraction of a pixel, so that a lens is worth fitting
+            that bends little. What few circles leave of it to the polynomial, of low degree then,
+            makes the centres' bias 2 % too small, and with it the focal length wrong.
+    """
     centre, unit = (xy.min(axis=0) + xy.max(axis=0)) / 2, float(np.ptp(xy, axis=0).max()) / 2
-    flat = CircleMap(fit_radial_homography(xy, uv), centre, unit, np.zeros((len(_POWERS), 2)))
+    flat = CircleMap(
+        fit_radial_homography(xy, uv, are_exact), centre, unit, np.zeros((len(_POWERS), 2))
+    )
     degrees = _POWERS.sum(axis=1)
     carried = [
         k

@@ -288,7 +288,7 @@ def _verify_circles(fit: EllipseFit, xy: Array, image: GreyImage) -> _VerifiedCi
         # A circle that fails must not bend the map for the others.
         if np.count_nonzero(~good) > limits.max_rejected_share * len(good):
             raise _distrust(_TOO_MANY_FAIL)
-        circle_map = fit_circle_map(xy[good], uv[good])
+        circle_map = fit_circle_map(xy[good], uv[good], are_exact=True)
         J = circle_map.differentiate(xy)
         spread = np.linalg.solve(J, np.linalg.solve(J, fit.spread).transpose(0, 2, 1))
         own = np.sqrt(np.sqrt(np.maximum(np.linalg.det(spread), 0.0)))
@@ -323,7 +323,7 @@ def _estimate_scatter(xy: Array, uv: Array, covariance: Array) -> float:
         uv: (n, 2) their images, px.
         covariance: (n, 2, 2) px^2.
     """
-    circle_map = fit_circle_map(xy, uv)
+    circle_map = fit_circle_map(xy, uv, are_exact=True)
     freedom = uv.size - circle_map.parameters
     if freedom <= 0:
         return 0.0

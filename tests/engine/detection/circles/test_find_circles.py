@@ -57,6 +57,17 @@ def test_the_bias_of_the_centres_is_corrected(
     assert np.sqrt(np.mean((error + bias) ** 2)) > 10 * np.sqrt(np.mean(error**2))
 
 
+def test_few_circles_tell_the_bias_under_a_mild_lens() -> None:
+    """It grows with the tilt, so that a part of it that is left makes the focal length wrong."""
+    scene = Scene(Board(7, 3, 30.0, Circles(True, 0.7)), rvec=(0.6, 0.3, 0.2), distance=310.0)
+    corners = find_corners(scene.image(noise=1.0), (7, 3), pattern=Circles(True))
+    assert corners.complete and corners.cov is not None
+    error = scene.error(corners)
+    assert np.sqrt(np.mean(error**2)) < 0.004
+    chi2 = np.einsum("ni,nij,nj->n", error, np.linalg.inv(corners.cov), error) / 2
+    assert 0.5 < np.mean(chi2) < 1.6
+
+
 @pytest.mark.parametrize(
     ("pattern", "grid_size"), [(Circles(False, 0.5), (7, 9)), (Circles(True, 0.6), (11, 4))]
 )
