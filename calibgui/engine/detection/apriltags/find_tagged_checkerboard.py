@@ -9,6 +9,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from typing import NamedTuple
+
 import numpy as np
 import numpy.typing as npt
 
@@ -16,7 +19,12 @@ from calibgui.engine.arrays import Array, GreyImage, GridSize, IntArray
 from calibgui.engine.boards.tagged_checkerboard import TaggedCheckerboard, count_tagged_squares
 from calibgui.engine.detection import region_of_interest as region
 from calibgui.engine.detection.apriltags.tag_places import PlacedTags, place_tags
-from calibgui.engine.detection.apriltags.tag_reader import TagPrint, TagReader, list_prints
+from calibgui.engine.detection.apriltags.tag_reader import (
+    TagPrint,
+    TagReader,
+    list_prints,
+    rate_tags,
+)
 from calibgui.engine.detection.apriltags.tagged_corners import (
     fit_tagged_corners,
     refine_tagged_corners,
@@ -33,6 +41,10 @@ from calibgui.engine.detection.detector_io import check_grey_levels, invert_leve
 from calibgui.engine.detection.lattice import Lattice
 from calibgui.engine.errors import NoBoardError
 
+_PLAIN = 1 / 8
+"""How far from the corners nothing is printed, squares: the narrowest border of a tag, one of the
+eight cells of t36h11."""
+
 
 def find_tagged_checkerboard(
     image: npt.ArrayLike,
@@ -46,7 +58,7 @@ def find_tagged_checkerboard(
     outline = None if roi is None else region.check_outline(roi)
     searched = None if outline is None else region.enlarge_outline(outline)
     tried: list[Candidate] = []
-    for candidates in find_candidates(grey, searched):
+    for candidates in find_candidates(grey, searched, plain=_PLAIN):
         for candidate in candidates:
             if find_same(candidate, tried):
                 continue
@@ -81,20 +93,51 @@ def _identify_board(
     for image, seen in ((grey, lattice), (invert_levels(grey), _exchange_colours(lattice))):
         squares, quads = _list_dark_squares(seen)
         reader = TagReader(image, quads)
-        for tag_print in list_prints(pattern.family, pattern.border):
-            tags = reader.read(tag_print)
-            for turn in np.unique(tags.turns).tolist():
-                upright = tags.select(tags.turns == turn)
-                turned = turn_squares(squares[upright.which], seen.shape, turn)
-                cols = _count_tags_in_row(pattern, grid_size)
-                placed = place_tags(upright.numbers, turned, cols, pattern.from_top, pattern.step)
-                if placed is not None and (
-                    board := _place_lattice(
-                        turn_lattice(lattice, turn), upright.numbers, placed, grid_size
-                    )
-                ):
-                    return board, _describe_pattern(tag_print, placed)
+        boards = [
+            board
+            for tag_print in list_prints(pattern.family, pattern.border)
+            for board in _place_on_boards(lattice, reader, squares, tag_print, pattern, grid_size)
+        ]
+        if boards:
+            # With a border of the wrong width some of the tags are read all the same.
+            best = max(boards, key=lambda board: board.rating)
+            return best.lattice, best.pattern
     return None
+
+
+class _IdentifiedBoard(NamedTuple):
+    """A lattice as the board that its tags say it is."""
+
+    rating: float
+    """Number of tags that agree, each counting by how well it shows its number."""
+    lattice: Lattice
+    pattern: TaggedCheckerboard
+
+
+def _place_on_boards(
+    lattice: Lattice,
+    reader: TagReader,
+    squares: IntArray,
+    tag_print: TagPrint,
+    pattern: TaggedCheckerboard,
+    grid_size: GridSize | None,
+) -> Iterator[_IdentifiedBoard]:
+    """Place a lattice on the boards that the tags of one print, read in `squares` (n, 2), allow."""
+    tags = reader.read(tag_print)
+    for turn in np.unique(tags.turns).tolist():
+        upright = tags.select(tags.turns == turn)
+        turned = turn_squares(squares[upright.which], lattice.shape, turn)
+        cols = _count_tags_in_row(pattern, grid_size)
+        placed = place_tags(upright.numbers, turned, cols, pattern.from_top, pattern.step)
+        if placed is None:
+            continue
+        board = _place_lattice(turn_lattice(lattice, turn), upright.numbers, placed, grid_size)
+        if board is None:
+            continue
+        which = upright.which[placed.agree]
+        quads = reader.quads[which[:, None], (np.arange(4) + turn) % 4]
+        rates = rate_tags(reader.image, quads, tag_print, upright.numbers[placed.agree])
+        yield _IdentifiedBoard(float(rates.sum()), board, _describe_pattern(tag_print, placed))
 
 
 def _exchange_colours(lattice: Lattice) -> Lattice:

@@ -133,6 +133,12 @@ def verify_tags(
 ) -> BoolArray:
     """Verify which quadrilaterals (n, 4, 2) px show the tags of given numbers (n,), upright, by the
     steps between neighbouring cells: in part of a shadow no level parts dark cells from bright."""
+    return rate_tags(image, quads, tag_print, numbers) > _MIN_RIGHT_STEPS
+
+
+def rate_tags(image: GreyImage, quads: Array, tag_print: TagPrint, numbers: IntArray) -> Array:
+    """Rate quadrilaterals (n, 4, 2) px as the tags of given numbers (n,), upright, by the share of
+    the steps between neighbouring cells that have the sign that the number says, (n,)."""
     border = tag_print.border
     cells = load_family(tag_print.family).cells[numbers]
     ink = np.pad(cells, ((0, 0), (border, border), (border, border)), constant_values=True)
@@ -142,7 +148,7 @@ def verify_tags(
         expected = -np.diff(ink.astype(np.int64), axis=axis)
         right += (expected * np.diff(level, axis=axis) > 0).sum(axis=(1, 2))
         steps += (expected != 0).sum(axis=(1, 2))
-    return right > _MIN_RIGHT_STEPS * steps
+    return right / steps
 
 
 def rate_borders(image: GreyImage, quads: Array) -> Array:

@@ -39,6 +39,30 @@ def test_all_is_inferred(scene: Scene, inverted: bool) -> None:
     assert_at_bound(scene, corners, (0.8, 1.3))
 
 
+def test_a_narrow_border_is_not_read_as_a_wide_one() -> None:
+    """With cells of another size some of its tags can be read, and their cells disturb corners."""
+    scene = Scene(
+        Board(8, 10, 20.0, TaggedCheckerboard("t25h7", 1, 2, False)), camera=CAMERA, distance=300.0
+    )
+    corners = find_corners(scene.image(), pattern=TaggedCheckerboard())
+    assert corners.pattern == scene.board.pattern
+    assert corners.complete
+    assert_at_bound(scene, corners, (0.7, 1.4))
+
+
+def test_tags_between_corners_do_not_hide_the_board() -> None:
+    """Where something covers a part of the board, no corner can be spared beside the tags."""
+    scene = Scene(
+        Board(8, 10, 20.0, TaggedCheckerboard("t25h7", 1, 2, False)), camera=CAMERA, distance=330.0
+    )
+    image = scene.image(blur=1.2, noise=4.0)
+    image[150:210, 260:330] = 128
+    corners = find_corners(image, pattern=TaggedCheckerboard())
+    assert corners.shape == scene.board.grid_size
+    assert len(corners) >= 64
+    assert_at_bound(scene, corners, (0.7, 1.4))
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("scene", "blur", "noise"),
