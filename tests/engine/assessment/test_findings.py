@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -271,6 +273,21 @@ def test_a_bent_board_is_named_if_it_matters() -> None:
     assert finding.cause is Cause.BOARD_SHAPE
     assert "mm" in finding.evidence
     assert found(bent(0.01)) == ()
+
+
+def test_a_bowed_board_is_named_though_its_lens_is_followed_almost() -> None:
+    """It moves pixels by several, and the decentering that is held at 0 by a tenth of one."""
+    photographed = draw_rendered_set(np.random.default_rng(2))
+    exact = replace(
+        photographed,
+        noise=tuple(0.006 / photographed.level * noise for noise in photographed.noise),
+    )
+    middle, half = BOARD.points().mean(axis=0)[0], np.ptp(BOARD.points()[:, 0]) / 2
+    views = photograph(
+        exact, displace=lambda xy: np.column_stack([xy, 4 * ((xy[:, 0] - middle) / half) ** 2])
+    )
+    findings = found(views, fix=["p1", "p2"])
+    assert [finding.cause for finding in findings] == [Cause.BOARD_SHAPE]
 
 
 def test_two_views_are_too_few() -> None:
