@@ -71,13 +71,7 @@ class Detection:
             raise refuse_unreadable(self.views)
         seen = [view.corners for view in self.views if view.corners is not None]
         if self.grid_size is None and (largest := measure_largest_part(seen)) is not None:
-            rows, cols = largest
-            raise CalibrationError(
-                "No picture shows the whole board, so its size is not known: the largest part seen"
-                f" has {rows} x {cols} inner corners.",
-                f"State the size of the board: {rows} x {cols} if nothing of it lies beyond that "
-                "part, else count its inner corners.",
-            )
+            raise _explain_unknown_size(largest, self.pattern)
         board = None if self.grid_size is None else Board(*self.grid_size, square, self.pattern)
         return CornerSet(self.size, self.views, board)
 
@@ -176,6 +170,23 @@ def _describe_zero_tail(image: Image) -> str:
     return (
         f"The last {100 * image.zero_tail:.2g} % of the file are zeros: if the photograph is not "
         "black there, copy it from the camera again."
+    )
+
+
+def _explain_unknown_size(largest: GridSize, pattern: Pattern) -> CalibrationError:
+    """Return the error that pictures show parts of a board only, of which one is the `largest`."""
+    rows, cols = largest
+    points = "inner corners" if pattern.has_squares else "circles"
+    remedy = (
+        f"State the size of the board: {rows} x {cols} if nothing of it lies beyond that part, "
+        f"else count its {points}"
+    )
+    if not pattern.has_squares:
+        remedy += " and take pictures that show all of them: a grid is found whole or not at all"
+    return CalibrationError(
+        "No picture shows the whole board, so its size is not known: the largest part seen has "
+        f"{rows} x {cols} {points}.",
+        f"{remedy}.",
     )
 
 

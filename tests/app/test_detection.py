@@ -15,7 +15,9 @@ from calibgui.app.paths import find_images
 from calibgui.dataset import View, ViewStatus
 from calibgui.engine.arrays import freeze_array
 from calibgui.engine.boards.board import Board
-from calibgui.engine.boards.pattern import Symmetry
+from calibgui.engine.boards.checkerboard import CHECKERBOARD
+from calibgui.engine.boards.circle_grid import Circles
+from calibgui.engine.boards.pattern import Pattern, Symmetry
 from calibgui.engine.camera.distortion import project_points
 from calibgui.engine.detection.corners import Corners
 from calibgui.engine.errors import CalibrationError, Cancelled
@@ -208,7 +210,14 @@ def test_a_file_that_ends_in_zeros_is_pointed_out(photographs: Path, tmp_path: P
     assert "The last 98 % of the file are zeros" in cut.reason
 
 
-def test_parts_alone_do_not_tell_the_size() -> None:
+@pytest.mark.parametrize(
+    ("pattern", "points", "remedy"),
+    [
+        (CHECKERBOARD, "inner corners", "else count its inner corners."),
+        (Circles(), "circles", "take pictures that show all of them"),
+    ],
+)
+def test_parts_alone_do_not_tell_the_size(pattern: Pattern, points: str, remedy: str) -> None:
     """Two pictures that each show a part of the board."""
     views = []
     for rows, cols in ((4, 7), (5, 6)):
@@ -216,8 +225,9 @@ def test_parts_alone_do_not_tell_the_size() -> None:
         uv = 20.0 * grid[:, ::-1] + 50
         corners = Corners((rows, cols), grid, uv, uv)
         views.append(View(f"{rows}.png", ViewStatus.FOUND, corners=corners))
-    with pytest.raises(CalibrationError, match="largest part seen has 5 x 7 inner corners"):
-        Detection(tuple(views), (640, 480), None).corner_set(30.0)
+    with pytest.raises(CalibrationError, match=f"largest part seen has 5 x 7 {points}") as caught:
+        Detection(tuple(views), (640, 480), None, pattern).corner_set(30.0)
+    assert remedy in caught.value.hint
     assert Detection(tuple(views), (640, 480), (5, 7)).corner_set(30.0).board == Board(5, 7, 30.0)
 
 
