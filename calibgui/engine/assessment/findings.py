@@ -155,7 +155,7 @@ _MESSAGES = {
     "images were warped.",
     Cause.LINE_JITTER: "The image's rows are shifted sideways against each other.",
     Cause.DISAGREEMENT: "Each view is distorted in its own way, and no single cause explains it.",
-    Cause.BLUR: "Some views are less sharp than the others.",
+    Cause.BLUR: "Some views show the corners less well than the others.",
 }
 """Sentences that say what is wrong."""
 _ACTIONS = {
@@ -353,7 +353,7 @@ def _find_wrong_lens(case: Case, explained: float) -> Finding | None:
 
 
 def _find_blur(case: Case, failed: dict[str, NoiseCheck]) -> Finding | None:
-    """Find views that are less sharp than the others; None if that does no harm."""
+    """Find views whose corners scatter more than the others'; None if that does no harm."""
     check = failed.get("views")
     return None if check is None else _describe_check(case, check)
 

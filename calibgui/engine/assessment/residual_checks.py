@@ -125,8 +125,8 @@ _ADVICE_ON_ROUNDING = (
     "The errors have sharp limits, as if corners had been rounded: use subpixel corners."
 )
 _ADVICE_ON_BLUR = (
-    "Some views are less sharp than others: motion blur, defocus or bad light. Weight the views "
-    "by their noise, or take these again."
+    "Some views are less sharp than others: motion blur, defocus, bad light or a small board. "
+    "Weight the views by their noise, or take these again."
 )
 _ADVICE_ON_NEIGHBOURS = "Something smooth is left in the views that no cause above explains."
 _ADVICE_ON_DIRECTION = (

@@ -75,7 +75,9 @@ benchmark fixed."""
 _MIN_GAIN = 1.1
 """Ratio by which an estimated shape, another lens or weights must make the error smaller to be
 offered."""
-_REMEDY_OF_BLUR = "Take these again, sharp and in good light: to weigh them less brings little."
+_REMEDY_OF_BLUR = (
+    "Take these again, sharp, in good light and from nearer: to weigh them less brings little."
+)
 """The remedy of unequal noise where weights bring the camera little."""
 _MIN_VIEWS_TO_USE, _MIN_VIEWS_TO_BE_GOOD = 3, 5
 """Number of views below which a calibration is not usable, and not good, however small its error is

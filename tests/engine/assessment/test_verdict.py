@@ -73,6 +73,7 @@ def test_unequal_noise_is_told_where_sharper_photographs_would_help(
     assert (verdict.grade, [finding.cause for finding in verdict.findings]) == (grade, causes)
     for finding in verdict.findings:
         assert finding.action is None and finding.remedy.startswith("Take these again, sharp")
+        assert "sharp" not in finding.message, "a board that is far away does the same"
 
 
 @pytest.mark.parametrize(("count", "grade"), [(2, Grade.NOT_USABLE), (4, Grade.USABLE)])
