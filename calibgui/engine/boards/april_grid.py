@@ -30,6 +30,12 @@ from calibgui.engine.errors import CalibrationError
 
 MAX_BORDER = 2
 """Greatest width of a tag's border, cells."""
+_SIGMA_OF_MEDIAN = 1.4826 * 1.2533
+"""Standard deviation of the median of n normal numbers, times the root of n, over the median of
+their absolute deviations."""
+_MIN_SIGMA_OF_GAP = 7e-5
+"""Least standard deviation of a gap that photographs tell, sides of a tag: all are off by as much
+in the same sense if the lens is not radial. In rendered photographs it was up to 1.2e-4."""
 
 
 class TagLayout(NamedTuple):
@@ -89,7 +95,8 @@ class AprilGrid(CodedPattern):
         return np.asarray((1 + self.spacing) * tag + corner)
 
     def complete_from(self, seen: Sequence[Pattern]) -> AprilGrid:
-        """See ``Pattern``: the gap is the median of those seen, the rest what was seen most."""
+        """See ``Pattern``: the gap is the median of those seen, or a round number as likely;
+        the rest is what was seen most."""
         boards = [pattern for pattern in seen if isinstance(pattern, AprilGrid)]
         if not boards:
             return self
@@ -98,7 +105,7 @@ class AprilGrid(CodedPattern):
         )
         family, border, from_top, squares = most.most_common(1)[0][0]
         gaps = [board.spacing for board in boards if board.spacing]
-        gap = round(float(np.median(gaps)), 4) if gaps else None
+        gap = _combine_gaps(gaps) if gaps else None
         return self.fill_unknown(
             family=family, spacing=gap, border=border, from_top=from_top, corner_squares=squares
         )
@@ -132,6 +139,19 @@ class AprilGrid(CodedPattern):
         )
         x[-1], y[-1] = x[-2] + self.spacing, y[-2] + self.spacing
         return PrintedRectangles(np.append(-self.spacing, x), np.append(-self.spacing, y), dark)
+
+
+def _combine_gaps(gaps: Sequence[float]) -> float:
+    """Return the median of gaps that were measured, or the roundest number that is as likely.
+
+    Gaps are drawn as round numbers. A ten-thousandth of a tag's side is more than its corners are
+    off by, so that a calibration would doubt a board whose gap is rounded down to 0.2999.
+    """
+    median = float(np.median(gaps))
+    scatter = _SIGMA_OF_MEDIAN * float(np.median(np.abs(np.array(gaps) - median)))
+    most = 2 * max(scatter / len(gaps) ** 0.5, _MIN_SIGMA_OF_GAP)
+    likely = [round(median, digits) for digits in (2, 3, 4)]
+    return next((number for number in likely if abs(number - median) < most), likely[-1])
 
 
 def count_tags(grid_size: GridSize) -> GridSize:

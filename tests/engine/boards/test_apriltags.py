@@ -108,6 +108,8 @@ def test_what_cannot_be(make: object, says: str) -> None:
 def test_images_together_tell_more() -> None:
     seen = [AprilGrid("t36h11", s, 2, False) for s in (0.2991, 0.2857, 0.28569)]
     assert AprilGrid().complete_from(seen) == AprilGrid("t36h11", 0.2857, 2, False)
+    nearly = [AprilGrid("t36h11", s, 2, False) for s in (0.29986, 0.29991, 0.29995, 0.3)]
+    assert AprilGrid().complete_from(nearly).spacing == 0.3
     assert AprilGrid(spacing=0.25).complete_from(seen).spacing == 0.25
     assert AprilGrid().complete_from([]) == AprilGrid()
     tagged = TaggedCheckerboard("t25h7", 2, 4, False)

@@ -163,7 +163,7 @@ def _locate_corners(
             "State gap and side as measured, or leave the gap out.",
         )
     seen = AprilGrid(
-        tag_print.family, round(gap, 4), tag_print.border, tags.layout.from_top, has_squares
+        tag_print.family, round(gap, 5), tag_print.border, tags.layout.from_top, has_squares
     )
     return assemble_corners(grey, lattice, fit, outline, rejected, seen)
 
