@@ -75,6 +75,8 @@ benchmark fixed."""
 _MIN_GAIN = 1.1
 """Ratio by which an estimated shape, another lens or weights must make the error smaller to be
 offered."""
+_MAX_TELLING_PX = 100.0
+"""Error of the worst pixel from which its size says no more than that it is not known, px."""
 _REMEDY_OF_BLUR = (
     "Take these again, sharp, in good light and from nearer: to weigh them less brings little."
 )
@@ -434,6 +436,13 @@ def _grade(
         return Grade.GOOD, "The photographs show nothing wrong."
     grade = Grade.GOOD if error.median <= MAX_GOOD_PX else Grade.USABLE
     return grade, (
-        "Nothing is wrong where there are corners; beyond them pixels are known to "
-        f"{format_two_digits(error.worst)} px: bring corners closer to the image's edge."
+        "Nothing is wrong where there are corners; beyond them pixels are "
+        f"{_tell_how_known(error)}: bring corners closer to the image's edge."
     )
+
+
+def _tell_how_known(error: PixelError) -> str:
+    """Say how well the worst pixel is known, unless a lens that is open there makes it anything."""
+    if not error.worst < _MAX_TELLING_PX:
+        return "not known"
+    return f"known to {format_two_digits(error.worst)} px"

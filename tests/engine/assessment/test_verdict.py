@@ -11,7 +11,14 @@ import pytest
 
 from calibgui.engine.assessment.comparison import compare_cameras
 from calibgui.engine.assessment.finding import Action, ActionKind, Cause
-from calibgui.engine.assessment.verdict import Grade, Verdict, judge_calibration, try_action
+from calibgui.engine.assessment.verdict import (
+    Grade,
+    PixelError,
+    Verdict,
+    _grade,
+    judge_calibration,
+    try_action,
+)
 from calibgui.engine.boards.shape import BoardShapeModel
 from calibgui.engine.calibration.calibrate import calibrate
 from calibgui.engine.calibration.observations import Observation
@@ -74,6 +81,15 @@ def test_unequal_noise_is_told_where_sharper_photographs_would_help(
     for finding in verdict.findings:
         assert finding.action is None and finding.remedy.startswith("Take these again, sharp")
         assert "sharp" not in finding.message, "a board that is far away does the same"
+
+
+@pytest.mark.parametrize(("worst", "known"), [(3.0, "known to 3.0 px"), (27e3, "not known")])
+def test_an_error_of_thousands_of_pixels_is_no_number(worst: float, known: str) -> None:
+    """A rational lens that is open beyond the corners may image their neighbours anywhere."""
+    calibration = calibrate(CLEAN, VGA)
+    error = PixelError(0.02, worst, worst, 0.02, 0.02, 0.03)
+    _, reason = _grade(calibration, error, [])
+    assert f"beyond them pixels are {known}:" in reason
 
 
 @pytest.mark.parametrize(("count", "grade"), [(2, Grade.NOT_USABLE), (4, Grade.USABLE)])
