@@ -50,8 +50,9 @@ _SAME_CORNER = 0.5
 full resolution, and where there is none, places that are refined from there, px."""
 
 
-IsOther = Callable[[Lattice, GreyImage], bool]
-"""Test of whether a lattice in a level of the image is none of the boards that are looked for."""
+IsOther = Callable[[Lattice, int], bool]
+"""Test of whether a lattice, placed in full resolution as a level of a depth shows it, is none of
+the boards that are looked for; the full resolution is of depth 0."""
 OnRefusal = Callable[[Refusal], object]
 """What is called with every lattice that the prefilter refuses though it is large enough."""
 
@@ -64,6 +65,8 @@ class Candidate:
     others: int
     """Number of X-junctions seen beside its own corners in the level that it was found in, but for
     those too faint to be corners of the same board."""
+    is_other: bool = False
+    """True if it is none of the boards that are looked for: it was neither grown nor refined."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -71,6 +74,8 @@ class _LevelContent:
     """The junctions and lattices of one level of the image."""
 
     image: GreyImage
+    depth: int
+    """How often the image was halved."""
     saddles: Saddles
     junctions: Junctions
     """The saddles that are X-junctions."""
@@ -115,7 +120,9 @@ def find_candidates(
     waiting: list[tuple[int, _LevelContent]] = []
     shown: tuple[int, list[Array]] | None = None
     for depth in reversed(range(len(levels))):
-        content = _analyse_level(levels[depth], min_contrast, outlines[depth], plain, on_refusal)
+        content = _analyse_level(
+            levels[depth], depth, min_contrast, outlines[depth], plain, on_refusal
+        )
         shown = shown or (len(content.junctions), [each.uv for each in content.lattices])
         if depth and content.lattices and not _is_resolved(content.lattices[0]):
             # The finer levels may show all of its small squares: until then it is of no use.
@@ -139,6 +146,7 @@ def find_candidates(
     while min(levels[depth].shape) > limits.min_parted_level_side:
         content = _analyse_level(
             levels[depth],
+            depth,
             min_contrast,
             _scale_to_level(outline, depth),
             plain,
@@ -171,8 +179,14 @@ def _scale_to_level(uv: Array | None, depth: int) -> Array | None:
     return None if uv is None else (uv + 0.5) / 2**depth - 0.5
 
 
+def _place_in_image(lattice: Lattice, depth: int) -> Lattice:
+    """Place a lattice of a level in full resolution, where it lies to some 2^depth / 2 px."""
+    return Lattice(2**depth * (lattice.uv + 0.5) - 0.5, lattice.dark)
+
+
 def _analyse_level(
     image: GreyImage,
+    depth: int,
     min_contrast: float,
     outline: Array | None,
     plain: float,
@@ -183,6 +197,7 @@ def _analyse_level(
 
     Args:
         image: (h, w) grey levels.
+        depth: how often the image was halved to it.
         min_contrast: least contrast of a junction, grey levels.
         outline: (m, 2) convex outline, px, that junctions must not leave.
         plain: how far from the corners nothing is printed, squares.
@@ -195,7 +210,7 @@ def _analyse_level(
     _, junctions = classify_saddles(saddles, tolerance)
     most = THRESHOLDS.search.max_grown_lattices
     lattices = find_lattices(saddles, junctions, most, tolerance, plain)
-    content = _LevelContent(image, saddles, junctions, lattices, plain, on_refusal)
+    content = _LevelContent(image, depth, saddles, junctions, lattices, plain, on_refusal)
     return replace(content, lattices=[each for each in lattices if not _refuse(each, content)])
 
 
@@ -237,16 +252,20 @@ def _grow_lattices(
     if not seeds:
         return []
 
+    def is_none_wanted(lattice: Lattice) -> bool:
+        return is_other(_place_in_image(lattice, content.depth), content.depth)
+
     def is_hopeless(lattice: Lattice) -> bool:
-        image = content.image
-        return prefilter.is_hopeless(lattice, image, content.plain) or is_other(lattice, image)
+        return prefilter.is_hopeless(lattice, content.image, content.plain) or is_none_wanted(
+            lattice
+        )
 
     limits, smooth = THRESHOLDS.search, content.saddles.smooth
     nearby, beyond = (
         PointIndex(smooth, points.uv) for points in (content.saddles, content.junctions)
     )
     grown: list[Lattice] = []
-    hopeful: list[Lattice] = []
+    found: list[Candidate] = []
     sparse = 0
     for seed in seeds:
         is_texture = sparse >= limits.max_sparse_lattices
@@ -254,19 +273,18 @@ def _grow_lattices(
             continue
         if any(is_part(seed, other) for other in grown):
             continue
-        lattice = grow_lattice(seed, nearby, beyond, is_hopeless)
+        is_wanted = len(seed) < limits.min_judged_corners or not is_none_wanted(seed)
+        lattice = grow_lattice(seed, nearby, beyond, is_hopeless) if is_wanted else seed
         grown.append(lattice)
         sparse += compute_filled_share(lattice) < limits.min_filled_in_texture
-        # The seeds passed the prefilter before.
-        if lattice is seed or not _refuse(lattice, content):
-            hopeful.append(verification.drop_stray_lines(lattice, smooth))
-    return _drop_parts(
-        [
-            Candidate(lattice, _count_others(lattice, content.junctions))
-            for lattice in hopeful
-            if is_sufficient(lattice)
-        ]
-    )
+        if lattice is not seed and _refuse(lattice, content):  # the seeds passed that before
+            continue
+        if is_wanted:
+            lattice = verification.drop_stray_lines(lattice, smooth)
+        if is_sufficient(lattice):
+            others = _count_others(lattice, content.junctions)
+            found.append(Candidate(lattice, others, is_other=not is_wanted))
+    return _drop_parts(found)
 
 
 def _count_others(lattice: Lattice, junctions: Junctions) -> int:
@@ -362,15 +380,18 @@ def _is_resolved(lattice: Lattice, min_square: float = THRESHOLDS.search.min_squ
 def _carry_down(
     found: list[Candidate], known: list[Candidate], finer: list[GreyImage]
 ) -> list[Candidate]:
-    """Carry the candidates found in a level to the first of the `finer` ones, refining them at
-    each, but for parts of larger ones that are known: of as many corners as textures have, that
-    would take longer than all else."""
+    """Carry the candidates found in a level to the first of the `finer` ones, refining those that
+    may be wanted at each, but for parts of larger ones that are known: of as many corners as
+    textures have, that would take longer than all else."""
     limits, carried = THRESHOLDS.search, []
     for candidate in found:
-        lattice, scale = candidate.lattice, 2 ** len(finer)
-        placed = Lattice(scale * (lattice.uv + 0.5) - 0.5, lattice.dark)
+        lattice = candidate.lattice
+        placed = _place_in_image(lattice, len(finer))
         larger = (each.lattice for each in known if len(each.lattice) > len(lattice))
         if any(is_part(placed, each) for each in larger):
+            continue
+        if candidate.is_other:
+            carried.append(replace(candidate, lattice=placed))
             continue
         for image in reversed(finer):
             doubled = Lattice(2 * lattice.uv + 0.5, lattice.dark)

@@ -32,6 +32,7 @@ from calibgui.engine.detection.checkerboard.thresholds import THRESHOLDS
 from calibgui.engine.detection.checkerboard.x_corner_fit import XCornerFit
 from calibgui.engine.detection.corners import find_usable_covariances
 from calibgui.engine.detection.lattice import (
+    MAX_GAP,
     Lattice,
     add_border,
     drop_isolated,
@@ -49,6 +50,8 @@ TOO_BLURRED = "its edges are too blurred, or too ragged, to be told from waves"
 _INSIDE_SQUARES = np.array([[0.5, 0.3], [0.5, 0.7], [0.3, 0.5], [0.7, 0.5]])
 """Where whole squares beside a corner are sampled, apart from their edges, which blur, or what lies
 on the corner, may hide: steps along and across."""
+_LINES_THAT_PREDICT = MAX_GAP + 2
+"""Number of lines of a lattice, the first, on which places and steps in front of it depend."""
 _PLAIN_NEAR = 0.25
 """Distance from the corners, squares, to which marks in the squares, and what hides a part of them,
 do not reach."""
@@ -442,7 +445,7 @@ def _measure_differences_above(lattice: Lattice, image: GreyImage, offsets: Arra
         (2, m, n) grey levels at the n places in the image, of the squares in front of the line and
         of those behind it, positive as in a board that goes on.
     """
-    uv = add_border(lattice.uv, 1)
+    uv = add_border(lattice.uv[:_LINES_THAT_PREDICT], 1)
     place = predict_places(uv)[0]
     right, down = (step[0] for step in estimate_steps(uv))
     usable = np.isfinite(place + right + down).all(axis=1) & are_in_image(place, image.shape)

@@ -55,11 +55,11 @@ from calibgui.engine.errors import NoBoardError
 _MAX_SHOWN_LINES = 6
 """Greatest number of rows, and of columns, of a lattice without dots that are verified to say that
 it is a board: it bounds the time."""
-_MAX_COMPARED_LINES = 20
-"""Greatest number of rows, and of columns, of which the dots are looked at first: as many as
-`may_be_dots` tells chance from."""
+_MAX_COMPARED = 800
+"""Number of corners of a large lattice between which dots are looked for: what is read in the
+"halftone" of `tests.scenes.without_board` passes for dots of the pattern between up to 550."""
 _MIN_SEEN_SHARE = 0.5
-"""Least share of the places in the middle that show corners, if it is to tell."""
+"""Least share of these that are seen in the middle, if it is to tell."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -120,8 +120,8 @@ def _find_boards(
     placed: list[_PlacedBoard] = []
     bare: list[Candidate] = []
 
-    def is_other(lattice: Lattice, level: GreyImage) -> bool:
-        return level is grey and _lacks_dots(lattice, grey)  # coarser ones may blur dots away
+    def is_other(lattice: Lattice, depth: int) -> bool:
+        return _lacks_dots(lattice, grey, depth)
 
     for candidates in find_candidates(grey, searched, plain=PLAIN, is_other=is_other):
         for candidate in candidates:
@@ -131,7 +131,7 @@ def _find_boards(
             tried[candidate] = _find_known(candidate.lattice, placed)
             if same or tried[candidate]:
                 continue
-            if _may_show_dots(grey, candidate.lattice):
+            if not candidate.is_other and _may_show_dots(candidate.lattice, grey):
                 lattice, _ = refine_lattice(grey, candidate.lattice, plain=PLAIN)
                 tried[candidate] = _verify_lattice(grey, lattice, candidate.others, method, stated)
             else:
@@ -142,23 +142,21 @@ def _find_boards(
     return placed, bare
 
 
-def _lacks_dots(lattice: Lattice, grey: GreyImage) -> bool:
-    """Return whether a lattice is large enough to tell that it has no dots."""
+def _lacks_dots(lattice: Lattice, grey: GreyImage, depth: int) -> bool:
+    """Return whether a lattice that a level of a depth shows is large enough to tell that it has no
+    dots: the corners of a small one of a coarser level may be off."""
+    if len(lattice) >= _MIN_SEEN_SHARE * _MAX_COMPARED:
+        return not _may_show_dots(lattice, grey)
     is_large = len(lattice) >= THRESHOLDS.prefilter.min_corners_to_tell
-    return is_large and not are_there_dots(measure_dots(grey, lattice))
+    return depth == 0 and is_large and not are_there_dots(measure_dots(grey, lattice))
 
 
-def _may_show_dots(grey: GreyImage, lattice: Lattice) -> bool:
-    """Return whether there may be dots between the corners of a lattice: first between those in its
-    middle, if they are not mostly hidden, since all may be thousands."""
-    middle = _cut_middle(lattice, _MAX_COMPARED_LINES)
-    parts = [lattice]
-    if _MIN_SEEN_SHARE * _MAX_COMPARED_LINES**2 < len(middle) < len(lattice):
-        parts.insert(0, middle)
-    return all(
-        may_be_dots(measure_dots(grey, refine_lattice(grey, part, plain=PLAIN)[0]))
-        for part in parts
-    )
+def _may_show_dots(lattice: Lattice, grey: GreyImage) -> bool:
+    """Return whether there may be dots between the corners of a lattice: those in its middle, if
+    they are not mostly hidden, since all may be thousands."""
+    middle = _cut_middle(lattice, int(np.sqrt(_MAX_COMPARED / compute_filled_share(lattice))))
+    part = middle if len(middle) >= _MIN_SEEN_SHARE * _MAX_COMPARED else lattice
+    return may_be_dots(measure_dots(grey, refine_lattice(grey, part, plain=PLAIN)[0]))
 
 
 def _find_known(lattice: Lattice, placed: list[_PlacedBoard]) -> _PlacedBoard | None:

@@ -26,6 +26,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cache
+from typing import NamedTuple
 
 import numpy as np
 import scipy
@@ -124,6 +125,16 @@ class StatedBoard:
     """Its rows and columns."""
 
 
+class _Comparison(NamedTuple):
+    """What dots between rows, or between columns, say of the offsets into their map, for each of k
+    shares of wrong ones: parts of log L."""
+
+    even: Array
+    """(k,) the same for all offsets."""
+    odd: Array
+    """(k, 501) what the map adds at each offset; less that if dark and white are exchanged."""
+
+
 def find_place(dots: Dots, board: StatedBoard | None = None) -> Place:
     """Find the likeliest place of the dots on the pattern; any, with a doubt of 1, if none is half
     as likely as that they are no such pattern.
@@ -132,7 +143,8 @@ def find_place(dots: Dots, board: StatedBoard | None = None) -> Place:
         dots: of a lattice that is not mirrored.
         board: the part of the pattern that is expected, if it is known.
     """
-    turned, logs, tops = _compare_turns(dots)
+    logs = [_compute_logs(*pair) for pair in _compare_turns(dots)]
+    tops = [_find_top(*pair) for pair in logs]
     # Factors of hundreds of dots overflow: all weights are divided by the greatest that may be.
     shift = max(0.0, *tops)
     greatest = _ANYWHERE_WEIGHT / _count_places(dots.grid_size)
@@ -140,10 +152,11 @@ def find_place(dots: Dots, board: StatedBoard | None = None) -> Place:
     if shift < np.log(_NOWHERE_WEIGHT / 2) - np.log(greatest):
         return Place(0, (0, 0), 1.0)
     total, best = _NOWHERE_WEIGHT * np.exp(-shift), (-1.0, 0, 0)
-    for quarters, (each, top, factors) in enumerate(zip(turned, tops, logs, strict=True)):
+    for quarters, (top, factors) in enumerate(zip(tops, logs, strict=True)):
         if top < shift - _NEGLIGIBLE:
             continue
-        weights = _weigh_places(each.grid_size, board) * _multiply_factors(*factors, shift)
+        grid_size = dots.grid_size if quarters % 2 == 0 else dots.grid_size[::-1]
+        weights = _weigh_places(grid_size, board) * _multiply_factors(*factors, shift)
         total += float(weights.sum())
         best = max(best, (float(weights.max()), quarters, int(np.argmax(weights))))
     weight, quarters, at = best
@@ -152,22 +165,38 @@ def find_place(dots: Dots, board: StatedBoard | None = None) -> Place:
     return Place(quarters, (first[0], first[1]), doubt)
 
 
-def _compare_turns(dots: Dots) -> tuple[list[Dots], list[tuple[Array, Array]], list[float]]:
-    """Compare dots in all four turns with the pattern.
-
-    Returns:
-        The turned dots, what `_compare_with_map` returns of those between rows and of those between
-        columns, and the logarithm of the greatest factor L of any place and share.
-    """
+def _compare_turns(dots: Dots) -> list[tuple[_Comparison, _Comparison]]:
+    """Compare dots in all four turns with the pattern: those between rows, and those between
+    columns."""
     mean, sigma = measure_dot_noise(dots)
-    turned = [dots]
+    log_odds = 2 * mean / sigma**2
+    right, down = (_weigh_dots(log_odds * each) for each in (dots.right, dots.down))
+    turned = [Dots(right[1], down[1])]
     for _ in range(3):
         turned.append(turned[-1].turn())
-    log_odds = 2 * mean / sigma**2
-    down = _compare_with_map([log_odds * each.down for each in turned], "down")
-    right = _compare_with_map([log_odds * each.right.T for each in turned], "right")
-    logs = [*zip(down, right, strict=True)]
-    return turned, logs, [float((a.max(axis=1) + b.max(axis=1)).max()) for a, b in logs]
+    by_row = _compare_with_map([each.down for each in turned], "down")
+    by_col = _compare_with_map([each.right.swapaxes(0, 1) for each in turned], "right")
+    evens = [(down[0], right[0]), (right[0], down[0])] * 2  # a quarter turn exchanges them
+    return [
+        (_Comparison(a, odd_a), _Comparison(b, odd_b))
+        for (a, b), odd_a, odd_b in zip(evens, by_row, by_col, strict=True)
+    ]
+
+
+def _compute_logs(
+    by_row: _Comparison, by_col: _Comparison, is_inverted: bool = False
+) -> tuple[Array, Array]:
+    """Compute the logarithms (k, 501) and (k, 501) of the factors L of the dots between rows and
+    between columns, or of a print in which dark and white are exchanged."""
+    sign = -1.0 if is_inverted else 1.0
+    a, b = (each.even[:, None] + sign * each.odd for each in (by_row, by_col))
+    return a, b
+
+
+def _find_top(by_row: Array, by_col: Array) -> float:
+    """Find the logarithm of the greatest factor L of any place and share of wrong dots; arguments
+    as `_compute_logs` returns them."""
+    return float((by_row.max(axis=1) + by_col.max(axis=1)).max())
 
 
 def are_there_dots(dots: Dots) -> bool:
@@ -183,9 +212,13 @@ def may_be_dots(dots: Dots) -> bool:
     count = sum(int(np.count_nonzero(np.isfinite(each))) for each in (dots.right, dots.down))
     if count < _MIN_DOTS_TO_TELL:
         return True
-    prints = (dots, dots.invert(), dots.mirror())
     least = max(_MIN_EVIDENCE * count, _MIN_ALL_EVIDENCE)
-    return any(max(_compare_turns(each)[2]) > least for each in prints)
+    return any(
+        _find_top(*_compute_logs(*pair, is_inverted)) > least
+        for seen, signs in ((dots, (False, True)), (dots.mirror(), (False,)))
+        for pair in _compare_turns(seen)
+        for is_inverted in signs
+    )
 
 
 def find_place_of_print(dots: Dots, board: StatedBoard | None = None) -> tuple[Place, bool]:
@@ -225,38 +258,41 @@ def measure_dot_noise(dots: Dots) -> tuple[float, float]:
     return mean, float(np.sqrt(max(square - mean**2, _MIN_LEVEL_SIGMA**2)))
 
 
-def _compare_with_map(log_odds: list[Array], name: str) -> Array:
+def _compare_with_map(white: list[Array], name: str) -> Array:
     """Compare sets of dots with a map at all of its offsets.
 
     Args:
-        log_odds: per set (n, m) of white to dark, NaN where not seen; the first index is the one
-            that counts modulo 3.
+        white: per set (n, m, k) what white dots add for each share of wrong ones, as `_weigh_dots`;
+            the first index is the one that counts modulo 3.
         name: of the map, "down" or "right".
 
     Returns:
-        Per set the logarithms (k, 501) of the factors L for each share of wrong dots and each
-        offset, 167 times the first offset plus the second.
+        Per set (k, 501) what the map adds for each share and each offset, 167 times the first
+        offset plus the second.
     """
-    even, by_cell = zip(*map(_sum_by_cell, log_odds), strict=True)
-    odd = np.concatenate(by_cell) @ _list_offsets(name)
-    return np.array(even)[..., None] + odd.reshape(len(even), -1, CODE_LINES)
+    odd = np.concatenate([_sum_by_cell(each) for each in white]) @ _list_offsets(name)
+    return odd.reshape(len(white), -1, CODE_LINES)
 
 
-def _sum_by_cell(log_odds: Array) -> tuple[Array, Array]:
-    """Sum what dots (n, m) say for each share of wrong ones: (k,) the part of log L that is the
-    same for white and dark cells, and (k, 501) by cell of a map what a white one adds to it, and a
-    dark one takes from it."""
-    odds = np.where(np.isfinite(log_odds), log_odds, 0.0)
+def _weigh_dots(log_odds: Array) -> tuple[Array, Array]:
+    """Weigh dots of the log odds (n, m) of white to dark, NaN where not seen, for each share of
+    wrong ones: (k,) the part of log L that is the same for white and dark cells of a map, and
+    (n, m, k) what a white one adds to it, and a dark one takes from it."""
+    odds = np.where(np.isfinite(log_odds), log_odds, 0.0)[..., None]
     white, dark = scipy.special.expit(odds), scipy.special.expit(-odds)
-    wrong = _WRONG_SHARES[:, None, None]
-    if_white = np.log(2 * ((1 - wrong) * white + wrong * dark))
-    if_dark = np.log(2 * ((1 - wrong) * dark + wrong * white))
-    n, m = odds.shape
+    if_white = np.log(2 * ((1 - _WRONG_SHARES) * white + _WRONG_SHARES * dark))
+    if_dark = np.log(2 * ((1 - _WRONG_SHARES) * dark + _WRONG_SHARES * white))
+    return (if_white + if_dark).sum(axis=(0, 1)) / 2, (if_white - if_dark) / 2
+
+
+def _sum_by_cell(white: Array) -> Array:
+    """Sum what white dots (n, m, k) add by the cell of a map on which they lie: (k, 501)."""
+    n, m, _ = white.shape
     cell = (np.arange(n)[:, None] % CODE_ROWS) * CODE_COLS + np.arange(m) % CODE_COLS
-    by_cell = [
-        np.bincount(cell.ravel(), each.ravel(), CODE_LINES) for each in (if_white - if_dark) / 2
-    ]
-    return (if_white + if_dark).sum(axis=(1, 2)) / 2, np.array(by_cell, np.float64)
+    return np.array(
+        [np.bincount(cell.ravel(), each.ravel(), CODE_LINES) for each in np.moveaxis(white, 2, 0)],
+        np.float64,
+    )
 
 
 def _multiply_factors(down: Array, right: Array, shift: float) -> Array:
