@@ -14,7 +14,7 @@ is no evidence: ragged parts of almost any size hang together by chance.
 
 from __future__ import annotations
 
-import numpy as np
+import math
 
 from calibgui.engine.arrays import BoolArray
 from calibgui.engine.detection.checkerboard.thresholds import THRESHOLDS
@@ -22,7 +22,7 @@ from calibgui.engine.detection.lattice import list_full_rectangles
 
 BY_CHANCE = "squares at random could have formed it"
 """The reason for which a lattice that chance explains is refused, as the end of a sentence."""
-_MOST = float(np.log2(THRESHOLDS.verification.max_false_boards))
+_MOST = math.log2(THRESHOLDS.verification.max_false_boards)
 
 
 def is_meaningful(found: BoolArray, others: int) -> bool:
@@ -32,7 +32,16 @@ def is_meaningful(found: BoolArray, others: int) -> bool:
         found: (rows, cols) mask of its corners.
         others: number J of corners seen in the image that are not its own; 0 counts as 1.
     """
-    return any(
-        np.log2(max(others, 1) * height * width) - ((height + 1) * (width + 1) - 4) < _MOST
-        for _, _, height, width in list_full_rectangles(found)
+    return math.log2(max(others, 1)) < bound_log_others(found)
+
+
+def bound_log_others(found: BoolArray) -> float:
+    """Return the binary logarithm of the number J of other corners in the image below which chance
+    does not explain a lattice of the corners `found` (rows, cols)."""
+    return max(
+        (
+            _MOST + (height + 1) * (width + 1) - 4 - math.log2(height * width)
+            for _, _, height, width in list_full_rectangles(found)
+        ),
+        default=-math.inf,
     )

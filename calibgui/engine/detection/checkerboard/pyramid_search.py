@@ -17,6 +17,7 @@ Pixel (u, v) of a level covers the block around (2u + 1/2, 2v + 1/2) of the next
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
 
@@ -229,13 +230,17 @@ def _refuse(lattice: Lattice, content: _LevelContent) -> bool:
 def _is_chance(lattice: Lattice, junctions: Junctions) -> bool:
     """Return whether a lattice is one of the sparse ones that any texture holds: chance explains it
     beside all the other `junctions`, its own being among them, that are not too faint."""
+    if compute_filled_share(lattice) >= THRESHOLDS.search.min_filled_in_texture:
+        return False
+    bound = a_contrario.bound_log_others(lattice.found)
+    if math.log2(max(len(junctions) - len(lattice), 1)) < bound:
+        return False
     own = np.isin(junctions.uv[:, 0], lattice.uv[..., 0])
-    is_sparse = compute_filled_share(lattice) < THRESHOLDS.search.min_filled_in_texture
-    if not (is_sparse and own.any()):
+    if not own.any():
         return False
     least = _find_least_contrast(junctions.contrast[own])
     others = int(np.count_nonzero(junctions.contrast > least)) - len(lattice)
-    return not a_contrario.is_meaningful(lattice.found, others)
+    return math.log2(max(others, 1)) >= bound
 
 
 def _grow_lattices(
@@ -320,11 +325,12 @@ def _select_new(content: _LevelContent, junctions: int, shown: list[Array]) -> l
 def _select_missed(
     lattices: list[Lattice], depth: int, candidates: list[Candidate]
 ) -> list[Lattice]:
-    """Select the lattices of a level that are no part of a candidate without gaps."""
+    """Select the lattices of a level that are no part of a candidate without gaps, or of one that
+    is another board."""
     full = [
         Lattice(np.asarray(_scale_to_level(known.lattice.uv, depth)), known.lattice.dark)
         for known in candidates
-        if known.lattice.found.all()
+        if known.is_other or known.lattice.found.all()
     ]
     return [
         lattice

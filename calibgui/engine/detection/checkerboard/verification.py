@@ -178,13 +178,14 @@ def drop_stray_lines(lattice: Lattice, image: GreyImage) -> Lattice:
     across, along = np.count_nonzero(found, axis=1), np.count_nonzero(found, axis=0)
     if (across[[0, -1]] >= least[1]).all() and (along[[0, -1]] >= least[0]).all():
         return lattice
+    step = _compute_square_difference(lattice, image)
     for quarters in range(4):
         turned = turn_lattice(lattice, quarters)
         if not len(turned.uv):
             continue
         if np.count_nonzero(turned.found[0]) < limits.min_border_corners * turned.shape[1]:
             rest = drop_isolated_and_crop(Lattice(turned.uv[1:], not turned.dark))
-            if len(rest) and _does_end_above(rest, image, _compute_square_difference(rest, image)):
+            if len(rest) and _does_end_above(rest, image, step):
                 lattice = turn_lattice(rest, -quarters)
     return lattice
 
@@ -192,13 +193,14 @@ def drop_stray_lines(lattice: Lattice, image: GreyImage) -> Lattice:
 def _drop_beyond_ends(lattice: Lattice, image: GreyImage) -> Lattice:
     """Drop the lesser part of a lattice beyond a line without a corner before which the board is
     seen to end: it is another board's, or what surrounds this one."""
+    step = _compute_square_difference(lattice, image)
     for quarters in range(4):
         turned = turn_lattice(lattice, quarters)
         for row in np.flatnonzero(~turned.found.any(axis=1))[::-1] + 1:
             rest = drop_isolated_and_crop(Lattice(turned.uv[row:], turned.dark ^ bool(row % 2)))
             if 2 * len(rest) <= len(lattice):
                 continue
-            if _does_end_above(rest, image, _compute_square_difference(rest, image)):
+            if _does_end_above(rest, image, step):
                 lattice = turn_lattice(rest, -quarters)
             break
     return lattice
