@@ -11,6 +11,7 @@ grid map of the whole lattice places them.
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import cached_property
 
 import numpy as np
 import scipy
@@ -78,7 +79,11 @@ class PointIndex:
             uv: (n, 2) px.
         """
         self.smooth, self.uv = smooth, uv
-        self._tree = scipy.spatial.cKDTree(uv) if len(uv) else None
+
+    @cached_property
+    def _tree(self) -> scipy.spatial.cKDTree | None:
+        """The points by their place, once one is asked for."""
+        return scipy.spatial.cKDTree(self.uv) if len(self.uv) else None
 
     def exceeds(self, lattice: Lattice) -> bool:
         """Return whether there are others than the corners of a lattice."""

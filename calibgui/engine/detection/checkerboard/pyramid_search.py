@@ -119,6 +119,7 @@ def find_candidates(
     outlines = [_scale_to_level(outline, k) for k in range(len(levels))]
     candidates: list[Candidate] = []
     waiting: list[tuple[int, _LevelContent]] = []
+    sparse: list[Lattice] = []
     shown: tuple[int, list[Array]] | None = None
     for depth in reversed(range(len(levels))):
         content = _analyse_level(
@@ -129,20 +130,21 @@ def find_candidates(
             # The finer levels may show all of its small squares: until then it is of no use.
             waiting.append((depth, content))
             continue
-        found = _grow_lattices(content, content.lattices, is_sufficient, is_other)
+        found = _grow_lattices(content, content.lattices, sparse, is_sufficient, is_other)
         del content  # its images, while the next level's are made
         candidates = _drop_parts(_carry_down(found, candidates, levels[:depth]) + candidates)
         is_sure = bool(found) and all(_is_surely_complete(new.lattice) for new in found)
         if is_sure or not depth:
             for k, content in waiting:
                 if missed := _select_missed(content.lattices, k, candidates):
-                    found = _grow_lattices(content, missed, is_sufficient, is_other)
+                    found = _grow_lattices(content, missed, sparse, is_sufficient, is_other)
                     candidates = _drop_parts(
                         candidates + _carry_down(found, candidates, levels[:k])
                     )
             waiting = []
             yield candidates
     assert shown is not None  # there is at least one level
+    sparse = []
     depth = len(levels) - 1
     while min(levels[depth].shape) > limits.min_parted_level_side:
         content = _analyse_level(
@@ -155,7 +157,7 @@ def find_candidates(
             THRESHOLDS.junctions.parted,
         )
         seeds = _select_new(content, *shown)
-        if found := _grow_lattices(content, seeds, is_sufficient, is_other):
+        if found := _grow_lattices(content, seeds, sparse, is_sufficient, is_other):
             candidates = _drop_parts(_carry_down(found, candidates, levels[:depth]) + candidates)
             yield candidates
         levels.append(opencv.halve_image(levels[depth]))
@@ -246,13 +248,14 @@ def _is_chance(lattice: Lattice, junctions: Junctions) -> bool:
 def _grow_lattices(
     content: _LevelContent,
     seeds: list[Lattice],
+    sparse: list[Lattice],
     is_sufficient: Callable[[Lattice], bool],
     is_other: IsOther,
 ) -> list[Candidate]:
     """Grow lattices of one level; return those that are sufficient, largest first.
 
     A texture holds any number of lattices, and all turn out as the first few did: once these are
-    sparse, other sparse ones are left out.
+    `sparse`, in whichever level, other sparse ones are left out. Those that are here are added.
     """
     if not seeds:
         return []
@@ -271,9 +274,8 @@ def _grow_lattices(
     )
     grown: list[Lattice] = []
     found: list[Candidate] = []
-    sparse = 0
     for seed in seeds:
-        is_texture = sparse >= limits.max_sparse_lattices
+        is_texture = len(sparse) >= limits.max_sparse_lattices
         if is_texture and compute_filled_share(seed) < limits.min_filled_in_texture:
             continue
         if any(is_part(seed, other) for other in grown):
@@ -281,7 +283,8 @@ def _grow_lattices(
         is_wanted = len(seed) < limits.min_judged_corners or not is_none_wanted(seed)
         lattice = grow_lattice(seed, nearby, beyond, is_hopeless) if is_wanted else seed
         grown.append(lattice)
-        sparse += compute_filled_share(lattice) < limits.min_filled_in_texture
+        if compute_filled_share(lattice) < limits.min_filled_in_texture:
+            sparse.append(lattice)
         if lattice is not seed and _refuse(lattice, content):  # the seeds passed that before
             continue
         if is_wanted:

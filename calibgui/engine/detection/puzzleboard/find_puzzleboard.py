@@ -39,6 +39,7 @@ from calibgui.engine.detection.lattice import (
     compute_filled_share,
     drop_isolated_and_crop,
     is_large_enough,
+    is_scattered,
 )
 from calibgui.engine.detection.puzzleboard.dot_levels import measure_dots
 from calibgui.engine.detection.puzzleboard.dot_removal import PLAIN, remove_blurred_dots
@@ -189,12 +190,13 @@ def _explain_missing_board(
             "This picture shows the PuzzleBoard mirrored.",
             "Switch off the mirroring in the camera's settings, and take the picture again.",
         )
-    seen = [each.board.lattice for each in placed]
+    # Those of many corners that are sparse are a texture's.
+    least = THRESHOLDS.search.min_filled_in_texture
+    seen = [each.board.lattice for each in placed if not is_scattered(each.board.lattice, least)]
     if not seen and bare:
         largest = max((each.lattice for each in bare), key=_measure_edges)
-        part = _cut_middle(largest, _MAX_SHOWN_LINES)
-        # Its middle may be hidden; a sparse one is a texture's, and to verify it takes long.
-        is_seen = is_large_enough(part) and compute_filled_share(part) >= _MIN_SEEN_SHARE
+        part = _cut_middle(largest, _MAX_SHOWN_LINES)  # may be hidden
+        is_seen = is_large_enough(part) and compute_filled_share(part) >= least
         if is_seen and not isinstance(refine_board(grey, part, METHODS[0], PLAIN), Refusal):
             seen = [largest]
     if not seen:
