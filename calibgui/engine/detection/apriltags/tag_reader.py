@@ -8,7 +8,7 @@ together with others that stand where its number says.
 
 from __future__ import annotations
 
-from functools import lru_cache
+from functools import cache, lru_cache
 from typing import NamedTuple
 
 import numpy as np
@@ -159,25 +159,31 @@ def rate_borders(image: GreyImage, quads: Array) -> Array:
         The shares (m,); infinite for those that are filled evenly, or bright along their sides, and
         so are no tags.
     """
+    inside, around = _weigh_border_samples()
+    levels, paper = (sample_image(image, weights @ quads) for weights in (inside, around))
+    inner, white = np.sort(levels, axis=1), np.median(paper, axis=1)
+    dark = inner[:, len(inside) // 2]
+    bright = inner[:, -int(_MIN_BRIGHT_SHARE * len(inside)) :].mean(axis=1)
+    is_patterned = bright - dark >= _MIN_RELATIVE_SWING * (white - dark)
+    middle = (inner[:, int(_MIN_BRIGHT_SHARE * len(inside))] + bright) / 2
+    share = (levels[:, _RING.ravel()] > middle[:, None]).mean(axis=1)
+    return np.where(is_patterned & (share <= _MAX_BRIGHT_RING_SHARE), share, np.inf)
+
+
+@cache
+def _weigh_border_samples() -> tuple[Array, Array]:
+    """Return the weights (k, 4) of a quadrilateral's corners in the places within it at which it is
+    looked at, row by row, and in those around it."""
     centres = (np.arange(_SAMPLES) + 0.5) / _SAMPLES
     low, high = (np.full(_SAMPLES, end) for end in (-_PAPER_DISTANCE, 1 + _PAPER_DISTANCE))
     inside = make_mesh(centres, centres).reshape(-1, 2)
-    around = [(centres, low), (centres, high), (low, centres), (high, centres)]
-    at = np.concatenate([inside, *map(np.column_stack, around)])
-    a, b, c, d = np.moveaxis(quads[:, :, None], 1, 0)
-    u, v = at[:, :1], at[:, 1:]
-    uv = (1 - v) * ((1 - u) * a + u * b) + v * ((1 - u) * d + u * c)
-    levels = sample_image(image, uv)
-    inner, paper = (
-        np.sort(levels[:, : len(inside)], axis=1),
-        np.median(levels[:, len(inside) :], axis=1),
+    sides = [(centres, low), (centres, high), (low, centres), (high, centres)]
+    around = np.concatenate([np.column_stack(side) for side in sides])
+    within, beside = (
+        np.column_stack([(1 - u) * (1 - v), u * (1 - v), u * v, (1 - u) * v])
+        for u, v in (inside.T, around.T)
     )
-    dark = inner[:, len(inside) // 2]
-    bright = inner[:, -int(_MIN_BRIGHT_SHARE * len(inside)) :].mean(axis=1)
-    is_patterned = bright - dark >= _MIN_RELATIVE_SWING * (paper - dark)
-    middle = (inner[:, int(_MIN_BRIGHT_SHARE * len(inside))] + bright) / 2
-    share = (levels[:, : len(inside)][:, _RING.ravel()] > middle[:, None]).mean(axis=1)
-    return np.where(is_patterned & (share <= _MAX_BRIGHT_RING_SHARE), share, np.inf)
+    return within, beside
 
 
 @lru_cache(maxsize=len(FAMILIES))
