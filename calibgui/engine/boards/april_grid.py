@@ -49,8 +49,11 @@ class TagLayout(NamedTuple):
     def locate_squares(self, numbers: IntArray) -> IntArray:
         """Return row and column (n, 2) of the tags `numbers` (n,), counted from tag 0; rows above
         it are negative."""
-        row, col = np.divmod(numbers, self.cols)
-        return np.column_stack([row if self.from_top else -row, col])
+        squares = np.empty((len(numbers), 2), dtype=np.int64)
+        np.divmod(numbers, self.cols, out=(squares[:, 0], squares[:, 1]))
+        if not self.from_top:
+            squares[:, 0] *= -1
+        return squares
 
 
 @dataclass(frozen=True, slots=True)

@@ -180,7 +180,7 @@ def _find_agreeing_pairs(
     """Find the pairs (k, p) whose displacements (p, 2) are `step` (k, p, 2) squares, at most
     `max_distance`, on each of k layouts, and the sides rho (k,) that they agree on."""
     limits = CHARUCO_THRESHOLDS
-    distance = np.abs(step).max(axis=2)
+    distance = np.maximum(abs(step[..., 0]), abs(step[..., 1]))
     agree = np.zeros(distance.shape, dtype=np.bool_)
     layout, pair = np.nonzero((distance > 0) & (distance <= max_distance))
     step, seen, distance = step[layout, pair], displacement[pair], distance[layout, pair]
