@@ -37,7 +37,9 @@ def measure_cells(image: GreyImage, quads: Array, side: int) -> Array:
     H = homography.fit_homography(square, quads, np.ones((n, 4)))
     v, u = np.indices((side, side)).reshape(2, -1) + 0.5
     at = (np.column_stack([u, v])[:, None] + _SAMPLE_OFFSETS).reshape(-1, 2)
-    values = sample_image(
-        image, homography.apply_homography(H, np.broadcast_to(at, (n, *at.shape)))
-    )
-    return np.asarray(values.reshape(n, side, side, len(_SAMPLE_OFFSETS)).mean(axis=3))
+    # The same places for all: one product in place of one for each.
+    rows = H.reshape(3 * n, 3)
+    x, y, z = (rows[:, :2] @ at.T + rows[:, 2:]).reshape(n, 3, len(at)).swapaxes(0, 1)
+    values = sample_image(image, np.stack([x / z, y / z], axis=2))
+    count = len(_SAMPLE_OFFSETS)
+    return (values.reshape(-1, count) @ np.full(count, 1 / count)).reshape(n, side, side)
