@@ -23,6 +23,7 @@ from calibgui.engine.detection.apriltags.tag_reader import (
     TagPrint,
     TagReader,
     list_prints,
+    rate_borders,
     rate_tags,
 )
 from calibgui.engine.detection.apriltags.tagged_corners import (
@@ -92,7 +93,8 @@ def _identify_board(
     """
     for image, seen in ((grey, lattice), (invert_levels(grey), _exchange_colours(lattice))):
         squares, quads = _list_dark_squares(seen)
-        reader = TagReader(image, quads)
+        may_be_tags = np.isfinite(rate_borders(image, quads))  # most are evenly dark
+        squares, reader = squares[may_be_tags], TagReader(image, quads[may_be_tags])
         boards = [
             board
             for tag_print in list_prints(pattern.family, pattern.border)
