@@ -46,18 +46,9 @@ _MIN_BLUR = _F(0.3)
 
 
 class _Support(Protocol):
-    """The fields of ``EdgeSupport`` that are read here."""
+    """The method of ``EdgeSupport`` that is used here."""
 
-    @property
-    def tangent(self) -> Array: ...
-    @property
-    def normal(self) -> Array: ...
-    @property
-    def curvature(self) -> Array: ...
-    @property
-    def arm(self) -> Array: ...
-    @property
-    def width(self) -> Array: ...
+    def pack(self) -> Array: ...
 
 
 class _Model(Protocol):
@@ -392,7 +383,7 @@ def accumulate_normal_equations(
     """Compute ``accumulate_normal_equations`` of the reference."""
     n = len(model.unknowns)
     uv, centre = (np.ascontiguousarray(x.unknowns[:, 0:2]) for x in (read, model))
-    bands, near = pack_support(read.find_support()), _pack_model(model)
+    bands, near = read.find_support().pack(), _pack_model(model)
     side = 2 * _bound_offsets(bands) + 1 if odd else 0
     columns = _LIT_COLUMNS if odd else _COLUMNS
     out, odd_part = np.zeros((n, columns, columns)), np.zeros((n if odd else 0, 2))
@@ -401,12 +392,6 @@ def accumulate_normal_equations(
     image = make_read_only(image)
     _accumulate(image, uv, bands, room, centre, near.astype(_F), square, out, odd_part)
     return out, odd_part
-
-
-def pack_support(support: _Support) -> Array:
-    """Pack the bands of n corners (n, 2, 7) as `_read` takes them."""
-    lengths = np.stack([support.curvature, support.arm, support.width], axis=2)
-    return np.concatenate([support.tangent, support.normal, lengths], axis=2)
 
 
 def _pack_model(model: _Model) -> Array:

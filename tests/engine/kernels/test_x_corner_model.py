@@ -93,7 +93,7 @@ def test_support_holds_every_pixel_once_and_within_its_bounds(bent: float, longe
     )
     image = rng.integers(0, 256, (300, 300), dtype=np.uint8)
     compiled = import_module("calibgui.engine.kernels.x_corner_model")
-    packed, read = compiled.pack_support(support), make_callable(compiled._read)
+    packed, read = support.pack(), make_callable(compiled._read)
     readable, _, counts = support.read(image)
     for i in range(n):
         most, farthest = (

@@ -18,10 +18,13 @@ What is odd too and would not decouple - curvature and the light's gradients gm,
 the whole board (`board_priors`), as does the spread w of the ink.
 
 Two steps near the corners give what the board needs, and the last one reads whole edges. Where
-these are longer, the board is asked once more, and the corners follow without reading the image
+these are longer, the board is asked once more, and the corners follow without reading the edges
 again. Few corners do not tell how long edges bend: then the edges' directions do (`edge_map`). What
-the board leaves open of the curvatures and of the light's gradient gm, which grows with the arms'
-length, is added to the covariance.
+the board leaves open of the curvatures, which grows with the arms' length, is added to the
+covariance. So does the pull of gm grow: over long arms the light's gradients are unknowns, too. The
+board tells them with a covariance, and where the squares are plain so does what lies between the
+edges (`flat_squares`). Either may be the better: light that varies slowly is known best from the
+whole board, light that varies from square to square from the squares at the corner.
 
 **Light.** The model lights the blurred pattern, where a camera blurs the lit one. Under light L
 that rises by l = grad L / L,
@@ -53,6 +56,7 @@ from calibgui.engine.detection.checkerboard.edge_bend import ReadEdges, clip_arm
 from calibgui.engine.detection.checkerboard.edge_map import EdgeGeometry
 from calibgui.engine.detection.checkerboard.edge_profiles import EdgeProfiles
 from calibgui.engine.detection.checkerboard.fit_thresholds import FIT_THRESHOLDS
+from calibgui.engine.detection.checkerboard.flat_squares import read_flat_squares
 from calibgui.engine.detection.checkerboard.local_light import find_uneven_light, fit_local_light
 from calibgui.engine.detection.checkerboard.x_corner_model import (
     BLUR,
@@ -66,11 +70,13 @@ from calibgui.engine.detection.checkerboard.x_corner_model import (
     XCornerModel,
     accumulate_normal_equations,
 )
-from calibgui.engine.detection.checkerboard.x_corner_step import take_step
+from calibgui.engine.detection.checkerboard.x_corner_step import take_lit_step, take_step
 from calibgui.engine.detection.detector_io import estimate_least_noise
 from calibgui.engine.detection.lattice import Lattice
 
 _THRESHOLDS = FIT_THRESHOLDS.edges
+_MAX_BOARD_WEIGHT = 100.0
+"""Greatest weight of what the board tells of the light, over that of a corner's pixels."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -171,9 +177,9 @@ def fit_x_corners(
     model, inverse, square = take_step(before, products)
     least_noise = estimate_least_noise(image)
     uneven = np.zeros(len(square), np.bool_)
-    if (
-        priors is None and min(plain, bare_edge) == 0.5
-    ):  # what is printed looks like light where it is blurred
+    # What is printed looks like light where it is blurred.
+    is_plain = priors is None and min(plain, bare_edge) == 0.5
+    if is_plain:
         uneven = find_uneven_light(before, products, square, least_noise)
     noise = np.maximum(_estimate_noise(square, odd_part), least_noise)
     covariance = noise[:, None, None] * inverse
@@ -183,10 +189,20 @@ def fit_x_corners(
         followed = board.follow_edges(edges)
         better = _update_priors(model, board, arm, followed)
         bend = followed.bend - edges.measure_bend(edges.curvature)
-        model = _correct_for_priors(model, inverse, better, edges, bend)
+        lights = [
+            board.estimate_gradient_covariance(followed.steps, model.unknowns[of]) for of in (M, A)
+        ]
+        told = products + _weigh_gradients(before, better, lights, noise, products)
+        model, opened, _ = take_lit_step(before, told)
+        if is_plain:
+            growth = np.trace(opened, axis1=1, axis2=2) / np.trace(inverse, axis1=1, axis2=2)
+            at = np.flatnonzero(growth > 1 + _THRESHOLDS.max_open_light)
+            if len(at):
+                told[at] += read_flat_squares(image, before.select(at), noise[at])
+                model, opened, _ = take_lit_step(before, told)
+        model = _correct_for_bend(model, better, edges, bend)
+        covariance = noise[:, None, None] * opened
         by_bend = _compute_bend_covariance(model, followed.variance)
-        light = board.estimate_gradient_covariance(followed.steps, model.unknowns[M])
-        covariance = covariance + _compute_light_covariance(model, inverse, edges, light)
     residual = np.sqrt(square)
     fit = XCornerFit(_correct_for_light(model), covariance + by_bend, residual, residual)
     if not uneven.any():
@@ -297,17 +313,41 @@ def _compute_bend_covariance(model: XCornerModel, variance: Array) -> Array:
     return np.asarray(np.einsum("nij,nj,nkj->nik", moved, variance, moved))
 
 
-def _compute_light_covariance(
-    model: XCornerModel, inverse: Array, edges: ReadEdges, gradient: Array
+def _weigh_gradients(
+    before: XCornerModel,
+    better: XCornerModel,
+    covariances: list[Array],
+    noise: Array,
+    products: Array,
 ) -> Array:
-    """Compute what the covariance of the level's `gradient` (n, 2, 2) adds to that of the corners
-    (n, 2, 2); see `_correct_for_priors`."""
-    swing = 2 * model.sign * model.unknowns[A]
-    by_gradient = np.einsum(
-        "ni,nij,nik->njk", edges.half**2 + edges.middle**2, edges.normals, model.tangents()
+    """Compute what the board as a whole tells of the light's gradients, as products (n, 14, 14) to
+    be added to those of the pixels.
+
+    It counts at most as a hundred times the pixels that are read at a corner: far more would be
+    lost to rounding.
+
+    Args:
+        before: the model that the products belong to.
+        better: the model with the gradients that the board tells.
+        covariances: of these gm and ga, (n, 2, 2).
+        noise: (n,) square of the noise, grey levels^2.
+        products: (n, 14, 14) of the pixels.
+    """
+    weights = np.zeros_like(products)
+    lacks = (
+        better.level_gradient - before.level_gradient,
+        better.contrast_gradient - before.contrast_gradient,
     )
-    moved = inverse @ (swing[:, None, None] * by_gradient)
-    return np.asarray(moved @ gradient @ moved.transpose(0, 2, 1))
+    for i, (lack, covariance) in enumerate(zip(lacks, covariances, strict=True)):
+        at = slice(UNKNOWNS + 1 + 2 * i, UNKNOWNS + 3 + 2 * i)
+        pixels = np.trace(products[:, at, at], axis1=1, axis2=2)
+        least = noise / (_MAX_BOARD_WEIGHT * np.maximum(pixels, 1e-300))
+        bounded = covariance + least[:, None, None] * np.eye(2)
+        weight = noise[:, None, None] * np.linalg.inv(bounded)
+        pull = np.einsum("nij,nj->ni", weight, lack)
+        weights[:, at, at] = weight
+        weights[:, at, UNKNOWNS] = weights[:, UNKNOWNS, at] = pull
+    return weights
 
 
 def _update_priors(
@@ -347,32 +387,19 @@ def _compute_heights(steps: Array) -> Array:
     return np.asarray(abs(a * d - b * c)[:, None] / compute_lengths(steps))
 
 
-def _correct_for_priors(
-    model: XCornerModel, inverse: Array, better: XCornerModel, edges: ReadEdges, bend: Array
+def _correct_for_bend(
+    model: XCornerModel, better: XCornerModel, edges: ReadEdges, bend: Array
 ) -> XCornerModel:
-    """Return the model with its corners where the `better` gradients and bends of the edges would
-    have put them, that follow from all of the arms.
-
-    Away from the corner an edge's intensity rises by +-2 a across it, with the sign of s along it.
-    Summed over what was read of it, |s - m| <= h, a gradient g of the level weighs on n_i by
-    2 p a (h^2 + m^2) g.t_i.
-
-    Args:
-        model: after its last step.
-        inverse: (n, 2, 2) the part of that step's inverse for c.
-        better: the model with better gradients.
-        edges: what was read.
-        bend: (n, 2) how much farther the edges are bent aside than they were taken to be, px.
-    """
-    normals, square = edges.normals, edges.half**2 + edges.middle**2
-    rise = better.level_gradient - model.level_gradient
-    along = np.einsum("nij,nj->ni", model.tangents(), rise)
-    swing = 2 * model.sign * model.unknowns[A]
-    pull = np.einsum("ni,nij->nj", swing[:, None] * square * along, normals)
+    """Return the `better` model with the unknowns and the light of `model`, and its corners where
+    they would be had the edges been taken to be bent aside by `bend` (n, 2) px more."""
     unknowns = model.unknowns.copy()
-    unknowns[C] += np.einsum("nij,nj->ni", inverse, pull)
-    unknowns[C] -= np.linalg.solve(normals, bend[..., None])[..., 0]
-    return replace(better, unknowns=unknowns)
+    unknowns[C] -= np.linalg.solve(edges.normals, bend[..., None])[..., 0]
+    return replace(
+        better,
+        unknowns=unknowns,
+        level_gradient=model.level_gradient,
+        contrast_gradient=model.contrast_gradient,
+    )
 
 
 def _correct_for_light(model: XCornerModel) -> XCornerModel:

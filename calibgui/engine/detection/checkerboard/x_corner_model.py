@@ -80,6 +80,11 @@ class EdgeSupport:
         length, breadth = self._measure_extent(edge)
         return length * breadth
 
+    def pack(self) -> Array:
+        """Pack the bands (n, 2, 7): of each edge tangent, normal, curvature, arm and width."""
+        lengths = np.stack([self.curvature, self.arm, self.width], axis=2)
+        return np.concatenate([self.tangent, self.normal, lengths], axis=2)
+
     def read(self, image: GreyImage) -> tuple[IntArray, FloatImage, FloatImage]:
         """Read the bands in an image (h, w).
 

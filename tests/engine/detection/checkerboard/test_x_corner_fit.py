@@ -25,6 +25,7 @@ FEW = {"size": (720, 600), "turn": 15.0, "blur": 0.8, "parts": 2}
         {"ink": 0.08},  # squares that overlap
         {"ink": -0.08},  # and that part
         {"blur": 5.0, "square": 36.0},  # neighbours' edges are near
+        {"light": 1.0, "noise": 0.5, "square": 100.0, "size": (1280, 960), "parts": 2},  # long arms
         {"grid_size": (12, 16), "square": 72.0, "size": (1400, 1050), "turn": 4.0, "parts": 2},
         {"fisheye": True, "focal": 0.32, "square": 80.0, "size": (720, 720)},  # near its front lens
         {"distortion": 0.9, "focal": 0.5, "square": 60.0, "size": (800, 600)},
@@ -68,6 +69,22 @@ def test_corners_whose_edges_the_image_cuts_are_at_the_bound_too(distortion: flo
         honest.append(np.einsum("ni,nij,nj->n", error, np.linalg.inv(corners.cov), error) / 2)
     assert np.sqrt(np.mean(np.concatenate(squares)) / np.mean(np.concatenate(limits))) < 1.15
     assert 0.75 < np.mean(np.concatenate(honest)) < 1.25
+
+
+def test_what_lies_on_squares_draws_no_corner_aside() -> None:
+    conditions = Conditions(light=1.0, noise=1.0, square=60.0, size=(800, 600), turn=0.0, parts=2)
+    scene = draw(conditions, 2)
+    v, u = np.indices(scene.clean.shape)
+    clean = scene.clean.copy()
+    for corner in scene.uv[1:-1:2, ::2].reshape(-1, 2):
+        middle = corner + 0.3 * (scene.uv[1, 1] - scene.uv[0, 0])
+        clean[np.hypot(u - middle[0], v - middle[1]) < 9] = 30.0
+    corners = find_corners(replace(scene, clean=clean).photograph(0))
+    assert corners.cov is not None
+    error = corners.uv - scene.uv[corners.grid[:, 0], corners.grid[:, 1]]
+    chi2 = np.einsum("ni,nij,nj->n", error, np.linalg.inv(corners.cov), error) / 2
+    assert len(error) > 40
+    assert np.mean(chi2) < 1.3
 
 
 @pytest.mark.parametrize("gamma", [1.0, 2.2])
