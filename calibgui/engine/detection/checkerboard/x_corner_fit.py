@@ -21,10 +21,14 @@ Two steps near the corners give what the board needs, and the last one reads who
 these are longer, the board is asked once more, and the corners follow without reading the edges
 again. Few corners do not tell how long edges bend: then the edges' directions do (`edge_map`). What
 the board leaves open of the curvatures, which grows with the arms' length, is added to the
-covariance. So does the pull of gm grow: over long arms the light's gradients are unknowns, too. The
-board tells them with a covariance, and where the squares are plain so does what lies between the
-edges (`flat_squares`). Either may be the better: light that varies slowly is known best from the
-whole board, light that varies from square to square from the squares at the corner.
+covariance.
+
+So does the pull of gm grow, and the board tells gm and ga with a covariance. On plain squares they
+are unknowns of the last step, which the board holds, and where it leaves them open so does what
+lies between the edges (`flat_squares`). Light that varies slowly is known best from the whole
+board, light that varies from square to square from the squares at the corner. What is printed in
+squares looks like light where it is blurred: there the gradients are the board's, and what it
+leaves open of gm is added to the covariance.
 
 **Light.** The model lights the blurred pattern, where a camera blurs the lit one. Under light L
 that rises by l = grad L / L,
@@ -192,16 +196,20 @@ def fit_x_corners(
         lights = [
             board.estimate_gradient_covariance(followed.steps, model.unknowns[of]) for of in (M, A)
         ]
-        told = products + _weigh_gradients(before, better, lights, noise, products)
-        model, opened, _ = take_lit_step(before, told)
         if is_plain:
+            told = products + _weigh_gradients(before, better, lights, noise, products)
+            model, opened, _ = take_lit_step(before, told)
             growth = np.trace(opened, axis1=1, axis2=2) / np.trace(inverse, axis1=1, axis2=2)
             at = np.flatnonzero(growth > 1 + _THRESHOLDS.max_open_light)
             if len(at):
                 told[at] += read_flat_squares(image, before.select(at), noise[at])
                 model, opened, _ = take_lit_step(before, told)
-        model = _correct_for_bend(model, better, edges, bend)
-        covariance = noise[:, None, None] * opened
+            model = _correct_for_bend(model, better, edges, bend)
+            covariance = noise[:, None, None] * opened
+        else:
+            model = _correct_for_light_told(model, inverse, better, edges)
+            model = _correct_for_bend(model, better, edges, bend)
+            covariance = covariance + _compute_light_covariance(model, inverse, edges, lights[0])
         by_bend = _compute_bend_covariance(model, followed.variance)
     residual = np.sqrt(square)
     fit = XCornerFit(_correct_for_light(model), covariance + by_bend, residual, residual)
@@ -313,6 +321,19 @@ def _compute_bend_covariance(model: XCornerModel, variance: Array) -> Array:
     return np.asarray(np.einsum("nij,nj,nkj->nik", moved, variance, moved))
 
 
+def _compute_light_covariance(
+    model: XCornerModel, inverse: Array, edges: ReadEdges, gradient: Array
+) -> Array:
+    """Compute what the covariance of the level's `gradient` (n, 2, 2) adds to that of the corners
+    (n, 2, 2); see `_correct_for_light_told`."""
+    swing = 2 * model.sign * model.unknowns[A]
+    by_gradient = np.einsum(
+        "ni,nij,nik->njk", edges.half**2 + edges.middle**2, edges.normals, model.tangents()
+    )
+    moved = inverse @ (swing[:, None, None] * by_gradient)
+    return np.asarray(moved @ gradient @ moved.transpose(0, 2, 1))
+
+
 def _weigh_gradients(
     before: XCornerModel,
     better: XCornerModel,
@@ -385,6 +406,37 @@ def _compute_heights(steps: Array) -> Array:
     them."""
     (a, b), (c, d) = steps.transpose(1, 2, 0)
     return np.asarray(abs(a * d - b * c)[:, None] / compute_lengths(steps))
+
+
+def _correct_for_light_told(
+    model: XCornerModel, inverse: Array, better: XCornerModel, edges: ReadEdges
+) -> XCornerModel:
+    """Return the model with the gradients of the `better` one, and its corners where these would
+    have put them.
+
+    Away from the corner an edge's intensity rises by +-2 a across it, with the sign of s along it.
+    Summed over what was read of it, |s - m| <= h, a gradient g of the level weighs on n_i by
+    2 p a (h^2 + m^2) g.t_i.
+
+    Args:
+        model: after its last step.
+        inverse: (n, 2, 2) the part of that step's inverse for c.
+        better: the model with the gradients that follow from all of the arms.
+        edges: what was read.
+    """
+    square = edges.half**2 + edges.middle**2
+    rise = better.level_gradient - model.level_gradient
+    along = np.einsum("nij,nj->ni", model.tangents(), rise)
+    swing = 2 * model.sign * model.unknowns[A]
+    pull = np.einsum("ni,nij->nj", swing[:, None] * square * along, edges.normals)
+    unknowns = model.unknowns.copy()
+    unknowns[C] += np.einsum("nij,nj->ni", inverse, pull)
+    return replace(
+        model,
+        unknowns=unknowns,
+        level_gradient=better.level_gradient,
+        contrast_gradient=better.contrast_gradient,
+    )
 
 
 def _correct_for_bend(
