@@ -8,14 +8,16 @@ without those behind it, and what one explains is taken out before the next is a
    held and wrong, corners that are not where the others say. The latter are left out, and all that
    follows is asked of what is left.
 2. **Number of views.** Two or three views show nothing but that they are too few, if pixels are
-   poorly known or if lens and board would explain the same residuals.
+   poorly known or if lens and board would explain the same residuals. Nor do views so much alike
+   that the noise alone leaves pixels poorly known.
 3. **Lens or board**, which all views share: the lens if ``calibration/lens_error.py`` says so, or
    whichever explains most of what any cause does (``residual_checks.py``). What a board or a lens
    explains, causes that differ from view to view explain as well, since they have unknowns of
    their own in each view. A free board, which has many unknowns of its own, takes much of what
    a wrong lens or two kinds of views leave: so it is estimated before it is named, and if one of
-   these explains much of what is left, that is the cause; the board follows once it is gone. Where
-   it is not the board, a lens of another kind (``rival_lens.py``) is fitted in any case.
+   these explains much of what is left, that is the cause; the board follows once it is gone. So
+   are two kinds that explain more than any board does. Where it is not the board, a lens of another
+   kind (``rival_lens.py``) is fitted in any case.
 4. **Two kinds of views** (``mixed_views.py``), which have twice the unknowns of one.
 5. **Focus, centre, bending, motion**, which differ from view to view; then **blur**, which moves
    nothing.
@@ -32,6 +34,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from calibgui.engine.arrays import BoolArray
 from calibgui.engine.assessment.finding import (
     MIN_HARM_PX,
     REMEDY_OF_LENS,
@@ -51,6 +54,7 @@ from calibgui.engine.assessment.input_errors import (
 from calibgui.engine.assessment.mixed_views import Split, find_two_kinds
 from calibgui.engine.assessment.outliers import Screening, select_corners
 from calibgui.engine.assessment.residual_checks import NoiseCheck, check_residuals
+from calibgui.engine.assessment.residual_statistics import summarise_residuals
 from calibgui.engine.assessment.rival_lens import fit_rival
 from calibgui.engine.assessment.systematic_errors import prepare_fit
 from calibgui.engine.boards.shape import BoardShapeModel
@@ -113,6 +117,9 @@ _MIN_PART_OF_BOARDS_HARM = 0.1
 is named instead: a lens model that is off by some hundredths of a pixel is not what to mend where a
 bowed board moves pixels by several. It was 0.01 in rendered photographs of such boards, and 1 where
 a lens model did not follow the lens (``tests/faults``)."""
+_MAX_RMS_IF_TURNED = 1.2
+"""RMS residual with the odd views turned by 180 degrees, over what a camera of their own would
+leave to the first order, up to which they were upside down: with no unknowns more."""
 _CHECKS_OF_BOARD = ("squares", "bow", "board")
 """Tests of a board that is the same in all views."""
 _CHECKS_OF_VIEWS = {
@@ -208,7 +215,7 @@ def _find(
             case = left  # large errors of a few corners leave coefficients open, too
             open_coefficients = _find_open_coefficients(case)
     found = few = _find_lack_of_views(case)
-    if few is None or len(case.views) >= _MIN_VIEWS_TO_JUDGE:  # else whatever residuals look like
+    if few is None or not (len(case.views) < _MIN_VIEWS_TO_JUDGE or _is_noise_enough(case)):
         found = _find_systematic_cause(case) or _find_disagreement(case) or few
     if open_coefficients is not None and (found is None or found.cause is not Cause.LENS):
         yield open_coefficients  # those of a model that is to be replaced go with it
@@ -280,7 +287,7 @@ def _find_systematic_cause(case: Case) -> Finding | None:
     check = _choose_shared_cause(case.calibration, failed)
     if check is not None:
         found = _describe_check(case, check)
-        beside = _find_cause_beside_board(case) if check.name in _CHECKS_OF_BOARD else None
+        beside = _find_cause_beside_board(case, failed) if check.name in _CHECKS_OF_BOARD else None
         is_less = found and beside and beside.harm < _MIN_PART_OF_BOARDS_HARM * found.harm
         return found if beside is None or is_less else beside
     explained = _find_largest_share(report.checks)
@@ -319,11 +326,18 @@ def _describe_lens_or_board(case: Case, failed: Mapping[str, NoiseCheck]) -> Fin
     )
 
 
-def _find_cause_beside_board(case: Case) -> Finding | None:
+def _find_cause_beside_board(case: Case, failed: Mapping[str, NoiseCheck]) -> Finding | None:
     """Find a wrong lens, or two kinds of views, that a board of any shape leaves; None if neither.
 
-    What they explain is measured with the board's shape estimated.
+    What they explain is measured with the board's shape estimated, unless two kinds of views
+    explain more than a board of any shape, which has many more unknowns: of 60 boards that were
+    bent or badly printed (``tests/faults``) none made two kinds certain.
     """
+    split = _find_split(case)
+    if split is not None and split.is_certain:
+        board = _find_largest_share(failed[name] for name in _CHECKS_OF_BOARD if name in failed)
+        if split.share > board:
+            return _describe_two_kinds(case, split)
     settings = recover_image_arguments(case.calibration) | {"board_shape": BoardShapeModel.FREE}
     try:
         free = calibrate(case.views, case.calibration.camera.size, **settings)
@@ -404,11 +418,24 @@ def _describe_two_kinds(case: Case, split: Split) -> Finding:
     views = tuple(case.numbers[k] for k in odd)
     left = case.rms * float(np.sqrt(1 - split.share))
     harm = case.measure_harm(split.share)
+    listed = _list_names([case.names[k] for k in odd])
+    turned = _measure_rms_if_turned(case, split.is_odd)
+    if turned < _MAX_RMS_IF_TURNED * left:
+        return Finding(
+            Cause.MIXED_VIEWS,
+            f"{listed} {'stand' if len(odd) > 1 else 'stands'} upside down against the others, "
+            "stored by a program that turned what the camera wrote.",
+            f"Turned by 180 degrees they leave {turned:.2g} px of {case.rms:.2g} px RMS; "
+            f"{describe_harm(harm)}.",
+            "Turn them by 180 degrees, or take the files as the camera wrote them.",
+            harm,
+            views,
+            Action(ActionKind.LEAVE_OUT_VIEWS, views),
+        )
     return Finding(
         Cause.MIXED_VIEWS,
-        f"The photographs are of two kinds: {_list_names([case.names[k] for k in odd])} "
-        f"{'disagree' if len(odd) > 1 else 'disagrees'} with "
-        f"the others about the {split.what}.",
+        f"The photographs are of two kinds: {listed} "
+        f"{'disagree' if len(odd) > 1 else 'disagrees'} with the others about the {split.what}.",
         f"If each kind had its own, {left:.2g} px would be left of {case.rms:.2g} px RMS; "
         f"{describe_harm(harm)}.",
         "Look for another camera, zoom, focus or board in these photographs, and calibrate each "
@@ -417,6 +444,22 @@ def _describe_two_kinds(case: Case, split: Split) -> Finding:
         views,
         Action(ActionKind.LEAVE_OUT_VIEWS, views),
     )
+
+
+def _measure_rms_if_turned(case: Case, is_turned: BoolArray) -> float:
+    """Measure the RMS residual if some views (K,) are turned by 180 degrees, px; infinite if that
+    is no calibration."""
+    last = np.array(case.calibration.camera.size) - 1
+    views = [
+        Observation(last - view[0], *view[1:]) if turned else view
+        for view, turned in zip(case.views, is_turned, strict=True)
+    ]
+    settings = recover_image_arguments(case.calibration)
+    try:
+        turned = calibrate(views, case.calibration.camera.size, **settings)
+    except CalibrationError:
+        return np.inf
+    return summarise_residuals(turned.residuals).rms
 
 
 def _list_names(names: Sequence[str]) -> str:
@@ -441,7 +484,7 @@ def _describe_check(case: Case, check: NoiseCheck) -> Finding | None:
     """Describe the cause that a test of the residuals points to; None if it does no harm."""
     cause, harm = _CAUSES_OF_CHECKS[check.name], case.measure_harm(check.share)
     if cause is Cause.BLUR:
-        harm = case.measure_harm_of_blur(check.share)
+        harm = case.measure_noise(check.share)
     if cause is Cause.LENS:
         error = case.calibration.lens_error or float(np.sqrt(check.share)) * case.rms
         is_harmful = error > _MIN_LENS_PX or harm > MIN_HARM_PX
@@ -505,6 +548,17 @@ def _find_lack_of_views(case: Case) -> Finding | None:
         case.measure_harm(share=1.0),
         action=Action(ActionKind.PHOTOGRAPH_MORE),
     )
+
+
+def _is_noise_enough(case: Case) -> bool:
+    """Return whether pixels where there are corners would be known too poorly without any cause.
+
+    Views that are too much alike magnify the least that their residuals have in common.
+    """
+    checks = check_residuals(case.calibration, case.views, case.names).checks
+    smooth = max((check.share for check in checks if check.name == "smooth"), default=0.0)
+    explained = max(smooth, _find_largest_share(checks))
+    return case.measure_noise(1 - explained) > _MAX_POOR_PX
 
 
 def _find_disagreement(case: Case) -> Finding | None:

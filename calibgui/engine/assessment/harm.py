@@ -65,8 +65,8 @@ class Case(NamedTuple):
         """
         return self._take_rms(self.total - (1 - share) * self.by_noise)
 
-    def measure_harm_of_blur(self, share: float) -> float:
-        """Measure what blur of a share of the squared residuals does to pixels, px rms."""
+    def measure_noise(self, share: float) -> float:
+        """Measure what noise of a share of the squared residuals does to pixels, px rms."""
         return self._take_rms(share * self.by_noise)
 
     def _take_rms(self, covariance: Array) -> float:

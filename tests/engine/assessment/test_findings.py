@@ -290,6 +290,33 @@ def test_a_bowed_board_is_named_though_its_lens_is_followed_almost() -> None:
     assert [finding.cause for finding in findings] == [Cause.BOARD_SHAPE]
 
 
+@pytest.mark.parametrize("every", [2, 3])
+def test_photographs_stored_upside_down_are_named_and_not_a_board(every: int) -> None:
+    """They move the principal point to the image's other side, as much as a free board follows."""
+    turned = [
+        Observation(2 * MIDDLE - view.uv, view.xy) if k % every else view
+        for k, view in enumerate(CLEAN)
+    ]
+    (finding,) = found(turned)
+    upright = tuple(range(0, len(turned), every))
+    assert finding.cause is Cause.MIXED_VIEWS
+    assert set(finding.views) in (set(upright), set(range(len(turned))) - set(upright))
+    assert "upside down" in finding.message and "Turn them by 180 degrees" in finding.remedy
+
+
+def test_views_all_alike_are_too_few_whatever_they_have_in_common() -> None:
+    """A burst magnifies errors of corners that all photographs share."""
+    camera, rng = barrel(), np.random.default_rng(4)
+    pose = looking(camera, np.random.default_rng(4))
+    moved = rng.normal(0, 1.0, (12, 2, 3)) * [[[2e-3], [1.0]]]
+    poses = [replace(pose, rvec=pose.rvec + r, tvec=pose.tvec + t) for r, t in moved]
+    made = seen(camera, poses).noisy(0.02, rng)
+    shared = rng.normal(0, 0.02, made[0].uv.shape)
+    (finding,) = found([Observation(view.uv + shared, view.xy) for view in made])
+    assert finding.cause is Cause.FEW_VIEWS
+    assert finding.message == "The views are too few, or too much alike."
+
+
 def test_two_views_are_too_few() -> None:
     finding = found(CLEAN[:2])[0]
     assert finding.cause is Cause.FEW_VIEWS
