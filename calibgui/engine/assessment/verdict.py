@@ -93,7 +93,7 @@ _REMEDY_OF_BOARD = (
     "These photographs do not tell board and camera apart: put the board on glass or another stiff "
     "plate, and take 10 to 20 of it, tilted by 20 to 45 degrees in different directions."
 )
-_UNTRUSTWORTHY = (Cause.WRONG_FRAME, Cause.HELD_VALUE, Cause.FEW_VIEWS)
+_UNTRUSTWORTHY = (Cause.WRONG_FRAME, Cause.HELD_VALUE)
 """Causes that leave a camera unusable if no remedy can be tried."""
 
 

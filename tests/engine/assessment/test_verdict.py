@@ -123,6 +123,14 @@ def test_a_recommended_lens_that_is_not_followed_takes_photographs(
     assert finding.action == Action(ActionKind.PHOTOGRAPH_MORE)
 
 
+def test_a_poorly_known_edge_of_the_image_does_not_make_four_views_unusable() -> None:
+    views = scene(barrel(), 10, seed=3).noisy(0.2, np.random.default_rng(1))[:4]
+    _, verdict = judge(views)
+    assert [finding.cause for finding in verdict.findings] == [Cause.FEW_VIEWS]
+    assert verdict.error.median < 1.0
+    assert verdict.grade is Grade.USABLE
+
+
 def test_views_that_do_not_determine_the_camera_have_no_error() -> None:
     fault = inject("one-orientation", 0)
     with pytest.raises(DegenerateError) as caught:
