@@ -18,6 +18,9 @@ from calibgui.engine.arrays import Size
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.images import Header, read_image_header
 
+_MIN_OF_A_SIZE = 3
+"""Number of images of the most frequent size from which it counts as the camera's, where there are
+as many other sizes: fewer do not determine a camera."""
 _NOTE = "Turned like the other photographs: the camera was held otherwise when it was taken."
 
 
@@ -42,8 +45,8 @@ def share_frame(
             headers[k] = read_image_header(view.image)
         except CalibrationError as error:
             result[k] = view.refuse(ViewStatus.UNREADABLE, str(error))
+    count = Counter(header.size for header in headers.values())
     if size is None:
-        count = Counter(header.size for header in headers.values())
         size = max(count, key=lambda size: (count[size], size[0] * size[1]), default=None)
     if orientation is None:
         stated = Counter(h.exif.orientation for h in headers.values() if h.size == size)
@@ -51,7 +54,7 @@ def share_frame(
     for k, header in headers.items():
         turned = choose_orientation(header, size, orientation)
         if turned is None:
-            reason = _describe_wrong_size(header.size, size)
+            reason = _describe_wrong_size(header.size, size or header.size, count)
             result[k] = result[k].refuse(ViewStatus.WRONG_SIZE, reason)
         else:
             note = "" if turned == header.exif.orientation else _NOTE
@@ -75,9 +78,22 @@ def choose_orientation(header: Header, size: Size | None, usual: int | None) -> 
     return None
 
 
-def _describe_wrong_size(size: Size, usual: Size | None) -> str:
-    remedy = "It is not used: calibrate images of each size by themselves."
+def _describe_wrong_size(size: Size, usual: Size, count: Counter[Size]) -> str:
+    """Say why an image of another size than `usual` is not used, and what to do.
+
+    Args:
+        size: the image's width and height, px.
+        usual: those of the camera's images.
+        count: number of the images of each size.
+    """
+    if 0 < count[usual] < _MIN_OF_A_SIZE <= len(count):
+        return (
+            f"The images have {len(count)} different sizes, as if they were cropped or resized one "
+            "by one: take the files as the camera wrote them."
+        )
+    width, height = usual
+    remedy = "Not used: calibrate images of each size by themselves."
     if usual == size[::-1]:
         remedy = "Take the file as the camera wrote it, or leave it out."
-    width, height = usual or (0, 0)
-    return f"It has {size[0]} x {size[1]} pixels, most have {width} x {height}. {remedy}"
+    compared = "most" if 2 * count[usual] > sum(count.values()) else "others"
+    return f"{size[0]} x {size[1]} pixels, {compared} have {width} x {height}. {remedy}"

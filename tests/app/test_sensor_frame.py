@@ -34,6 +34,23 @@ def write(folder: Path, name: str, size: tuple[int, int], orientation: int, make
     return View(str(folder / name))
 
 
+@pytest.mark.parametrize(
+    ("widths", "reason"),
+    [
+        ((64, 32, 64, 32), "32 x 20 pixels, others have 64 x 20."),
+        ((64, 64, 64, 32), "32 x 20 pixels, most have 64 x 20."),
+        ((64, 32, 40, 50), "The images have 4 different sizes, as if they were cropped"),
+    ],
+)
+def test_an_image_of_another_size_is_told_what_sizes_there_are(
+    tmp_path: Path, widths: tuple[int, ...], reason: str
+) -> None:
+    views = [write(tmp_path, f"{k}.png", (w, 20), UPRIGHT, "") for k, w in enumerate(widths)]
+    shared, size = share_frame(views)
+    assert size == (64, 20)
+    assert [view.reason.startswith(reason) for view in shared] == [w != 64 for w in widths]
+
+
 @pytest.fixture(scope="module")
 def held_in_three_ways(photographs: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The photographs as a telephone stores them that is turned now and then."""
