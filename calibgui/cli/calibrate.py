@@ -41,6 +41,7 @@ from calibgui.formats.board_shape_json import read_board_shape, write_board_shap
 from calibgui.formats.origin import BOARD_SHAPE, RESULT
 from calibgui.formats.result_json import encode_result_with_findings, write_result
 from calibgui.report import tables
+from calibgui.report.summary import describe_lost_images
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
@@ -165,7 +166,8 @@ def run(options: argparse.Namespace, console: Console) -> None:
     _print_report(result, messages, options, console)
     diagnosis = result.calibration.diagnosis
     if diagnosis is not None:  # the user wanted a whole calibration
-        errors.append(DegenerateError(diagnosis.message, diagnosis.hint, result.calibration))
+        hint = describe_lost_images(result) or diagnosis.hint
+        errors.append(DegenerateError(diagnosis.message, hint, result.calibration))
     for error in errors[:-1]:
         console.print_problem(f"calibgui: {error}")
     if errors:

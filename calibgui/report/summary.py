@@ -39,6 +39,8 @@ _MIN_POOR_RELATIVE_SIGMA = 5e-3
 """Relative standard deviation of a length above which it counts as badly determined."""
 _MIN_SIGMAS_FROM_ZERO = 2.0
 """Ratio of a lens coefficient to its sigma, below which it is not told from zero."""
+_MIN_VIEWS_TO_BE_GOOD = 5
+"""Number of views below which no calibration is good (``assessment/verdict.py``)."""
 _MIN_STRONG_CORRELATION = 0.98
 """Correlation above which two lens coefficients are named as exchangeable."""
 _MAX_RMS_OVER_MEDIAN = 2.5
@@ -93,6 +95,8 @@ def describe_calibration(
 def _describe_in_detail(result: Result, findings: Sequence[Finding]) -> Iterator[Sentence]:
     """Describe all that is known of the calibration, the most important first."""
     yield from _describe_basis(result)
+    if lost := describe_lost_images(result):
+        yield Sentence(Tone.CAUTION, lost)
     yield from _describe_diagnosis(result)
     yield from _describe_ending(result)
     if result.condition:
@@ -115,6 +119,18 @@ def _describe_basis(result: Result) -> Iterator[Sentence]:
     left_out = len(result.views) - used
     text += f"; {format_count(left_out, 'image')} left out." if left_out else ", every image used."
     yield Sentence(Tone.FACT, text)
+
+
+def describe_lost_images(result: Result) -> str:
+    """Say that a calibration lacks views because most images cannot be used; empty if not so."""
+    count, used = len(result.views), len(result.used)
+    lost = sum(view.enabled and not view.usable for view in result.views)
+    if used >= _MIN_VIEWS_TO_BE_GOOD or lost <= count / 2:
+        return ""
+    return (
+        f"{lost} of {count} images cannot be used, for reasons stated with them: mend that before "
+        "you take others."
+    )
 
 
 def _describe_diagnosis(result: Result) -> Iterator[Sentence]:

@@ -170,6 +170,13 @@ def test_images_left_out_are_counted(good: Result) -> None:
     )
 
 
+def test_few_views_are_put_down_to_the_images_that_cannot_be_used() -> None:
+    few = solved(everywhere()[:3], left_out=4)
+    assert "4 of 7 images cannot be used" in texts(few, Tone.CAUTION)
+    copies = [replace(view, enabled=False) for view in few.used] * 2
+    assert "cannot be used" not in texts(replace(few, views=(*few.used, *copies)), Tone.CAUTION)
+
+
 def test_an_empty_part_of_the_image_is_named() -> None:
     views = []
     for uv, xy, _ in everywhere():
