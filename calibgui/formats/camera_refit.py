@@ -53,7 +53,15 @@ def write_in_models(
     Raises:
         CalibrationError: if none of the models can follow the lens, or the file cannot be written.
     """
-    expressed = express_in_format(result, exporter)
+    try:
+        expressed = express_in_format(result, exporter)
+    except CalibrationError as error:
+        held = find_model(result.calibration.camera.model).title
+        raise CalibrationError(
+            f"{path} is not written: the format {exporter.name!r} has no lens model {held}, and "
+            f"these views determine none that it has. {error.message}",
+            error.hint,
+        ) from error
     check_refit(result, expressed, path)
     note = describe_refit(result, expressed)
     marked = " ".join(filter(None, [make_mark(exporter.name), note, describe_condition(result)]))

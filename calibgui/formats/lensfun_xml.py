@@ -44,6 +44,9 @@ from calibgui.formats.origin import make_mark
 
 _MODELS = {"rectilinear": "brown-conrady-4", "fisheye": "kannala-brandt"}
 """Lensfun's types of lenses, and our models of them, of which p1, p2 or k3, k4 are 0 here."""
+_MIN_UNEVENNESS = 1e-3
+"""Logarithm of fx / fy from which pixels that are not square are named: 0.3 px or more at the edge
+of an image of 640 pixels."""
 _DIAGONAL_MM = math.hypot(36.0, 24.0)
 """Diagonal of the sensor of crop factor 1."""
 _MESH_STEPS = 32
@@ -141,12 +144,19 @@ def _fit_cameras(
     error, kind, fits = min(tried, key=lambda one: one[0])
     if not error < MAX_REFIT_ERROR:
         off = f"{error:.3g} px off" if math.isfinite(error) else "without an image of some rays"
+        ratio = max((camera.focal[0] / camera.focal[1] for camera in cameras), key=_differ_from_one)
+        uneven = _differ_from_one(ratio) > _MIN_UNEVENNESS
+        pixels_are = f" (here fx is {ratio:.4g} times fy)" if uneven else ""
         raise CalibrationError(
-            f"{path} is not written: lensfun's lens model poly5, which has no decentering, cannot "
-            f"follow this lens. The nearest is {off}.",
+            f"{path} is not written: lensfun's lens model poly5, which has square pixels"
+            f"{pixels_are} and no decentering, cannot follow this lens. The nearest is {off}.",
             "Export it to another format, as gyroflow, or write undistorted images.",
         )
     return kind, fits
+
+
+def _differ_from_one(ratio: float) -> float:
+    return abs(math.log(ratio))
 
 
 def _fit_radially(camera: Camera, uv: Array, centre: Array, kind: str) -> _Fit:

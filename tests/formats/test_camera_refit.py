@@ -16,7 +16,7 @@ from calibgui.engine.calibration.refit import Refit
 from calibgui.engine.camera.camera import Camera
 from calibgui.engine.camera.projection import rays_from_pixels
 from calibgui.engine.errors import CalibrationError
-from calibgui.formats import EXPORTERS, export
+from calibgui.formats import EXPORTERS, camera_refit, export
 from calibgui.formats.camera_refit import (
     MAX_REFIT_ERROR,
     check_refit,
@@ -81,6 +81,20 @@ def test_what_was_held_stays_held() -> None:
 def test_a_model_that_cannot_follow_says_so(result: Result) -> None:
     fitted = Refit(express_in_format(result, OPENCV).calibration, float("nan"), 0.05)
     assert "unlimited" in describe_refit(result, fitted)
+
+
+def test_views_that_determine_no_model_of_a_format_are_told_with_its_file(
+    result: Result, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def fail(*_: object) -> Refit:
+        raise CalibrationError("All corners lie in one spot.", "Fill the image.")
+
+    monkeypatch.setattr(camera_refit, "refit", fail)
+    with pytest.raises(CalibrationError) as caught:
+        export(result, "opencv", tmp_path / "camera.yaml")
+    assert "camera.yaml is not written: the format 'opencv' has no" in caught.value.message
+    assert caught.value.message.endswith("All corners lie in one spot.")
+    assert caught.value.hint == "Fill the image."
 
 
 @pytest.fixture(scope="module")

@@ -127,3 +127,9 @@ def test_a_lens_that_the_model_cannot_follow_is_not_written(tmp_path: Path, resu
         write_lensfun(holding(result, example("brown-conrady")), tmp_path / "lens.xml")
     assert not list(tmp_path.iterdir())
     assert EXPORTERS["lensfun"].holds(example("brown-conrady", skew=0.1)), "it is fitted instead"
+
+
+def test_pixels_that_are_not_square_are_named(tmp_path: Path) -> None:
+    wide = Camera((640, 480), [800, 600, 320, 240, -0.2, 0.05, 0, 0, 0], "brown-conrady")
+    with pytest.raises(CalibrationError, match=r"square pixels \(here fx is 1\.333 times fy\)"):
+        export_camera(wide, EXPORTER, tmp_path / "lens.xml")
