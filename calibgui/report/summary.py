@@ -17,6 +17,7 @@ import numpy as np
 from calibgui.dataset import Result
 from calibgui.dataset.judging import judge_result
 from calibgui.engine.assessment import (
+    MIN_HARM_PX,
     REMEDY_OF_LENS,
     ActionKind,
     Cause,
@@ -396,9 +397,10 @@ def _describe_outlying_views(result: Result, findings: Sequence[Finding]) -> Ite
 
 
 def find_outlying_views(calibration: Calibration) -> tuple[int, ...]:
-    """Find the indices of the calibrated views whose RMS is far above the median."""
+    """Find the indices of the calibrated views whose RMS is far above the median, and matters."""
     rms = np.array([view.rms for view in calibration.residuals])
-    return tuple(int(k) for k in np.flatnonzero(rms > _MAX_RMS_OVER_MEDIAN * np.median(rms)))
+    least = max(_MAX_RMS_OVER_MEDIAN * float(np.median(rms)), MIN_HARM_PX)
+    return tuple(int(k) for k in np.flatnonzero(rms > least))
 
 
 def _describe_advice(result: Result, findings: Sequence[Finding]) -> Iterator[Sentence]:

@@ -218,6 +218,9 @@ def test_one_bad_view_is_named() -> None:
     assert "Corners are not where the others say, in 7.png" in texts(result, Tone.CAUTION)
     assert "does not follow" not in texts(result, Tone.CAUTION)
     assert "/7.png" not in texts(result, Tone.CAUTION)  # its name is enough
+    residuals = [replace(fit, image=0.01 * fit.image) for fit in result.calibration.residuals]
+    tiny = replace(result.calibration, residuals=tuple(residuals))
+    assert find_outlying_views(tiny) == ()
 
 
 def test_an_unfinished_solve_is_named(good: Result) -> None:

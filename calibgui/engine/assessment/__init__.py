@@ -55,6 +55,7 @@ if TYPE_CHECKING:
         separate_error_sources as separate_error_sources,
     )
     from calibgui.engine.assessment.finding import (
+        MIN_HARM_PX as MIN_HARM_PX,
         REMEDY_OF_LENS as REMEDY_OF_LENS,
         Action as Action,
         ActionKind as ActionKind,
@@ -143,6 +144,7 @@ load_on_demand(
         "drift": ["SIGNIFICANCE", "Drift", "UncertainCamera", "choose_covariance", "measure_drift"],
         "error_sources": ["ErrorSources", "separate_error_sources"],
         "finding": [
+            "MIN_HARM_PX",
             "REMEDY_OF_LENS",
             "Action",
             "ActionKind",
