@@ -18,6 +18,7 @@ from calibgui.engine.kernels import SOLVER_SECONDS, when_compiling
 from calibgui.gui.jobs.job import Job
 from calibgui.gui.session.detector import Detector
 from calibgui.gui.session.session import Session
+from calibgui.report.summary import describe_lost_images
 
 
 class Calibrator(QObject):
@@ -142,7 +143,7 @@ class Calibrator(QObject):
             self._session.failed.emit(
                 CalibrationError(
                     self.tr("“{0}” is partial. {1}").format(name, diagnosis.message),
-                    diagnosis.hint,
+                    describe_lost_images(result) or diagnosis.hint,
                 )
             )
 

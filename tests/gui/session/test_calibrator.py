@@ -11,6 +11,7 @@ from pytestqt.qtbot import QtBot
 
 from calibgui.app.document import Document
 from calibgui.app.settings import NEW_PROJECT_SETTINGS
+from calibgui.dataset import ViewStatus
 from calibgui.engine.assessment import lens_choice
 from calibgui.gui.session.calibrator import Calibrator
 from calibgui.gui.session.detector import Detector
@@ -56,3 +57,17 @@ def test_a_calibration_with_a_named_lens_model_compares_none(
     qtbot.waitUntil(lambda: len(session.project.results) == 3, timeout=60_000)
     qtbot.waitUntil(lambda: not session.jobs.running)
     assert "Calibrating" in labels and "Comparing lens models" not in labels
+
+
+def test_a_lack_of_views_is_put_down_to_the_images_that_cannot_be_used(
+    qtbot: QtBot, session: Session, tmp_path: Path
+) -> None:
+    project = examples.calibrated(tmp_path)
+    first, *others = project.views
+    lost = [view.refuse(ViewStatus.WRONG_SIZE, "Another size.") for view in others]
+    session.begin(Document(replace(project, views=(first, *lost))))
+    with qtbot.waitSignal(session.failed, timeout=60_000) as failed:
+        Calibrator(session, Detector(session)).calibrate()
+    (error,) = failed.args
+    assert f"{len(lost)} of {len(project.views)} images cannot be used" in error.hint
+    qtbot.waitUntil(lambda: not session.jobs.running)
