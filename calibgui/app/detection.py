@@ -27,12 +27,17 @@ from calibgui.engine.arrays import Array, GridSize, Size
 from calibgui.engine.boards import CHECKERBOARD, Board, Pattern
 from calibgui.engine.detection import METHODS, Corners
 from calibgui.engine.errors import CalibrationError, NoBoardError
-from calibgui.engine.images import Image, read_image
+from calibgui.engine.images import Image, mirror_orientation, read_image
 
 _MIN_PARTS = 3
 """Number of photographs in which the largest part of a board has one size, from which it counts as
 the board: something covers some corners in each of them. Parts that the image cuts, or that end
 where something begins, are of many sizes."""
+_MIRRORED = (
+    "The board is mirrored here: left is right. Turn mirroring off in the camera or in the program "
+    "that takes the pictures, and take it again."
+)
+"""Reason why a board with marks is not found in a mirrored photograph."""
 Progress = Callable[[int, int, View], None]
 """Function that is called with the number of finished images, of all images, and the last view."""
 
@@ -138,8 +143,14 @@ def find_views(
             k for k, view in enumerate(views) if _is_worth_searching_again(view, inferred, pattern)
         ]
         search(again, inferred, before=len(readable))
+    pattern = infer_pattern(views, pattern)
+    if pattern.identifies_points and any(view.corners is not None for view in views):
+        read_mirrored = partial(
+            search_image or search_view, grid_size=grid_size, method=method, pattern=pattern
+        )
+        views = _name_mirrored(views, read_mirrored, stop)
     remark = "" if shared is None else _describe_shared_part(shared)
-    return Detection(tuple(views), size, grid_size, infer_pattern(views, pattern), remark)
+    return Detection(tuple(views), size, grid_size, pattern, remark)
 
 
 def search_view(
@@ -161,6 +172,24 @@ def search_view(
     said = [view.note, *(each for each in (doubt, corners.remark) if each not in view.note)]
     note = " ".join(filter(None, said))
     return replace(view, status=ViewStatus.FOUND, reason="", note=note, corners=corners)
+
+
+def _name_mirrored(
+    views: Sequence[View], search: Callable[[View], View], stop: Event | None
+) -> list[View]:
+    """Return the views, with the reason of those in whose mirror image the board is found.
+
+    No mark on a board survives that its picture is mirrored, as programs for video calls do.
+    """
+    named = list(views)
+    lost = [k for k, v in enumerate(named) if v.status is ViewStatus.NO_BOARD and v.roi is None]
+    mirror_images = [
+        replace(named[k], orientation=mirror_orientation(named[k].orientation or 1)) for k in lost
+    ]
+    for i, seen in map_in_processes(search, mirror_images, stop):
+        if isinstance(seen, View) and seen.corners is not None:
+            named[lost[i]] = named[lost[i]].refuse(ViewStatus.NO_BOARD, _MIRRORED)
+    return named
 
 
 def _describe_zero_tail(image: Image) -> str:

@@ -15,7 +15,7 @@ from calibgui.app.board_recognition import (
     recognise_pattern,
 )
 from calibgui.app.detection import Detection, find_views
-from calibgui.dataset import View
+from calibgui.dataset import View, ViewStatus
 from calibgui.engine.arrays import GridSize
 from calibgui.engine.boards import KINDS
 from calibgui.engine.boards.april_grid import AprilGrid
@@ -137,6 +137,17 @@ def test_pictures_of_marks_in_a_mirror_are_told(pattern: Pattern, tmp_path: Path
     assert "mirrored: left is right" in error.message
     assert "Turn mirroring off" in error.hint
     assert not faults, "the cause is told once, not for every photograph"
+
+
+def test_a_mirrored_picture_among_others_is_told(tmp_path: Path) -> None:
+    pattern = Charuco("DICT_4X4_50", 0.7, legacy=False)
+    image = Scene(Board(8, 10, 20.0, pattern), _CAMERA, (0.4, 0.25, 0.2), 330.0).image()
+    write_image(tmp_path / "view.png", image)
+    write_image(tmp_path / "mirrored.png", image[:, ::-1])
+    images = [tmp_path / "view.png", tmp_path / "mirrored.png"]
+    seen, mirrored = find_views(images, pattern=KINDS["charuco"]).views
+    assert seen.usable and mirrored.status is ViewStatus.NO_BOARD
+    assert mirrored.reason.startswith("The board is mirrored here: left is right.")
 
 
 def test_marks_in_a_mirror_are_told_where_a_plain_board_is_found(tmp_path: Path) -> None:

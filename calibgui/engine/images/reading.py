@@ -207,6 +207,17 @@ def _read_turned(path: Path, orientation: int | None, colour: bool) -> tuple[Pix
     return np.ascontiguousarray(pixels), header, zeros / len(data)
 
 
+def mirror_orientation(orientation: int) -> int:
+    """Return the EXIF orientation whose image is that of another one with left and right exchanged.
+
+    Example:
+        >>> from calibgui.engine.images import mirror_orientation
+        >>> [mirror_orientation(each) for each in range(1, 9)]
+        [2, 1, 4, 3, 6, 5, 8, 7]
+    """
+    return (orientation - 1 ^ 1) + 1
+
+
 def _turn(pixels: Pixels, orientation: int) -> Pixels:
     """Return `pixels` turned as EXIF says: transposed from 5 on, then mirrored along u or v."""
     if orientation >= 5:
