@@ -12,6 +12,7 @@ from calibgui.engine.detection.checkerboard.lattice_growth import grow_lattice
 from calibgui.engine.detection.checkerboard.pyramid_search import Candidate
 from calibgui.engine.detection.checkerboard.x_junctions import Junctions
 from calibgui.engine.detection.lattice import Lattice, compute_filled_share
+from tests.scenes.perspective import photograph_board
 from tests.scenes.without_board import draw_without_board
 
 
@@ -92,3 +93,20 @@ def test_parts_of_what_is_known_are_not_carried_down() -> None:
     image = np.full((600, 600), 127, np.uint8)
     (carried,) = pyramid_search._carry_down([part, beside], [known], [image])
     np.testing.assert_allclose(carried.lattice.uv, uv[:4, :4] + 300.0)
+
+
+def test_a_large_lattice_of_another_board_is_not_grown(monkeypatch: pytest.MonkeyPatch) -> None:
+    """It is judged in full resolution, with squares of 14 px, and told as it is seen."""
+    image = photograph_board((640, 480), (21, 29), 14.0, 0.8)
+    asked: list[tuple[float, int]] = []
+
+    def is_other(lattice: Lattice, depth: int) -> bool:
+        asked.append((float(np.nanmedian(lattice.spacing())), depth))
+        return True
+
+    monkeypatch.setattr(pyramid_search, "grow_lattice", lambda *_: pytest.fail("it was grown"))
+    found = next(iter(pyramid_search.find_candidates(image, is_other=is_other)))
+    assert [each.is_other for each in found] == [True]
+    assert len(found[0].lattice) > 0.9 * 21 * 29
+    assert asked
+    assert all(abs(spacing - 14) < 1.5 for spacing, _ in asked)

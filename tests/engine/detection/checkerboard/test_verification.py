@@ -19,8 +19,10 @@ from calibgui.engine.detection.checkerboard import verification
 from calibgui.engine.detection.checkerboard.numbering import turn_lattice
 from calibgui.engine.detection.lattice import (
     Lattice,
+    add_border,
     drop_isolated_and_crop,
     estimate_steps,
+    predict_places,
 )
 from tests.scenes.checkerboards import draw
 from tests.scenes.conditions import Conditions
@@ -540,3 +542,18 @@ class TestEnds:
         levels[0] = 125 + contrast * (levels[0] - 125)
         part = Lattice(place(7, 9).uv[1:], dark=False)
         assert verification.find_ends(part, paint(levels))[0] == ends
+
+
+def test_what_lies_in_front_of_a_lattice_depends_on_its_first_lines() -> None:
+    """On no more of them than are looked at, whatever is missing."""
+    rng = np.random.default_rng(0)
+    grid = np.stack(np.meshgrid(np.arange(9.0), np.arange(12.0)), axis=-1)
+    count = verification._LINES_THAT_PREDICT
+    for _ in range(50):
+        uv = 20 * grid + rng.uniform(-1, 1, grid.shape)
+        uv[rng.uniform(size=uv.shape[:2]) < 0.6] = np.nan
+        of_all, of_first = (
+            np.stack([each[0] for each in (predict_places(uv), *estimate_steps(uv))])
+            for uv in (add_border(uv, 1), add_border(uv[:count], 1))
+        )
+        np.testing.assert_array_equal(of_first, of_all)
