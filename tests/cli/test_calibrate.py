@@ -296,7 +296,7 @@ def test_bad_images_are_reported_by_name_and_skipped(
     assert main(["calibrate", str(tmp_path), "--square", "30", "--board", "6x7"]) == 0
     printed = " ".join(capsys.readouterr().out.split())
     assert "text.png is not an image" in printed
-    assert "small.png: It has 100 x 100 pixels" in printed
+    assert "small.png: 100 x 100 pixels" in printed
     assert "blank.png: No checkerboard was found." in printed
 
 
