@@ -18,6 +18,7 @@ from calibgui.dataset import Result
 from calibgui.dataset.judging import judge_result
 from calibgui.engine.assessment import (
     MIN_HARM_PX,
+    MIN_VIEWS_TO_BE_GOOD,
     REMEDY_OF_LENS,
     ActionKind,
     Cause,
@@ -40,8 +41,6 @@ _MIN_POOR_RELATIVE_SIGMA = 5e-3
 """Relative standard deviation of a length above which it counts as badly determined."""
 _MIN_SIGMAS_FROM_ZERO = 2.0
 """Ratio of a lens coefficient to its sigma, below which it is not told from zero."""
-_MIN_VIEWS_TO_BE_GOOD = 5
-"""Number of views below which no calibration is good (``assessment/verdict.py``)."""
 _MIN_STRONG_CORRELATION = 0.98
 """Correlation above which two lens coefficients are named as exchangeable."""
 _MAX_RMS_OVER_MEDIAN = 2.5
@@ -126,7 +125,7 @@ def describe_lost_images(result: Result) -> str:
     """Say that a calibration lacks views because most images cannot be used; empty if not so."""
     count, used = len(result.views), len(result.used)
     lost = sum(view.enabled and not view.usable for view in result.views)
-    if used >= _MIN_VIEWS_TO_BE_GOOD or lost <= count / 2:
+    if used >= MIN_VIEWS_TO_BE_GOOD or lost <= count / 2:
         return ""
     return (
         f"{lost} of {count} images cannot be used, for reasons stated with them: mend that before "

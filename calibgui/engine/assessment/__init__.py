@@ -112,6 +112,7 @@ if TYPE_CHECKING:
         fit_series as fit_series,
     )
     from calibgui.engine.assessment.verdict import (
+        MIN_VIEWS_TO_BE_GOOD as MIN_VIEWS_TO_BE_GOOD,
         Grade as Grade,
         PixelError as PixelError,
         Verdict as Verdict,
@@ -181,7 +182,7 @@ load_on_demand(
             "summarise_residuals",
         ],
         "series": ["MIN_SETTINGS", "SPLINE", "Series", "Setting", "fit_series"],
-        "verdict": ["Grade", "PixelError", "Verdict", "judge_calibration"],
+        "verdict": ["MIN_VIEWS_TO_BE_GOOD", "Grade", "PixelError", "Verdict", "judge_calibration"],
         "view_weights": ["calibrate_weighted"],
     },
 )

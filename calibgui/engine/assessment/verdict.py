@@ -81,7 +81,7 @@ _REMEDY_OF_BLUR = (
     "Take these again, sharp, in good light and from nearer: to weigh them less brings little."
 )
 """The remedy of unequal noise where weights bring the camera little."""
-_MIN_VIEWS_TO_USE, _MIN_VIEWS_TO_BE_GOOD = 3, 5
+_MIN_VIEWS_TO_USE, MIN_VIEWS_TO_BE_GOOD = 3, 5
 """Number of views below which a calibration is not usable, and not good, however small its error is
 said to be: too few are left to find out that it is wrong."""
 _REMEDY_OF_BEST_LENS = (
@@ -333,7 +333,7 @@ def _state_gain(finding: Finding, trial: Trial, times: float) -> Finding:
     found = replace(finding, action=trial.action, times_better=times)
     if times < _MIN_GAIN and trial.action.kind is ActionKind.CHOOSE_LENS_MODEL:
         message, count = found.message, len(trial.calibration.poses)
-        if count < _MIN_VIEWS_TO_BE_GOOD:
+        if count < MIN_VIEWS_TO_BE_GOOD:
             message = f"{count} views are too few: {message[:1].lower()}{message[1:]}"
         photograph = Action(ActionKind.PHOTOGRAPH_MORE)
         return replace(found, message=message, remedy=_REMEDY_OF_BEST_LENS, action=photograph)
@@ -424,7 +424,7 @@ def _grade(
         return Grade.NOT_USABLE, "Pixels are known too poorly."
     if findings:
         return Grade.USABLE, findings[0].message
-    if count < _MIN_VIEWS_TO_BE_GOOD:
+    if count < MIN_VIEWS_TO_BE_GOOD:
         return Grade.USABLE, few
     if not error.worst_covered <= MAX_GOOD_PX:
         return Grade.USABLE, (
