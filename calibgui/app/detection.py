@@ -3,9 +3,9 @@
 A failure with one image is recorded in its view and does not stop the search. One camera has one
 image size, and its photographs are all turned alike (``sensor_frame.py``). If the grid size of
 the board is not given, the most frequent one among completely seen boards is taken, or that of a
-part which several photographs share, and images in which another size was found are searched again.
-Unknown properties of a pattern, such as the
-dictionary of its markers, are inferred in the same way.
+part which several photographs share, and images that show another size, or may cut the board, are
+searched again. Unknown properties of a pattern, such as the dictionary of its markers, are inferred
+in the same way.
 """
 
 from __future__ import annotations
@@ -76,7 +76,8 @@ class Detection:
             raise refuse_unreadable(self.views)
         seen = [view.corners for view in self.views if view.corners is not None]
         if self.grid_size is None and (largest := measure_largest_part(seen)) is not None:
-            raise _explain_unknown_size(largest, self.pattern)
+            is_open = any(corners.relative for corners in seen)
+            raise _explain_unknown_size(largest, self.pattern, is_open=is_open)
         board = None if self.grid_size is None else Board(*self.grid_size, square, self.pattern)
         return CornerSet(self.size, self.views, board)
 
@@ -116,9 +117,10 @@ def find_views(
     rois = rois or {}
     waiting = [View(str(path), roi=rois.get(path)) for path in images]
     views, size = share_frame(waiting, size, orientation)
+    unsearched = tuple(views)
 
     def search(which: Sequence[int], grid_size: GridSize | None, before: int = 0) -> None:
-        items = [views[k] for k in which]
+        items = [unsearched[k] for k in which]
         results = map_in_processes(
             partial(
                 search_image or search_view, grid_size=grid_size, method=method, pattern=pattern
@@ -202,9 +204,13 @@ def _describe_zero_tail(image: Image) -> str:
     )
 
 
-def _explain_unknown_size(largest: GridSize, pattern: Pattern) -> CalibrationError:
-    """Return the error that pictures show parts of a board only, of which one is the `largest`."""
+def _explain_unknown_size(
+    largest: GridSize, pattern: Pattern, *, is_open: bool
+) -> CalibrationError:
+    """Return the error that pictures show parts of a board only, of which one is the `largest`, or
+    that end where a grid of circles may go on (`is_open`)."""
     rows, cols = largest
+    shown = "where the grid ends on all sides" if is_open else "the whole board"
     points = "inner corners" if pattern.has_squares else "circles"
     remedy = (
         f"State the size of the board: {rows} x {cols} if nothing of it lies beyond that part, "
@@ -213,8 +219,8 @@ def _explain_unknown_size(largest: GridSize, pattern: Pattern) -> CalibrationErr
     if not pattern.has_squares:
         remedy += " and take pictures that show all of them: a grid is found whole or not at all"
     return CalibrationError(
-        "No picture shows the whole board, so its size is not known: the largest part seen has "
-        f"{rows} x {cols} {points}.",
+        f"No picture shows {shown}, so its size is not known: the largest part seen has {rows} x "
+        f"{cols} {points}.",
         f"{remedy}.",
     )
 
@@ -228,12 +234,14 @@ def refuse_unreadable(views: Sequence[View]) -> CalibrationError:
 def infer_grid_size(views: Iterable[View]) -> GridSize | None:
     """Return the most frequent grid size of completely seen boards; of equals, the largest.
 
-    If the corners identify themselves, the largest part seen is taken. None if there is no board.
+    If the corners identify themselves, the largest part seen is taken. A grid of circles that may
+    go on outside of its image is a part. None if there is no board.
     """
     found = [view.corners for view in views if view.corners is not None]
     if found and all(corners.pattern.identifies_points for corners in found):
         return measure_largest_part(found)
-    seen = Counter(corners.shape for corners in found if corners.complete)
+    whole = (corners for corners in found if corners.complete and not corners.relative)
+    seen = Counter(corners.shape for corners in whole)
     return max(seen, key=lambda shape: (seen[shape], shape[0] * shape[1]), default=None)
 
 
@@ -268,7 +276,7 @@ def infer_pattern(views: Iterable[View], stated: Pattern) -> Pattern:
 def _is_worth_searching_again(view: View, grid_size: GridSize, pattern: Pattern) -> bool:
     """Return whether a search for the known board can change the corners of a view."""
     if view.corners is not None:
-        return view.corners.shape != grid_size
+        return view.corners.shape != grid_size or view.corners.relative
     known = view.roi is not None or pattern.identifies_points
     return view.status is ViewStatus.NO_BOARD and known
 

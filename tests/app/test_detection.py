@@ -13,7 +13,7 @@ from calibgui.app import detection, workers
 from calibgui.app.detection import Detection, find_views, infer_grid_size, search_view
 from calibgui.app.paths import find_images
 from calibgui.dataset import View, ViewStatus
-from calibgui.engine.arrays import freeze_array
+from calibgui.engine.arrays import GridSize, freeze_array
 from calibgui.engine.boards.board import Board
 from calibgui.engine.boards.checkerboard import CHECKERBOARD
 from calibgui.engine.boards.circle_grid import Circles
@@ -237,3 +237,38 @@ def test_a_board_cut_at_a_crease_is_pointed_out(tmp_path: Path) -> None:
     view = search_view(View(str(path)))
     assert "cut at what looks like a crease" in view.note
     assert search_view(view).note == view.note
+
+
+@pytest.mark.parametrize(
+    ("kinds", "grid_size", "usable"),
+    [
+        (["cut", "cut"], None, 2),
+        (["tight", "tight"], None, 2),
+        (["tight", "tight", "tight"], (4, 5), 3),
+        (["cut", "cut", "tight", "whole"], (4, 5), 2),
+    ],
+)
+def test_a_grid_of_circles_that_its_picture_may_cut_does_not_tell_the_size(
+    kinds: list[str], grid_size: GridSize | None, usable: int, tmp_path: Path
+) -> None:
+    """The last column, or the one that would be next, is outside of the picture."""
+    v, u = np.indices((240, 320))
+    ends = {"whole": 5, "tight": 5, "cut": 4}
+    for k, kind in enumerate(kinds):
+        left = 80 if kind == "whole" else 330 - 36 * ends[kind]
+        pixels = np.full((240, 320), 220.0)
+        for m, n in np.ndindex(4, 5):
+            distance = np.hypot(u - left - 36 * n, v - 60 - 36 * m)
+            pixels -= 180 * np.clip(9.3 - distance, 0, 1)
+        write_image(tmp_path / f"{k}.png", pixels.astype(np.uint8))
+    with workers.do_tasks_here():
+        found = find_views(find_images([str(tmp_path)]), pattern=Circles())
+    assert found.grid_size == grid_size
+    assert sum(view.usable for view in found.views) == usable
+    if grid_size is None:
+        with pytest.raises(CalibrationError, match="No picture shows where the grid ends on all"):
+            found.corner_set(30.0)
+        return
+    assert not any(view.note or (view.corners and view.corners.relative) for view in found.views)
+    assert found.corner_set(30.0).board is not None
+    assert bool(found.remark) == ("whole" not in kinds)

@@ -73,7 +73,8 @@ class Corners:
     method: str = "saddle"
     """How the positions were refined: "edges", "saddle" or "ellipses"."""
     relative: bool = False
-    """True if a partly seen board's rows or columns could be counted otherwise."""
+    """True if a partly seen board's rows or columns could be counted otherwise, or if a grid of
+    circles may have more of them outside of the image."""
     blur: Array | None = None
     """(n,) standard deviation of the edges' blur, pixel included, px."""
     contrast: Array | None = None

@@ -78,10 +78,11 @@ def find_corners(
     Returns:
         The corners, right-handed in the image, from an origin whose outer square is dark. Of a
         board that is only partly seen `complete` is false, and `relative` is true where its
-        rows or columns could be counted otherwise. Corners seen but not trusted are `rejected`
-        with the reason; further boards are in `others`, but for those of much smaller squares:
-        these are looked for only until the wanted board is found. The covariances are those of
-        the noise alone.
+        rows or columns could be counted otherwise; also of a grid of circles of unstated size that
+        may go on outside of the image. Corners seen but not trusted are `rejected` with the
+        reason; further boards are in `others`, but for those of much smaller squares: these are
+        looked for only until the wanted board is found. The covariances are those of the noise
+        alone.
 
     Raises:
         NoBoardError: no acceptable board, why, and what was found instead.

@@ -74,7 +74,7 @@ def find_circles(
     grey = check_grey_levels(image)
     outline = None if roi is None else region.check_outline(roi)
     coarse = _find_grid(pattern, stretch_levels(grey), grid_size, outline)
-    is_stated = grid_size is not None
+    is_counted = grid_size is None and outline is None
     grid_size = coarse.shape[0], coarse.shape[1]
     grid = list_grid_indices(grid_size)
     xy = pattern.locate_points(grid.astype(np.float64))
@@ -102,7 +102,7 @@ def find_circles(
             f"The circles measure {2 * radius:.2f} of their distance, not {pattern.diameter:.2f}.",
             "State diameter and distance as measured, or leave the diameter out.",
         )
-    is_open = find_continuation(coarse, grey, asymmetric=pattern.asymmetric).is_open
+    is_open = is_counted and find_continuation(coarse, grey, asymmetric=pattern.asymmetric).is_open
     order, ambiguity = _number_by_marks(verified, grid_size, pattern.symmetry(grid_size))
     good = order[verified.good[order]]
     whole = verified.uv[order].reshape(*grid_size, 2)
@@ -115,13 +115,14 @@ def find_circles(
         ambiguity=ambiguity,
         roi=whole[[0, 0, -1, -1], [0, -1, -1, 0]] if outline is None else outline,
         method="ellipses",
+        relative=is_open,
         blur=fit.blur[good],
         contrast=fit.contrast[good],
         residual=fit.residual[good],
         rejected=tuple(
             list_rejected_corners(fit.uv[~verified.good], "not the image of a circle there")
         ),
-        remark="" if is_stated or not is_open else _OPEN,
+        remark=_OPEN if is_open else "",
         pattern=Circles(pattern.asymmetric, 2 * radius),
     )
 

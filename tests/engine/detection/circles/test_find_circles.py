@@ -397,9 +397,11 @@ def test_it_is_said_that_a_grid_may_go_on_outside_of_the_picture() -> None:
     image = whole.image()
     cut = image[:, : int(find_corners(image, (5, 9), pattern=pattern).uv[:, 0].max()) - 30]
     corners = find_corners(np.ascontiguousarray(cut), pattern=pattern)
-    assert corners.shape == (5, 8)
+    assert corners.shape == (5, 8) and corners.relative
     assert "ends before the next row or column" in corners.remark
-    assert not find_corners(np.ascontiguousarray(cut), (5, 8), pattern=pattern).remark
+    for size, roi in (((5, 8), None), (None, corners.roi)):
+        told = find_corners(np.ascontiguousarray(cut), size, roi, pattern=pattern)
+        assert not told.remark and not told.relative
 
 
 @pytest.mark.parametrize("pattern", [Circles(False, 0.45), Circles(True, 0.7)])
