@@ -5,6 +5,8 @@ or not at all. An ellipse is then fitted to the pixels of every circle's edge (`
 the image of the circle's centre follows from the ellipse's (`circle_map`), for the diameter that
 the ellipses show. Numbering is right-handed in the image; among origins that cannot be told apart
 the one that makes the grid upright is taken, or the one nearest to the first of the marked points.
+A symmetric grid turned by a quarter is another one with rows and columns exchanged: unless its size
+is stated, the fewer lines are its rows in every image.
 
 Boards of robot cells mark the origin, or the axes, by circles of another size. Such marks are
 circles like the others, and tell turns of the grid apart: of the numberings that remain that one is
@@ -193,30 +195,33 @@ def _list_searches(levels: list[GreyImage]) -> Iterator[tuple[int, GreyImage, in
 
 
 def _number_circles(pattern: Circles, centres: Array, xy: Array, outline: Array | None) -> Array:
-    """Number the centres (rows, cols, 2) px as the pattern does.
+    """Number the centres (rows, cols, 2) px as the pattern does, among its turns that look alike.
+
+    How well a map fits tells no others apart: a bend along three rows is a shift of the middle one.
 
     Returns:
         (n, 2) px, the centre of each of the pattern's points `xy` (n, 2).
     """
-    orders = [centres, centres[::-1], centres[:, ::-1], centres[::-1, ::-1]]
-    if centres.shape[0] == centres.shape[1] and not pattern.asymmetric:
-        orders += [order.transpose(1, 0, 2) for order in orders]
+    grid_size = centres.shape[0], centres.shape[1]
     rated = []
-    for order in orders:
-        uv = order.reshape(-1, 2)
-        circle_map = fit_circle_map(xy, uv)
-        J = circle_map.differentiate(xy)
+    for order in _list_turns(grid_size, pattern.symmetry(grid_size)):
+        uv = centres.reshape(-1, 2)[order]
+        J = fit_circle_map(xy, uv).differentiate(xy)
         if not (np.isfinite(J).all() and (np.linalg.det(J) > 0).all()):
             continue
-        misfit = float(np.sqrt(np.mean((circle_map.locate(xy) - uv) ** 2)))
         right = J[..., 0].mean(axis=0)
-        start = 0.0 if outline is None else float(np.linalg.norm(order[0, 0] - outline[0]))
-        rated.append((misfit, start, -right[0] / np.linalg.norm(right), uv))
+        start = 0.0 if outline is None else float(np.linalg.norm(uv[0] - outline[0]))
+        rated.append((start, -round(float(right[0] / np.linalg.norm(right)), 6), uv))
     if not rated:
         raise _distrust("its circles do not lie on a smooth grid")
-    least = min(rate[0] for rate in rated)
-    same = [rate for rate in rated if rate[0] < 2 * least + 0.1]
-    return min(same, key=lambda rate: (rate[1], round(rate[2], 6)))[3]
+    return min(rated, key=lambda rate: rate[:2])[2]
+
+
+def _list_turns(grid_size: GridSize, symmetry: Symmetry) -> list[IntArray]:
+    """List the places (n,) of a grid in the order of each numbering that its symmetry allows."""
+    places = np.arange(grid_size[0] * grid_size[1]).reshape(grid_size)
+    step = {Symmetry.NONE: 4, Symmetry.HALF_TURN: 2, Symmetry.QUARTER_TURN: 1}[symmetry]
+    return [np.rot90(places, quarters).ravel() for quarters in range(0, 4, step)]
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -245,9 +250,7 @@ def _number_by_marks(
     Returns:
         The places (n,) in the order of their numbering, and the turns that the marks leave open.
     """
-    places = np.arange(len(circles.good)).reshape(grid_size)
-    step = {Symmetry.NONE: 4, Symmetry.HALF_TURN: 2, Symmetry.QUARTER_TURN: 1}[symmetry]
-    orders = [np.rot90(places, quarters).ravel() for quarters in range(0, 4, step)]
+    orders = _list_turns(grid_size, symmetry)
     if not circles.good.all():
         return orders[0], symmetry
     marks = [tuple(np.flatnonzero(circles.are_marks[order]).tolist()) for order in orders]

@@ -145,11 +145,14 @@ def test_circles_smaller_than_their_blur_are_refused_rather_than_misplaced(
     assert np.abs(scene.error(corners)).max() < 0.03
 
 
-@pytest.mark.parametrize("turn", [0.0, 1.7, 3.1])
-def test_an_unique_origin_is_found(turn: float) -> None:
+@pytest.mark.parametrize(
+    ("grid_size", "turn"), [((7, 4), 0.0), ((7, 4), 1.7), ((7, 4), 3.1), ((3, 6), 3.1)]
+)
+def test_an_unique_origin_is_found(grid_size: GridSize, turn: float) -> None:
+    """A shift of the middle one of three rows is no bend of the lens."""
     pattern = Circles(True, 0.8)
-    scene = Scene(Board(7, 4, 20.0, pattern), rvec=(0.2, 0.1, turn))
-    corners = find_corners(scene.image(), (7, 4), pattern=pattern)
+    scene = Scene(Board(*grid_size, 20.0, pattern), rvec=(0.2, 0.1, turn), distance=600.0)
+    corners = find_corners(scene.image(), grid_size, pattern=pattern)
     assert corners.ambiguity is Symmetry.NONE
     assert np.abs(scene.error(corners)).max() < 0.03
 
