@@ -330,7 +330,9 @@ def _select_dark_borders(image: GreyImage, quads: Array, limit: float, most: int
 
 def _refine_quads(image: GreyImage, quads: Array) -> Array:
     """Move the corners (n, 4, 2) px of quadrilaterals to the saddle points beside them, if all four
-    have one."""
+    have one, and no paper comes in. Beside tags without small squares there are none but in noise,
+    and moves by 3 to 15 px: of 52 such quadrilaterals all were brighter along their sides then, of
+    1360 that had saddle points none."""
     side = np.repeat(np.linalg.norm(quads - np.roll(quads, 1, axis=1), axis=2).min(axis=1), 4)
     uv, good = saddle.refine_saddles(
         image,
@@ -338,8 +340,10 @@ def _refine_quads(image: GreyImage, quads: Array) -> Array:
         np.clip(_REFINING_SIGMA * side, *_SIGMA_LIMITS),
         _MAX_REFINING_SHIFT * side,
     )
+    moved = uv.reshape(-1, 4, 2)
     refined = np.asarray(good.reshape(-1, 4).all(axis=1))
-    return np.where(refined[:, None, None], uv.reshape(-1, 4, 2), quads)
+    refined &= rate_borders(image, moved) <= rate_borders(image, quads)
+    return np.where(refined[:, None, None], moved, quads)
 
 
 def _widen(quads: Array, by: float) -> Array:

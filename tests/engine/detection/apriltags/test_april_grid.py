@@ -12,7 +12,9 @@ from calibgui.engine.boards.april_grid import AprilGrid, TagLayout
 from calibgui.engine.boards.board import Board
 from calibgui.engine.boards.checkerboard import CHECKERBOARD
 from calibgui.engine.camera.camera import Camera
+from calibgui.engine.camera.distortion import project_points
 from calibgui.engine.camera.projection import pixels_from_rays
+from calibgui.engine.detection.apriltags import grid_tags
 from calibgui.engine.detection.apriltags.tag_gap import fit_gap, measure_gap
 from calibgui.engine.detection.corners import Corners
 from calibgui.engine.detection.find_corners import find_corners
@@ -336,3 +338,17 @@ def test_tags_farther_apart_than_they_are_wide_are_no_april_grid() -> None:
                 measure_gap(uv, 0.9)
         else:
             assert measure_gap(uv, 0.9) == pytest.approx(gap)
+
+
+def test_noise_moves_no_corners_of_tags_without_small_squares() -> None:
+    """It has saddle points beside the corners of large tags, which are none themselves."""
+    pattern = AprilGrid("t36h11", 0.3, 2, True, False)
+    scene = Scene(Board(4, 4, 80.0, pattern), CAMERA, (0.2, -0.3, 0.3), 322.0)
+    image = scene.image(noise=0.0)
+    rng = np.random.default_rng(1)
+    uv = project_points(scene.board.points(), CAMERA, scene.pose).reshape(4, 4, 2)
+    quads = uv[:2, :2].reshape(1, 4, 2)[:, [0, 1, 3, 2]]
+    for _ in range(60):
+        noisy = np.clip(np.rint(image + rng.normal(0, 2, image.shape)), 0, 255).astype(np.uint8)
+        near = quads + rng.uniform(-1, 1, quads.shape)
+        assert np.abs(grid_tags._refine_quads(noisy, near) - quads).max() < 2
