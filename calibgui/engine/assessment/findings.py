@@ -5,8 +5,8 @@ like both. So no test speaks for itself. The causes are asked in an order in whi
 without those behind it, and what one explains is taken out before the next is asked:
 
 1. **What is given** (``input_errors.py``): corners of another frame or image size, values that are
-   held and wrong, corners that are not where the others say. The latter are left out, and all that
-   follows is asked of what is left.
+   held and wrong, two pictures in one photograph (``side_by_side.py``), corners that are not where
+   the others say. The latter are left out, and all that follows is asked of what is left.
 2. **Number of views.** Two or three views show nothing but that they are too few, if pixels are
    poorly known or if lens and board would explain the same residuals. Nor do views so much alike
    that the noise alone leaves pixels poorly known.
@@ -56,6 +56,7 @@ from calibgui.engine.assessment.outliers import Screening, select_corners
 from calibgui.engine.assessment.residual_checks import NoiseCheck, check_residuals
 from calibgui.engine.assessment.residual_statistics import summarise_residuals
 from calibgui.engine.assessment.rival_lens import fit_rival
+from calibgui.engine.assessment.side_by_side import TwoPictures, find_two_pictures
 from calibgui.engine.assessment.systematic_errors import prepare_fit
 from calibgui.engine.boards.shape import BoardShapeModel
 from calibgui.engine.calibration.calibrate import calibrate
@@ -205,6 +206,10 @@ def _find(
     if calibration.cost is not Cost.IMAGE:
         calibration = _minimise_image_cost(calibration, views)
         case = prepare_case(calibration, views, names)
+    pictures = find_two_pictures(calibration, views)
+    if pictures is not None:
+        yield _describe_two_pictures(case, pictures)
+        return
     screening = screen_misplaced_corners(calibration, views)
     if screening is not None:
         left = _leave_out(screening, views, names)
@@ -233,6 +238,27 @@ def _minimise_image_cost(calibration: Calibration, views: Sequence[Observation])
         return calibrate(views, calibration.camera.size, **recover_image_arguments(calibration))
     except CalibrationError:
         return calibration
+
+
+def _describe_two_pictures(case: Case, found: TwoPictures) -> Finding:
+    """Describe photographs that show two pictures, by the views of that with fewer views."""
+    is_second = 2 * int(found.is_second.sum()) <= len(found.is_second)
+    views = tuple(np.flatnonzero(found.is_second == is_second).tolist())
+    sides = (("left of column", "right of column"), ("above row", "below row"))
+    where = f"{sides[found.axis][is_second]} {found.border:.0f}"
+    harm = case.measure_harm(1 - (found.rms / case.rms) ** 2)
+    return Finding(
+        Cause.MIXED_VIEWS,
+        "The photographs show two pictures of different cameras, as a stereo camera stores them: "
+        f"the board is {where} in {_list_names([case.names[k] for k in views])}, and on the other "
+        "side in the others.",
+        f"With a camera for each side, {found.rms:.2g} px would be left of {case.rms:.3g} px RMS; "
+        f"{describe_harm(harm)}.",
+        "Cut the photographs apart, and calibrate each side by itself.",
+        harm,
+        views,
+        Action(ActionKind.LEAVE_OUT_VIEWS, views),
+    )
 
 
 def _leave_out(screening: Screening, views: Sequence[Observation], names: Sequence[str]) -> Case:

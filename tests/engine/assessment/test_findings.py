@@ -13,6 +13,7 @@ from calibgui.engine.assessment.comparison import compare_cameras
 from calibgui.engine.assessment.finding import Cause, Finding
 from calibgui.engine.assessment.findings import list_findings
 from calibgui.engine.assessment.input_errors import find_wrong_frame, screen_misplaced_corners
+from calibgui.engine.assessment.side_by_side import find_two_pictures
 from calibgui.engine.assessment.verdict import try_action
 from calibgui.engine.boards.board import Board
 from calibgui.engine.calibration.calibrate import calibrate
@@ -20,6 +21,7 @@ from calibgui.engine.calibration.observations import Observation
 from calibgui.engine.camera.camera import Camera
 from calibgui.engine.camera.projection import pixels_from_rays
 from calibgui.engine.errors import CalibrationError
+from calibgui.engine.geometry.pose import Pose
 from calibgui.engine.geometry.rotations import rotation_from_vector
 from tests.engine.scenes import BOARD, VGA, barrel, looking, scene, seen
 from tests.faults.campaign import inject_fault
@@ -112,6 +114,32 @@ def test_photographs_of_a_stereo_pair_are_two_kinds_where_the_board_is_off_as_we
     assert set(finding.views) in ({*range(0, count, 2)}, {*range(1, count, 2)})
     one = [view for k, view in enumerate(views) if k not in finding.views]
     assert [finding.cause for finding in found(one)] == [Cause.BOARD_SHAPE]
+
+
+@pytest.mark.parametrize("axis", [0, 1])
+def test_two_pictures_in_each_photograph_are_two_cameras(axis: int) -> None:
+    """The board is in one or the other, and each has its principal point in its middle."""
+    size = (VGA[0], 2 * VGA[1]) if axis else (2 * VGA[0], VGA[1])
+    views = [Observation(np.array(view.uv), view.xy) for view in CLEAN]
+    for k in (1, 2, 5, 8):
+        views[k].uv[:, axis] += VGA[axis]
+    (finding,) = list_findings(calibrate(views, size), views)
+    assert finding.cause is Cause.MIXED_VIEWS
+    assert finding.views == (1, 2, 5, 8)
+    assert ("below row" if axis else "right of column") in finding.message
+    assert "Cut" in finding.remedy
+
+
+def test_views_at_two_sides_of_one_picture_are_one_camera() -> None:
+    """Though each side by itself follows a lens better that the model does not follow."""
+    camera, rng, poses = barrel(), np.random.default_rng(4), []
+    for k in range(12):
+        pose = looking(camera, rng, fill=(0.15, 0.3))
+        aside = 0.28 * (-1) ** k * VGA[0] / camera.focal[0] * pose.tvec[2]
+        poses.append(Pose(pose.rvec, np.add(pose.tvec, [aside, 0.0, 0.0])))
+    views = seen(camera, poses).noisy(0.1, rng)
+    assert all(len(set(v.uv[:, 0] > MIDDLE[0])) == 1 for v in views)
+    assert find_two_pictures(calibrate(views, VGA, model="pinhole"), views) is None
 
 
 def test_what_a_wrong_lens_leaves_open_is_no_finding_beside_it() -> None:
