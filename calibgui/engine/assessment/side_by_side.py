@@ -28,7 +28,7 @@ _MIN_DISTANCE = 0.25
 """Distance of the principal points, over the image's side along which the pictures lie, from which
 there are two pictures; half of what it is where both are alike and their cameras centred."""
 _MIN_DISTANCE_IN_SIGMA = 5.0
-"""The same over its standard deviation."""
+"""Distance of the principal points over its standard deviation, from which there are two."""
 _MAX_RMS_LEFT = 0.4
 """RMS residual that the two cameras leave, over that of the common one, up to which there are two
 pictures. Of 150 rendered sets of boards at two sides of one picture, by a lens that the model did

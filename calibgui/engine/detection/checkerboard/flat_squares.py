@@ -36,12 +36,12 @@ _MIN_CELLS = 12
 _LIGHT = 6
 """Number of columns by the light's unknowns: 1, p', q, p' q; the residual follows."""
 _COLUMNS = np.r_[6, 7, UNKNOWNS + 1 : UNKNOWNS + 5, UNKNOWNS]
-"""Where these stand among those of the normal equations."""
+"""Places of these columns among those of the normal equations."""
 _DAMPING = 1e-12
-"""What is added to the diagonal of the light's equations, over their largest entry: a corner may
+"""Part of their largest entry that the diagonal of the light's equations is raised by: a corner may
 have all its cells on one side."""
 _HALF_DIAGONAL = 0.5**0.5
-"""How far a cell reaches beyond its centre, cells."""
+"""Distance of a cell's corners from its centre, cells."""
 
 
 def read_flat_squares(image: GreyImage, model: XCornerModel, noise: Array) -> Array:
