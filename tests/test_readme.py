@@ -78,6 +78,27 @@ def test_python() -> None:
     assert scope["picture"].ndim == 2
 
 
+def read_values(table: str) -> dict[str, tuple[float, float]]:
+    """Read the values that stand in a table of a camera, each with its standard deviation."""
+    found = re.findall(r"([a-z]+\d?) +\(?(-?[\d.]+) ± ([\d.]+)(?:\)(e-?\d+))?", table)
+    return {
+        name: (float(value + power), float(sigma + power)) for name, value, sigma, power in found
+    }
+
+
+@pytest.mark.slow
+@pytest.mark.usefixtures("search_here")
+def test_samples_camera(capsys: pytest.CaptureFixture[str]) -> None:
+    (printed,) = (block for block in blocks("text") if "fx" in block)
+    assert main(["calibrate", str(ROOT / "resources/sample"), "--square", "25"]) == 0
+    computed = read_values(capsys.readouterr().out)
+    stated = read_values(printed)
+    assert len(stated) == 9 and stated.keys() == computed.keys()
+    for name, (value, sigma) in stated.items():
+        assert value == pytest.approx(computed[name][0], abs=0.1 * sigma), name
+        assert sigma == pytest.approx(computed[name][1], rel=0.05), name
+
+
 def test_every_export_format_is_in_the_table() -> None:
     rows = "".join(re.findall(r"^\|.*--export.*$", README, re.MULTILINE))
     assert set(re.findall(r"([\w-]+)=`", rows)) == set(EXPORTERS)
