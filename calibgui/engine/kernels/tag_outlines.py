@@ -1,4 +1,4 @@
-"""The normal equations of the outlines of tags, compiled: see ``detection.apriltags.tag_outlines``.
+"""The normal equations of the outlines of tags, compiled: see ``apriltags.outline_model``.
 
 The pixels of an edge are sorted by the edge that they see beside it, its neighbour at either end or
 none, and taken in blocks that the processor's first cache holds, so that all of a block have the
@@ -45,7 +45,7 @@ _HALF, _ONE, _NO = _F(0.5), _F(1), _F(0)
 
 
 class _Model(Protocol):
-    """The fields and methods of ``_Model`` that are used here."""
+    """The fields and methods of ``OutlineModel`` that are used here."""
 
     @property
     def corners(self) -> Array: ...

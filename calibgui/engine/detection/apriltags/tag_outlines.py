@@ -1,29 +1,11 @@
 """The corners of tags from the outlines of their borders, at the Cramer-Rao bound.
 
 A tag whose corners nothing dark touches has no edges that cross there, and no saddle points. The
-whole outline then tells where its corners are: four edges from corner to corner, bent by the
-lens. With p_i the corners, clockwise from the upper left one, edge i runs from p_i to p_i+1 in the
-direction t_i over a length L_i, with its normal n_i inwards. A point q lies at the share
-s_i = t_i.(q - p_i) / L_i of it and within it by
-
-    d_i = n_i.(q - p_i) + 4 b_i s_i (1 - s_i),
-
-its bow b_i being how far outwards of the chord its middle lies. Blurred, the share of ink near the
-corner of edges i and j is that of a quarter of the plane,
-
-    Q = (1 + E_i + E_j + G(d_i, d_j)) / 4,
-
-with the blurred edge E and the blurred crossing G of ``edge_intensity``; far from the corner this
-is (1 + E_i) / 2. Paper and border each have a level that varies linearly over the tag, and
-
-    I(q) = paper(q) (1 - Q) + ink(q) Q.
-
-The unknowns of a tag, its corners (8), the blurs of its first and third and of its second and
-fourth edge, the two levels with their gradients (6), and the bows (4), are found by Gauss-Newton
-steps, all tags at once: first of each tag by itself. Its bows are hardly told from its corners
-then, which are half as uncertain again as with known bows. But the corners of all tags show the
-lens (`grid_map`), and the lens bends every edge: these bows enter the last steps, trusted as far as
-they agree with the tags' own.
+whole outline then tells where its corners are (``outline_model``). Its unknowns are found by
+Gauss-Newton steps, all tags at once: first of each tag by itself. Its bows are hardly told from its
+corners then, which are half as uncertain again as with known bows. But the corners of all tags show
+the lens (`grid_map`), and the lens bends every edge: these bows enter the last steps, trusted as
+far as they agree with the tags' own.
 
 By the inverse of the normal equations follow the covariances of the corners; to these is added by
 how much edges that are bent far may differ from parabolas. The corners at both ends of an edge
@@ -40,11 +22,17 @@ from typing import NamedTuple
 import numpy as np
 
 from calibgui.engine import kernels
-from calibgui.engine.arrays import Array, BoolArray, FloatImage, GreyImage, IntArray
+from calibgui.engine.arrays import Array, GreyImage, IntArray
 from calibgui.engine.detection import grid_map
+from calibgui.engine.detection.apriltags.outline_model import (
+    LAST,
+    NEXT,
+    UNKNOWNS,
+    OutlineModel,
+    accumulate_normal_equations,
+)
 from calibgui.engine.detection.apriltags.tag_gap import measure_gap_of_tags
 from calibgui.engine.detection.detector_io import estimate_least_noise
-from calibgui.engine.detection.edge_intensity import EdgeIntensity, compute_edge
 from calibgui.engine.images.sampling import sample_image
 
 _MAX_FREE_STEPS, _LAST_STEPS = 8, 2
@@ -62,22 +50,15 @@ _ALONG_MARGIN = 0.15
 _PROFILE_REACH = 0.75
 """Reach of a profile to either side, over the narrower of border and gap: what follows these is
 blurred into its ends."""
-_BAND_BLURS, _BAND_MARGIN = 2.3, 0.7
-"""Half width of the band that is read along an edge: blurs, and px in addition."""
 _BLUR_REACH = 3.0
 """Distance, in blurs, over which the blur of what follows the border or the gap is felt. With 1.5
 corners of tags of 40 px under a blur of 2 px lay 0.06 px outside; now less than 0.01."""
 _MIN_BAND_BLURS = 1.0
-"""Least such half width, blurs."""
+"""Least half width of the band that is read along an edge, blurs."""
 _MIN_BLUR = 0.3
 """Least blur, px: that of the pixel alone is 0.29."""
 _MAX_SHARP_BLUR = 0.6
 """Median blur below which the pixel's own shape matters, px."""
-_MAX_PIXELS_AT_ONCE = 40_000
-"""Number of pixels fitted at once."""
-_UNKNOWNS = 20
-"""Number of unknowns of a tag: corners 0 to 7, blurs 8 and 9, paper 10 to 12, ink 13 to 15, bows 16
-to 19."""
 _USUAL_BOW = 0.05
 """Standard deviation of bows before anything is known of the lens, lengths of the edge."""
 _MEDIAN_CHI_SQUARE = 0.455
@@ -88,8 +69,6 @@ _DAMPING = 1e-9
 """Number that is added to the diagonal of the normal equations, over its largest entry."""
 AROUND = np.array([(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)])
 """(4, 2) corners of a tag from its upper left one, sides."""
-_NEXT, _LAST = np.array([1, 2, 3, 0]), np.array([3, 0, 1, 2])
-"""Edges that begin where each of the four ends, and that end where it begins."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -108,56 +87,6 @@ class TagOutlines:
     """(n,) standard deviation of what the model leaves unexplained, grey levels."""
     lens_bows: Array
     """(n, 4) px, the bows that the lens of all tags gives the edges."""
-
-
-@dataclass(frozen=True, eq=False, slots=True)
-class _Model:
-    """The model of k tags."""
-
-    corners: Array
-    """(k, 4, 2) px."""
-    blurs: Array
-    """(k, 2) px."""
-    levels: Array
-    """(k, 2, 3) of paper and ink: the level in the tag's middle and its rise over `half` px to the
-    right and down."""
-    bows: Array
-    """(k, 4) px."""
-    inwards: Array
-    """(k,) how far the border is read inwards, px."""
-    outwards: Array
-    """(k,) how far the paper is read outwards, px."""
-    half: Array
-    """(k,) half the side of the tag, px."""
-
-    def select(self, index: IntArray) -> _Model:
-        """Select the tags `index` (m,)."""
-        return _Model(
-            *(
-                values[index]
-                for values in (
-                    self.corners,
-                    self.blurs,
-                    self.levels,
-                    self.bows,
-                    self.inwards,
-                    self.outwards,
-                    self.half,
-                )
-            )
-        )
-
-    def measure_edges(self) -> tuple[Array, Array, Array]:
-        """Measure the lengths (k, 4) px, tangents and inward normals (k, 4, 2) of the edges."""
-        along = self.corners[:, _NEXT] - self.corners
-        length = np.linalg.norm(along, axis=2)
-        t = along / length[..., None]
-        return length, t, np.stack([-t[..., 1], t[..., 0]], axis=2)
-
-    def measure_bands(self) -> Array:
-        """Measure how far (k, 4, 2) px the edges are read outwards and inwards."""
-        width = _BAND_BLURS * self.blurs[:, [0, 1, 0, 1], None] + _BAND_MARGIN
-        return np.minimum(width, np.column_stack([self.outwards, self.inwards])[:, None])
 
 
 def fit_tag_outlines(
@@ -221,7 +150,7 @@ def follow_shaded_outlines(
     return model.corners
 
 
-def _measure_heights(model: _Model) -> Array:
+def _measure_heights(model: OutlineModel) -> Array:
     """Measure the least heights (n,) px of tags over their edges."""
     _, _, normal = model.measure_edges()
     across = np.sum((model.corners[:, [2, 3, 0, 1]] - model.corners) * normal, axis=2)
@@ -234,11 +163,11 @@ def _locate_corners(squares: IntArray, gap: float) -> Array:
     return (1 + gap) * squares[:, None, ::-1] + AROUND
 
 
-def _start_from(corners: Array) -> _Model:
+def _start_from(corners: Array) -> OutlineModel:
     """Return the model of tags with straight edges between `corners` (n, 4, 2)."""
     n = len(corners)
     unknown = np.ones(n)
-    return _Model(
+    return OutlineModel(
         corners,
         np.ones((n, 2)),
         np.zeros((n, 2, 3)),
@@ -249,7 +178,7 @@ def _start_from(corners: Array) -> _Model:
     )
 
 
-def _estimate_start(image: GreyImage, corners: Array, border: float, gap: float) -> _Model:
+def _estimate_start(image: GreyImage, corners: Array, border: float, gap: float) -> OutlineModel:
     """Estimate the model from profiles across the edges, to whose rise these are moved."""
     model = _start_from(corners)
     side = _measure_heights(model)
@@ -281,7 +210,7 @@ class _BowPrior(NamedTuple):
     """(k, 4) px."""
 
 
-def _estimate_bows(model: _Model, variance: Array, places: Array) -> _BowPrior:
+def _estimate_bows(model: OutlineModel, variance: Array, places: Array) -> _BowPrior:
     """Estimate bows from the lens that the corners of all tags show; how far they are from those
     that were found for each tag by itself tells how well they are known.
 
@@ -295,12 +224,12 @@ def _estimate_bows(model: _Model, variance: Array, places: Array) -> _BowPrior:
     )
     seen, middle = (
         board.locate(at.reshape(-1, 2)).reshape(-1, 4, 2)
-        for at in (places, (places + places[:, _NEXT]) / 2)
+        for at in (places, (places + places[:, NEXT]) / 2)
     )
-    along = seen[:, _NEXT] - seen
+    along = seen[:, NEXT] - seen
     normal = np.stack([-along[..., 1], along[..., 0]], axis=2)
     normal /= np.linalg.norm(along, axis=2, keepdims=True)
-    bows = np.sum(((seen + seen[:, _NEXT]) / 2 - middle) * normal, axis=2)
+    bows = np.sum(((seen + seen[:, NEXT]) / 2 - middle) * normal, axis=2)
     length = model.measure_edges()[0]
     square = (model.bows - bows) ** 2
     misfit, noise = (np.median(each / length**2) for each in (square, variance))
@@ -314,7 +243,7 @@ def _get_bow_variances(inverse: Array) -> Array:
 
 
 def _measure_profiles(
-    image: GreyImage, model: _Model, reach: Array, *, is_shaded: bool = False
+    image: GreyImage, model: OutlineModel, reach: Array, *, is_shaded: bool = False
 ) -> tuple[Array, Array, Array]:
     """Measure the profiles across edges, `reach` (n,) px to both sides.
 
@@ -350,7 +279,7 @@ def _measure_profiles(
 
 @kernels.with_kernel("tag_outlines", "average_profiles")
 def _average_profiles(
-    image: GreyImage, model: _Model, reach: Array, share: Array, samples: int
+    image: GreyImage, model: OutlineModel, reach: Array, share: Array, samples: int
 ) -> Array:
     """Average the grey levels of profiles across the edges over each third of these.
 
@@ -374,177 +303,28 @@ def _average_profiles(
     return np.asarray(sample_image(image, at).reshape(thirds).mean(axis=3))
 
 
-def _move_edges(model: _Model, offset: Array) -> _Model:
+def _move_edges(model: OutlineModel, offset: Array) -> OutlineModel:
     """Return the model after edges were moved inwards by `offset` (n, 4, 3) px at their beginning
     and end, and their middle from the chord."""
     _, _, normal = model.measure_edges()
-    both = np.stack([normal[:, _LAST], normal], axis=2)
-    moved = np.stack([offset[:, _LAST, 1], offset[..., 0]], axis=2)
+    both = np.stack([normal[:, LAST], normal], axis=2)
+    moved = np.stack([offset[:, LAST, 1], offset[..., 0]], axis=2)
     corners = model.corners + np.linalg.solve(both, moved[..., None])[..., 0]
     return replace(model, corners=corners, bows=model.bows - offset[..., 2])
 
 
-@kernels.with_kernel("tag_outlines", "accumulate_normal_equations")
-def _accumulate_normal_equations(image: GreyImage, model: _Model, is_sharp: bool) -> Array:
-    """Accumulate the products (n, 21, 21) of the columns [J r]: derivatives of the model by the
-    unknowns, and what it leaves unexplained; the products of paper's and ink's levels (10 and 13)
-    sum up to the number of pixels.
-
-    Args:
-        image: (h, w) grey levels.
-        model: of n tags.
-        is_sharp: whether the blurs are so small that the pixel's own shape matters.
-    """
-    n = len(model.corners)
-    products = np.zeros((n, _UNKNOWNS + 1, _UNKNOWNS + 1))
-    order = np.argsort(model.half, kind="stable")
-    pixels = 4 * _list_pixels(model.select(order[-1:]), 0).shape[1]
-    for index in np.array_split(order, min(max(n * pixels // _MAX_PIXELS_AT_ONCE, 1), n)):
-        portion = model.select(index)
-        for edge in range(4):
-            columns = _compute_columns(image, portion, edge, is_sharp)
-            products[index] += columns @ columns.transpose(0, 2, 1)
-    return products
-
-
-def _list_pixels(model: _Model, edge: int) -> IntArray:
-    """List the pixels (k, P, 2) in and around the band of an edge.
-
-    An edge that runs more along u than v crosses each column of pixels once: those of its band are,
-    column by column, the ones around the row where it passes; else with u and v exchanged.
-    """
-    length, t, _ = model.measure_edges()
-    length, t = length[:, edge, None], t[:, edge]
-    width = model.measure_bands()[:, edge].max(axis=1)
-    tag = np.arange(len(t))
-    main = np.where(abs(t[:, 0]) >= abs(t[:, 1]), 0, 1)
-    along, across = t[tag, main, None], t[tag, 1 - main, None]
-    begin, end = model.corners[:, edge], model.corners[:, _NEXT[edge]]
-    low = np.minimum(begin, end)[tag, main] - width
-    high = np.maximum(begin, end)[tag, main] + width
-    x = np.floor(low)[:, None] + np.arange(int(np.max(high - low)) + 2)
-    breadth = 2 * int(np.ceil(np.max(width[:, None] / abs(along)) + 0.5)) + 1
-    s = (x - begin[tag, main, None]) / along
-    bow = -4 * model.bows[:, edge, None] * (s / length) * (1 - s / length)
-    # Of a normal (-t_v, t_u) the part across is t_u for an edge along u, and -t_v for one along v.
-    normal = np.where(main[:, None] == 0, along, -along)
-    y = begin[tag, 1 - main, None] + s * across + bow / normal
-    lines = np.rint(y)[..., None] + np.arange(breadth) - breadth // 2
-    columns = np.broadcast_to(x[..., None], lines.shape)
-    is_flat = (main == 0)[:, None, None]
-    uv = np.stack([np.where(is_flat, columns, lines), np.where(is_flat, lines, columns)], axis=-1)
-    return uv.reshape(len(t), -1, 2).astype(np.int64)
-
-
-def _measure_distances(model: _Model, uv: IntArray) -> tuple[FloatImage, FloatImage]:
-    """Measure s over the length, and d px, (k, 4, P) of points (k, P, 2) along and within edges."""
-    length, t, normal = model.measure_edges()
-    middle = model.corners.mean(axis=1, keepdims=True)
-    q = (uv - middle).transpose(0, 2, 1).astype(np.float32)
-    corner = model.corners - middle
-    s, d = (
-        direction.astype(np.float32) @ q
-        - np.sum(direction * corner, axis=2, keepdims=True).astype(np.float32)
-        for direction in (t, normal)
-    )
-    share = s / length.astype(np.float32)[..., None]
-    bow = 4 * model.bows.astype(np.float32)[..., None]
-    return share, d + bow * share * (1 - share)
-
-
-def _find_own_pixels(model: _Model, share: FloatImage, d: FloatImage, edge: int) -> BoolArray:
-    """Return which pixels (k, P) lie in the band of an edge and in that of none before it."""
-    length, bands = model.measure_edges()[0], model.measure_bands().astype(np.float32)
-    own = np.ones(d[:, 0].shape, dtype=np.bool_)
-    for which in range(edge + 1):
-        out, inside = bands[:, which].T[..., None]
-        beyond = out / length[:, which, None].astype(np.float32)
-        within = (d[:, which] >= -out) & (d[:, which] <= inside)
-        within &= abs(share[:, which] - 0.5) <= 0.5 + beyond
-        own &= within if which == edge else ~within
-    return own
-
-
-def _compute_columns(image: GreyImage, model: _Model, edge: int, is_sharp: bool) -> FloatImage:
-    """Compute the derivatives of the model by the unknowns, and the residual, (k, 21, P) at the
-    pixels of one edge; 0 for those that do not count."""
-    uv = _list_pixels(model, edge)
-    share, d = _measure_distances(model, uv)
-    inside = np.clip(uv, 1, np.array(image.shape[::-1]) - 2)
-    counts = _find_own_pixels(model, share, d, edge) & (inside == uv).all(axis=2)
-    weight = counts.astype(np.float32)
-    grey = image[inside[..., 1], inside[..., 0]].astype(np.float32)
-
-    last, following = int(_LAST[edge]), int(_NEXT[edge])
-    normal = model.measure_edges()[2].astype(np.float32)
-    turns = [np.sum(normal[:, edge] * normal[:, which], axis=1) for which in (last, following)]
-    mine = _compute_edge(model, edge, d[:, edge], is_sharp)
-    is_first = share[:, edge] < 0.5
-    rho = np.where(is_first, *(turn[:, None] for turn in turns))
-    # The other edge of the nearer corner is parallel to its opposite: both have one blur.
-    distance = np.where(is_first, d[:, last], d[:, following])
-    its = _compute_edge(model, last, distance, is_sharp)
-    s1, s2 = model.blurs[:, [edge % 2, last % 2]].astype(np.float32).T[..., None]
-    ink_beside, ink_here = (1 + its.value) / 2, (1 + mine.value) / 2
-    x, y = d[:, edge] / s1, distance / s2
-    rounding = s1 * s2 * mine.slope * its.slope / 4 * rho * (1 + rho * x * y / 2)
-    Q = ink_here * ink_beside + rounding
-
-    at = _normalise(model, uv)
-    paper, ink = (model.levels[:, which].astype(np.float32)[:, None] @ at for which in (0, 1))
-    swing = (ink - paper)[:, 0] * weight
-    J = np.zeros((len(uv), _UNKNOWNS + 1, uv.shape[1]), dtype=np.float32)
-    by_mine = swing * ink_beside * mine.slope / 2
-    by_its = swing * ink_here * its.slope / 2
-    for which, by_distance in (
-        (edge, by_mine),
-        (last, np.where(is_first, by_its, 0)),
-        (following, np.where(is_first, 0, by_its)),
-    ):
-        # An edge follows its corners by 1 - s and by s.
-        J[:, 16 + which] += 4 * by_distance * share[:, which] * (1 - share[:, which])
-        for axis in (0, 1):
-            pull = -by_distance * normal[:, which, axis, None]
-            J[:, 2 * which + axis] += pull * (1 - share[:, which])
-            J[:, 2 * int(_NEXT[which]) + axis] += pull * share[:, which]
-    J[:, 8 + edge % 2] = swing * ink_beside * mine.by_blur / 2
-    J[:, 8 + last % 2] = swing * ink_here * its.by_blur / 2
-    J[:, 10:13] = (weight * (1 - Q))[:, None] * at
-    J[:, 13:16] = (weight * Q)[:, None] * at
-    J[:, _UNKNOWNS] = weight * (grey - (paper[:, 0] * (1 - Q) + ink[:, 0] * Q))
-    return J
-
-
-def _compute_edge(model: _Model, edge: int, distance: FloatImage, is_sharp: bool) -> EdgeIntensity:
-    """Compute the blurred edge at the distances (k, P) px from an edge."""
-    blur = model.blurs[:, edge % 2, None].astype(np.float32)
-    if not is_sharp:
-        return compute_edge(distance, blur)
-    normal = model.measure_edges()[2][:, edge]
-    return compute_edge(distance, blur, (abs(normal).max(axis=1) / 2).astype(np.float32)[:, None])
-
-
-def _normalise(model: _Model, uv: IntArray) -> FloatImage:
-    """Return (k, 3, P) ones and the places of pixels (k, P, 2) from the tag's middle, in halves of
-    its side."""
-    q = (uv - model.corners.mean(axis=1, keepdims=True)) / model.half[:, None, None]
-    return (
-        np.concatenate([np.ones_like(q[..., :1]), q], axis=2).transpose(0, 2, 1).astype(np.float32)
-    )
-
-
-def _compute_bend_covariances(model: _Model) -> Array:
+def _compute_bend_covariances(model: OutlineModel) -> Array:
     """Compute the covariances (n, 4, 2, 2) px^2 of corners whose edges are no parabolas: the next
     terms are of the size of the bow's square over the length."""
     length, _, normal = model.measure_edges()
     aside = (model.bows**2 / length)[..., None] * normal
     of_edge = aside[..., :, None] * aside[..., None, :]
-    return np.asarray(of_edge + of_edge[:, _LAST])
+    return np.asarray(of_edge + of_edge[:, LAST])
 
 
 def _take_steps(
-    image: GreyImage, model: _Model, prior: _BowPrior, noise: Array, steps: int
-) -> tuple[_Model, Array, Array]:
+    image: GreyImage, model: OutlineModel, prior: _BowPrior, noise: Array, steps: int
+) -> tuple[OutlineModel, Array, Array]:
     """Take Gauss-Newton steps until they are small.
 
     Args:
@@ -560,7 +340,7 @@ def _take_steps(
     """
     for _ in range(steps):
         is_sharp = bool(np.median(model.blurs) < _MAX_SHARP_BLUR)
-        products = _accumulate_normal_equations(image, model, is_sharp)
+        products = accumulate_normal_equations(image, model, is_sharp)
         before = model.corners
         model, inverse, square = _take_step(model, products, prior, noise)
         if abs(model.corners - before).max() < _CONVERGED_STEP:
@@ -569,8 +349,8 @@ def _take_steps(
 
 
 def _take_step(
-    model: _Model, products: Array, prior: _BowPrior, noise: Array
-) -> tuple[_Model, Array, Array]:
+    model: OutlineModel, products: Array, prior: _BowPrior, noise: Array
+) -> tuple[OutlineModel, Array, Array]:
     """Take one Gauss-Newton step.
 
     Args:
@@ -583,19 +363,19 @@ def _take_step(
         The model after it, the inverse (n, 20, 20) of its equations, and the mean square (n,) of
         what is left unexplained.
     """
-    N, g = products[:, :_UNKNOWNS, :_UNKNOWNS], products[:, :_UNKNOWNS, _UNKNOWNS]
+    N, g = products[:, :UNKNOWNS, :UNKNOWNS], products[:, :UNKNOWNS, UNKNOWNS]
     weight = np.zeros(g.shape)
     weight[:, 16:] = noise[:, None] / prior.sd**2
     pull = np.zeros(g.shape)
     pull[:, 16:] = weight[:, 16:] * (prior.bows - model.bows)
     largest = np.einsum("nkk->nk", N).max(axis=1) + 1e-300
     diagonal = weight + _DAMPING * largest[:, None]
-    inverse = np.linalg.inv(N + diagonal[:, None] * np.eye(_UNKNOWNS))
+    inverse = np.linalg.inv(N + diagonal[:, None] * np.eye(UNKNOWNS))
     step = np.einsum("nij,nj->ni", inverse, g + pull)
     explained = np.sum(step * (2 * g - np.einsum("nij,nj->ni", N, step)), axis=1)
-    square = products[:, _UNKNOWNS, _UNKNOWNS] - explained
+    square = products[:, UNKNOWNS, UNKNOWNS] - explained
     count = N[:, 10, 10] + N[:, 13, 13] + 2 * N[:, 10, 13]
-    square = np.maximum(square, 0.0) / np.maximum(count - _UNKNOWNS, 1)
+    square = np.maximum(square, 0.0) / np.maximum(count - UNKNOWNS, 1)
     blurs = model.blurs
     changed = np.clip(step[:, 8:10], np.maximum(-blurs / 3, _MIN_BLUR - blurs), blurs / 2)
     stepped = replace(
