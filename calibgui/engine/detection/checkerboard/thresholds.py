@@ -263,6 +263,12 @@ class VerificationThresholds:
     either side of a place are sampled, steps ..."""
     end_offset_across: float = 0.2
     """... and the distance across, to inside and outside, steps."""
+    cut_end_offset_across: float = 0.5
+    """The distance to inside where the outermost squares may be cut, steps."""
+    max_relative_behind: float = 0.15
+    """Greatest difference behind the end of a board whose outermost squares may be cut, over that
+    of the squares in front. At the dark edge of a fisheye's image it was 0.2 to 0.5 behind a line
+    that was no end."""
     min_square_difference: float = 0.4
     """Least difference of neighbouring squares, over the contrast of the board's corners, where
     squares are seen."""

@@ -185,7 +185,7 @@ def drop_stray_lines(lattice: Lattice, image: GreyImage) -> Lattice:
             continue
         if np.count_nonzero(turned.found[0]) < limits.min_border_corners * turned.shape[1]:
             rest = drop_isolated_and_crop(Lattice(turned.uv[1:], not turned.dark))
-            if len(rest) and _does_end_above(rest, image, step):
+            if len(rest) and _does_end_above(rest, image, step, may_be_cut=True):
                 lattice = turn_lattice(rest, -quarters)
     return lattice
 
@@ -419,18 +419,26 @@ def _compute_square_difference(lattice: Lattice, image: GreyImage) -> float:
     return THRESHOLDS.verification.min_square_difference * contrast
 
 
-def _does_end_above(lattice: Lattice, image: GreyImage, min_difference: float) -> bool:
+def _does_end_above(
+    lattice: Lattice, image: GreyImage, min_difference: float, *, may_be_cut: bool = False
+) -> bool:
     """Return whether the squares above the first row are seen in full, and no others behind them.
 
     In front of the next line the grey levels alternate by `min_difference` from square to square;
-    behind it they do not, as they would if corners had been missed.
+    behind it they do not, as they would if corners had been missed. The outermost squares of a
+    board that is cut too closely do not reach that line: if that `may_be_cut`, their middle counts
+    as well. As little may be seen of it in poor light, its squares behind may not alternate at all.
     """
     limits = THRESHOLDS.verification
-    offset = np.array([[limits.end_offset_along, limits.end_offset_across]])
-    before, behind = _measure_differences_above(lattice, image, offset)[:, 0]
+    across = (limits.end_offset_across, limits.cut_end_offset_across)
+    offsets = np.array([[limits.end_offset_along, each] for each in across])
+    (before, middle), (behind, _) = _measure_differences_above(lattice, image, offsets)
     if len(before) < limits.min_end_places:
         return False
     ending = np.mean((before > min_difference) & (behind < min_difference))
+    if may_be_cut:
+        is_even = (abs(behind) < min_difference) & (behind < limits.max_relative_behind * middle)
+        ending = max(ending, np.mean((middle > min_difference) & is_even))
     return bool(ending > limits.min_ending_places)
 
 

@@ -249,6 +249,21 @@ class TestStrayLines:
         np.testing.assert_array_equal(board.uv[:6], place(6, 9).uv)
         assert board.dark
 
+    def test_the_outermost_squares_may_be_cut(self) -> None:
+        """A board that is cut too closely, three tenths of a square off."""
+        image = paint(alternate(6, 9))
+        image[int(MARGIN + 6.7 * SQUARE) :] = BRIGHT
+        stray = drop(place(7, 9), *((6, col) for col in range(9) if col > 1))
+        assert verification.drop_stray_lines(stray, image).shape == (6, 9)
+
+    def test_few_corners_at_the_dark_edge_of_the_image_are_kept(self) -> None:
+        """The next squares are seen, too, at a third of the contrast."""
+        image = paint(alternate(7, 9))
+        dark = image[int(MARGIN + 6.7 * SQUARE) :]
+        dark[:] = DARK + 0.35 * (dark.astype(np.float64) - DARK)
+        few = drop(place(7, 9), *((6, col) for col in range(9) if col > 1))
+        assert verification.drop_stray_lines(few, image) is few
+
     def test_few_corners_before_the_end_of_the_board_are_kept(self) -> None:
         lattice = drop(place(6, 9), *((0, col) for col in range(2, 9)))
         assert verification.drop_stray_lines(lattice, paint(alternate(6, 9))) is lattice
