@@ -9,6 +9,7 @@ Tags: Exif 2.32 (CIPA DC-008-2019), 4.6.
 
 from __future__ import annotations
 
+import contextlib
 import io
 import struct
 import warnings
@@ -19,7 +20,9 @@ from typing import Any
 
 from calibgui.engine.arrays import Size
 
-_WIDTH, _HEIGHT = 256, 257
+_SUBFILE_TYPE, _WIDTH, _HEIGHT = 254, 256, 257
+_NO_PAGE = 0b101
+"""Bits of the subfile type of a smaller copy of a page, and of a mask."""
 _MAKE, _MODEL, _ORIENTATION, _DATE_OF_CHANGE = 271, 272, 274, 306
 _EXIF_DIRECTORY = 34665
 _DATE_OF_EXPOSURE, _FOCAL_LENGTH, _FOCAL_LENGTH_35MM, _LENS_MODEL = 36867, 37386, 41989, 42036
@@ -73,8 +76,10 @@ def read_exif(block: bytes) -> Exif:
         return Exif()
 
 
-def read_tiff(data: bytes | mmap) -> tuple[Size, Exif]:
-    """Read stored width and height, px, and EXIF of a TIFF or BigTIFF file.
+def read_tiff(data: bytes | mmap) -> tuple[Size, Exif, int]:
+    """Read stored width and height, px, EXIF and number of pages of a TIFF or BigTIFF file.
+
+    Pages of another size than the first one's are no photographs beside it, and do not count.
 
     Raises:
         ValueError: if its first directory is damaged or states no size.
@@ -86,27 +91,43 @@ def read_tiff(data: bytes | mmap) -> tuple[Size, Exif]:
         raise ValueError("damaged directory") from error
     if not (isinstance(width, int) and isinstance(height, int)):
         raise ValueError("no size")
-    return (width, height), exif
+    return (width, height), exif, 1 + _count_further_pages(data, tags)
 
 
-def _read_tags(data: bytes | mmap) -> tuple[Any, Exif]:
-    """Read the first directory of a TIFF, and the EXIF in it and in the one it points to."""
+def _count_further_pages(data: bytes | mmap, first: Any) -> int:
+    """Count the pages behind the `first` directory of a TIFF that have its size."""
+    count, offset, seen = 0, first.next, {0}
+    while offset not in seen:  # a damaged chain may be a circle
+        seen.add(offset)
+        try:
+            page = _load_directory(data, offset)
+            is_page = not page.get(_SUBFILE_TYPE, 0) & _NO_PAGE
+        except _DAMAGE:
+            break
+        count += is_page and all(page.get(tag) == first.get(tag) for tag in (_WIDTH, _HEIGHT))
+        offset = page.next
+    return count
+
+
+def _load_directory(data: bytes | mmap, offset: int | None = None, group: int | None = None) -> Any:
+    """Load the directory at `offset` of a TIFF, the first one if None."""
     # It loads in 18 ms, which the window's start need not wait for.
     from PIL.TiffImagePlugin import ImageFileDirectory_v2
 
     file: Any = io.BytesIO(data) if isinstance(data, bytes) else data
     head = data[:16] if data[2:4] in (b"+\0", b"\0+") else data[:8]
-    first = ImageFileDirectory_v2(head)
-    file.seek(first.next)
-    first.load(file)
+    directory = ImageFileDirectory_v2(head, group=group)
+    file.seek(directory.next if offset is None else offset)
+    directory.load(file)
+    return directory
+
+
+def _read_tags(data: bytes | mmap) -> tuple[Any, Exif]:
+    """Read the first directory of a TIFF, and the EXIF in it and in the one it points to."""
+    first = _load_directory(data)
     tags = {key: first.get(key) for key in (_MAKE, _MODEL, _ORIENTATION, _DATE_OF_CHANGE)}
-    try:
-        second = ImageFileDirectory_v2(head, group=_EXIF_DIRECTORY)
-        file.seek(first[_EXIF_DIRECTORY])
-        second.load(file)
-        tags |= dict(second)
-    except _DAMAGE:
-        pass  # absent or damaged: what the first directory says stands
+    with contextlib.suppress(*_DAMAGE):  # absent or damaged: what the first directory says stands
+        tags |= dict(_load_directory(data, first[_EXIF_DIRECTORY], _EXIF_DIRECTORY))
     orientation = tags[_ORIENTATION]
     return first, Exif(
         orientation if isinstance(orientation, int) and 1 <= orientation <= 8 else 1,

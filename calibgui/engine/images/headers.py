@@ -58,6 +58,8 @@ class Header:
     """Orientation, camera, lens and date as the file states them."""
     is_complete: bool = True
     """False if the file is known to end before its image does."""
+    pages: int = 1
+    """Number of images of this size in the file, of which only a TIFF may hold several."""
 
     @property
     def size(self) -> Size:
@@ -153,8 +155,8 @@ def _parse_pnm(data: Data) -> Header:
 
 
 def _parse_tiff(data: Data) -> Header:
-    stored, exif = read_tiff(data)
-    return Header("TIFF", stored, exif)
+    stored, exif, pages = read_tiff(data)
+    return Header("TIFF", stored, exif, pages=pages)
 
 
 _PARSERS = (

@@ -105,7 +105,7 @@ def read_image(path: PathLike, orientation: int | None = None) -> Image:
 
     Raises:
         CalibrationError: if `path` is missing, empty, no image, cut short, damaged or too
-            large, or has neither 8 nor 16 bits a sample.
+            large, has several pages, or neither 8 nor 16 bits a sample.
 
     Example:
         >>> import tempfile
@@ -137,7 +137,7 @@ def read_image_size(path: PathLike) -> Size:
     """Read the width and height that `read_image` will deliver, px, without decoding the image.
 
     Raises:
-        CalibrationError: if `path` is missing, empty, no image or too large.
+        CalibrationError: if `path` is missing, empty, no image, too large or of several pages.
     """
     return read_image_header(path).size
 
@@ -146,7 +146,7 @@ def read_image_header(path: PathLike) -> Header:
     """Read the header of a photograph: format, size, orientation, camera, lens and date.
 
     Raises:
-        CalibrationError: if `path` is missing, empty, no image or too large.
+        CalibrationError: if `path` is missing, empty, no image, too large or of several pages.
     """
     path = Path(path)
     try:
@@ -230,7 +230,7 @@ def _turn(pixels: Pixels, orientation: int) -> Pixels:
 
 
 def _read_checked_header(path: Path, data: bytes | mmap.mmap) -> Header:
-    """Read the header of `data`; refuse an unknown format and an impossible size."""
+    """Read the header of `data`; refuse an unknown format, an impossible size, several pages."""
     header = read_header(data)
     if header is None:
         kind = find_foreign_kind(data)
@@ -244,6 +244,11 @@ def _read_checked_header(path: Path, data: bytes | mmap.mmap) -> Header:
         raise CalibrationError(
             f"{path} declares {width} x {height} pixels.",
             f"Use images of 1 to {MAX_PIXELS // 1_000_000} million pixels.",
+        )
+    if header.pages > 1:
+        raise CalibrationError(
+            f"{path} holds {header.pages} images, and only files of one image are read.",
+            "Save each page of it as a file of its own: 'magick stack.tif page%03d.tif' does so.",
         )
     return header
 

@@ -67,6 +67,43 @@ def test_other_encodings(name: str, options: dict[str, object]) -> None:
     assert (header.size, header.is_complete) == ((33, 20), True)
 
 
+@pytest.mark.parametrize(
+    ("sizes", "types", "count"),
+    [
+        ([(33, 20)], [0], 1),
+        ([(33, 20)] * 3, [0, 0, 0], 3),
+        ([(33, 20)] * 3, [0, 2, 4], 2),  # the last one is a mask
+        ([(33, 20), (16, 10)], [0, 0], 1),
+    ],
+)
+@pytest.mark.parametrize("big", [False, True])
+def test_pages(sizes: list[tuple[int, int]], types: list[int], count: int, big: bool) -> None:
+    pages = [Pillow.new("L", size) for size in sizes]
+    for page, kind in zip(pages, types, strict=True):
+        page.encoderinfo = {"tiffinfo": {254: kind}}
+    stream = io.BytesIO()
+    pages[0].save(stream, "TIFF", save_all=True, append_images=pages[1:], big_tiff=big)
+    header = read_header(stream.getvalue())
+    assert header is not None
+    assert (header.size, header.pages) == ((33, 20), count)
+
+
+def test_pages_in_a_circle_end() -> None:
+    stream = io.BytesIO()
+    page = Pillow.new("L", (33, 20))
+    page.save(stream, "TIFF", save_all=True, append_images=[page])
+    whole = bytearray(stream.getvalue())
+    first = int.from_bytes(whole[4:8], "little")
+    link = first + 2 + 12 * int.from_bytes(whole[first : first + 2], "little")
+    second = int.from_bytes(whole[link : link + 4], "little")
+    link = second + 2 + 12 * int.from_bytes(whole[second : second + 2], "little")
+    assert whole[link : link + 4] == bytes(4)
+    whole[link : link + 4] = second.to_bytes(4, "little")
+    header = read_header(bytes(whole))
+    assert header is not None
+    assert header.pages == 2
+
+
 def test_a_comment_in_a_pgm() -> None:
     header = read_header(b"P5\n# made by hand 99 99\n12 # width\n 7\n255\n")
     assert header is not None

@@ -204,6 +204,15 @@ def test_missing_files_and_folders_are_named(tmp_path: Path) -> None:
                 read(path)
 
 
+def test_an_image_of_several_pages_is_refused(tmp_path: Path) -> None:
+    page = Pillow.fromarray(ramp())
+    page.save(tmp_path / "a.tif", save_all=True, append_images=[page, page])
+    for read in (read_image, read_image_size):
+        with pytest.raises(CalibrationError, match="holds 3 images") as caught:
+            read(tmp_path / "a.tif")
+        assert "file of its own" in str(caught.value)
+
+
 def test_floating_point_images_are_refused(tmp_path: Path) -> None:
     Pillow.fromarray(ramp().astype(np.float32)).save(tmp_path / "a.tif")
     with pytest.raises(CalibrationError, match="float32"):
