@@ -10,6 +10,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from calibgui import engine
+from calibgui.app.copies import disable_copies
 from calibgui.app.marking import remove_corners
 from calibgui.app.settings import DEFAULT_MODEL, DEFAULT_SETTINGS, Settings, check_settings
 from calibgui.dataset import CornerSet, Result, View
@@ -27,7 +28,6 @@ from calibgui.engine.calibration import (
     Iteration,
     Observation,
     Report,
-    find_copies,
 )
 from calibgui.engine.camera import find_model
 from calibgui.engine.detection import find_usable_covariances
@@ -294,22 +294,6 @@ def _calibrate_partially(
             calibration = _add_warnings(error.partial, used, plain)
             return Result(calibration, corner_set.views, corner_set.board)
     return None
-
-
-def disable_copies(corner_set: CornerSet) -> CornerSet:
-    """Return the set with copies of views disabled, unless all views are copies of one.
-
-    A copy has exactly the same corners as an earlier view.
-    """
-    views = list(corner_set.views)
-    usable = [k for k, view in enumerate(views) if view.usable]
-    originals = find_copies(views[k].observation(corner_set.board)[:2] for k in usable)
-    for k, first in zip(usable, originals.tolist(), strict=True):
-        original = usable[first]
-        if original != k and originals.any():
-            reason = f"A copy of {views[original].image}, which counts once."
-            views[k] = replace(views[k], enabled=False, reason=reason)
-    return replace(corner_set, views=tuple(views))
 
 
 def disable_unweighable_views(corner_set: CornerSet) -> CornerSet:

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from calibgui.app.calibration import disable_copies, shorten_names
+from calibgui.app.calibration import shorten_names
+from calibgui.app.copies import disable_copies
 from calibgui.dataset import CornerSet, Result
 from calibgui.engine.assessment import LensChoice, choose_lens
 from calibgui.engine.calibration import METHODS, Cost, recover_arguments

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from calibgui.app.calibration import disable_copies, shorten_names
+from calibgui.app.calibration import shorten_names
+from calibgui.app.copies import disable_copies
 from calibgui.dataset import CornerSet, Result, View
 from calibgui.engine import assessment
 from calibgui.engine.assessment import MethodComparison
