@@ -104,6 +104,25 @@ def count_images_below(folder: Path) -> dict[Path, int]:
     return dict(sorted(counts.items(), key=lambda one: make_natural_key(one[0])))
 
 
+def describe_unread_folders(names: Sequence[str]) -> str:
+    """Say which folders with images lie below those that `names` mean, and are not read with them;
+    empty if there are none."""
+    named = [Path(name) for name in names if Path(name).is_dir()]
+    read = {path.parent.resolve() for path in find_images(names)}
+    unread = {
+        below: count
+        for folder in named
+        for below, count in count_images_below(folder).items()
+        if below.resolve() not in read
+    }
+    if not unread:
+        return ""
+    return (
+        f"Not read: {_list_counts(unread)}. Of a folder only the images directly in it are read: "
+        "name these folders as well if they are of the same camera and board."
+    )
+
+
 def is_remote(path: str) -> bool:
     """Return whether a path is an address, as s3:// or http://, where a fleet's photographs are."""
     return "://" in path
@@ -176,19 +195,24 @@ def _explain_lack(name: str, folder: Path) -> NoImagesError:
             f"Name a folder with files that end in {', '.join(FORMATS)}; save pictures of "
             "other formats, and pictures of videos, as PNG or as JPEG in full size.",
         )
-    listed = [
-        f"{below.relative_to(folder)} ({count} {'image' if count == 1 else 'images'})"
-        for below, count in list(counts.items())[:_MAX_LISTED]
-    ]
-    more = f" and {len(counts) - _MAX_LISTED} more" if len(counts) > _MAX_LISTED else ""
+    listed = _list_counts({below.relative_to(folder): count for below, count in counts.items()})
     first = next(iter(counts))
     several = "; name several only if they are of one camera" if len(counts) > 1 else ""
     return NoImagesError(
-        f"The folder {name} itself holds no images, but there are some in {', '.join(listed)}"
-        f"{more}.",
+        f"The folder {name} itself holds no images, but there are some in {listed}.",
         f"Name the folder that holds the photographs, as {first}{several}.",
         counts,
     )
+
+
+def _list_counts(counts: Mapping[Path, int]) -> str:
+    """List folders with the numbers of their images, as "left (12 images), right (1 image)"."""
+    listed = [
+        f"{folder} ({count} {'image' if count == 1 else 'images'})"
+        for folder, count in list(counts.items())[:_MAX_LISTED]
+    ]
+    more = f" and {len(counts) - _MAX_LISTED} more" if len(counts) > _MAX_LISTED else ""
+    return ", ".join(listed) + more
 
 
 def _describe_others(folder: Path) -> str:

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
+from calibgui.app.paths import describe_unread_folders
 from calibgui.cli.arguments import (
     add_image_paths,
     add_search_options,
@@ -75,24 +76,48 @@ def read_or_search(
     """
     if is_corners_file(options.paths):
         return _exclude_images(_read_corners_file(options), options.exclude)
+    side = square if options.square is None else options.square
+    assert side is not None, "a command that has no side of its own checks that one is given"
+    corner_set, remarks = search_board(options, console, side)
+    for remark in remarks:
+        console.print_text(remark + "\n")
+    return _exclude_images(corner_set, options.exclude)
+
+
+def search_board(
+    options: argparse.Namespace, console: Console, square: float
+) -> tuple[CornerSet, list[str]]:
+    """Search photographs for the board that the options describe.
+
+    Args:
+        options: paths, and the options of `add_search_options` and `add_board_options`.
+        console: shows progress, and what is wrong with the images if none shows the board.
+        square: side of a square, mm.
+
+    Returns:
+        The views, and sentences on what is recognised of the board, and on what was not searched.
+
+    Raises:
+        CalibrationError: if no photograph can be read, or none shows the board.
+    """
     pattern = read_pattern_options(options)
+    is_open = is_pattern_open(options)
     detection = search_images(
         console,
         options.paths,
         options.board,
         options.roi,
         options.corners,
-        None if is_pattern_open(options) else pattern,
+        None if is_open else pattern,
     )
-    require_board(detection, options.board, console, is_pattern_open(options))
-    side = square if options.square is None else options.square
-    assert side is not None, "a command that has no side of its own checks that one is given"
-    corner_set = detection.corner_set(side)
-    if words := describe_recognised_board(pattern, corner_set):
-        console.print_text(words + "\n")
-    if detection.remark:
-        console.print_text(detection.remark + "\n")
-    return _exclude_images(corner_set, options.exclude)
+    require_board(detection, options.board, console, is_open)
+    corner_set = detection.corner_set(square)
+    remarks = (
+        describe_recognised_board(pattern, corner_set),
+        detection.remark,
+        describe_unread_folders(options.paths),
+    )
+    return corner_set, [remark for remark in remarks if remark]
 
 
 def _exclude_images(corner_set: CornerSet, names: Sequence[str]) -> CornerSet:

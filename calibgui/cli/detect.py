@@ -5,20 +5,14 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from calibgui.cli.arguments import (
-    add_image_paths,
-    add_search_options,
-    parse_length,
-    require_board,
-    search_images,
-)
-from calibgui.cli.boards import add_board_options, is_pattern_open, read_pattern_options
+from calibgui.cli.arguments import add_image_paths, add_search_options, parse_length
+from calibgui.cli.boards import add_board_options
 from calibgui.cli.console import Console
+from calibgui.cli.corners import search_board
 from calibgui.cli.outputs import add_overwrite_option, check_corner_outputs
 from calibgui.formats.corners_json import encode_corners, write_corners
 from calibgui.formats.origin import CORNERS
 from calibgui.report import tables
-from calibgui.report.boards import describe_recognised_board
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
@@ -45,30 +39,18 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace, console: Console) -> None:
     """Search, write and print."""
-    pattern = read_pattern_options(options)
     options.output = console.take_output(options.output)
     if options.output:
         check_corner_outputs(options, [(options.output, CORNERS)])
-    detection = search_images(
-        console,
-        options.paths,
-        options.board,
-        options.roi,
-        options.corners,
-        None if is_pattern_open(options) else pattern,
-    )
-    require_board(detection, options.board, console, is_pattern_open(options))
-    corner_set = detection.corner_set(options.square or 1.0)
+    corner_set, remarks = search_board(options, console, options.square or 1.0)
     console.print_json(encode_corners(corner_set))
     console.print_line(tables.count_boards(corner_set.views))
     console.print_text(
         tables.tabulate_detection(corner_set.views),
         otherwise=tables.list_unused_views(corner_set.views),
     )
-    if words := describe_recognised_board(pattern, corner_set):
-        console.print_text(tables.format_bullet(words))
-    if detection.remark:
-        console.print_text(tables.format_bullet(detection.remark))
+    for remark in remarks:
+        console.print_text(tables.format_bullet(remark))
     if options.output:
         write_corners(corner_set, options.output)
         console.print_text(f"\nWrote {options.output}.")

@@ -13,6 +13,7 @@ from calibgui.app.paths import (
     NoImagesError,
     choose_images,
     count_images_below,
+    describe_unread_folders,
     find_images,
     make_natural_key,
 )
@@ -193,3 +194,16 @@ def test_a_selection_without_images_is_refused_with_the_reason(tmp_path: Path) -
         choose_images([str(tmp_path / "clip.mp4")])
     with pytest.raises(CalibrationError, match="does not exist"):
         choose_images([str(tmp_path / "nowhere")])
+
+
+def test_folders_that_are_not_read_with_a_named_one_are_said(tmp_path: Path) -> None:
+    for name in ("1.png", "a/1.png", "a/2.png", "a/b/1.png", "c/notes.txt"):
+        (tmp_path / name).parent.mkdir(exist_ok=True, parents=True)
+        (tmp_path / name).touch()
+    whole, a, b = str(tmp_path), str(tmp_path / "a"), str(tmp_path / "a" / "b")
+    said = describe_unread_folders([whole])
+    assert f"Not read: {a} (2 images), {b} (1 image). " in said
+    assert f"Not read: {a} (2 images). " in describe_unread_folders([whole, b])
+    assert describe_unread_folders([whole, a, f"{b}/*.png"]) == ""
+    assert describe_unread_folders([b]) == ""
+    assert describe_unread_folders([f"{whole}/*.png"]) == ""

@@ -6,13 +6,12 @@ import json
 import shutil
 from dataclasses import replace
 from pathlib import Path
-from types import ModuleType
 
 import numpy as np
 import pytest
 
 from calibgui.app.detection import Detection
-from calibgui.cli import corners, detect
+from calibgui.cli import corners
 from calibgui.cli.arguments import search_images
 from calibgui.cli.main import main
 from calibgui.engine.boards.board import Board
@@ -46,17 +45,27 @@ def test_without_a_square_it_says_what_to_do(
     assert "give --square when calibrating" in capsys.readouterr().out
 
 
-@pytest.mark.parametrize("module", [corners, detect])
+@pytest.mark.parametrize("command", ["detect", "calibrate"])
 def test_how_the_size_was_counted_is_said(
-    module: ModuleType, photographs: Path, monkeypatch: pytest.MonkeyPatch, capsys: Capture
+    command: str, photographs: Path, monkeypatch: pytest.MonkeyPatch, capsys: Capture
 ) -> None:
     def search(*args: object) -> Detection:
         return replace(search_images(*args), remark="Counted so.")  # type: ignore[arg-type]
 
-    monkeypatch.setattr(module, "search_images", search)
-    command = "detect" if module is detect else "calibrate"
+    monkeypatch.setattr(corners, "search_images", search)
     assert main([command, str(photographs), "--square", "30"]) == 0
     assert "Counted so." in capsys.readouterr().out
+
+
+@pytest.mark.parametrize("command", ["detect", "calibrate"])
+def test_folders_that_were_not_read_are_said(
+    command: str, photographs: Path, tmp_path: Path, capsys: Capture
+) -> None:
+    shutil.copytree(photographs, tmp_path / "all")
+    shutil.copytree(photographs, tmp_path / "all" / "more")
+    assert main([command, str(tmp_path / "all"), "--square", "30"]) == 0
+    said = " ".join(capsys.readouterr().out.split())
+    assert f"Not read: {tmp_path / 'all' / 'more'} (" in said
 
 
 def test_of_a_folder_of_folders_those_with_images_are_named(

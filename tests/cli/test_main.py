@@ -20,7 +20,7 @@ import pytest
 
 from calibgui import __version__
 from calibgui.app.missing_library import describe_missing_library
-from calibgui.cli import detect
+from calibgui.cli import corners, detect
 from calibgui.cli.main import main
 from calibgui.cli.parser import COMMANDS
 from calibgui.engine.kernels import NumbaWarning
@@ -232,7 +232,7 @@ def test_a_library_that_the_window_lacks_is_named(
 def test_a_bug_shows_traceback_and_versions(
     monkeypatch: pytest.MonkeyPatch, capsys: Capture
 ) -> None:
-    monkeypatch.setattr(detect, "search_images", lambda *_, **__: 1 / 0)
+    monkeypatch.setattr(corners, "search_images", lambda *_, **__: 1 / 0)
     assert main(["detect", "a.png"]) == 70
     problems = capsys.readouterr().err
     for word in ("Traceback", "ZeroDivisionError", "bug", f"calibgui {__version__}", "numpy"):
@@ -243,7 +243,7 @@ def test_an_interruption_is_not_a_bug(monkeypatch: pytest.MonkeyPatch, capsys: C
     def interrupt(*_: object) -> None:
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(detect, "search_images", interrupt)
+    monkeypatch.setattr(corners, "search_images", interrupt)
     assert main(["detect", "a.png"]) == 130
     assert capsys.readouterr() == ("", "calibgui: interrupted.\n")
 
