@@ -15,7 +15,7 @@ import numpy as np
 
 from calibgui.dataset import Result, View, ViewStatus
 from calibgui.dataset.judging import judge_result
-from calibgui.engine.assessment import Finding, Verdict, summarise_residuals
+from calibgui.engine.assessment import Cause, Finding, Verdict, summarise_residuals
 from calibgui.engine.boards import Symmetry
 from calibgui.engine.calibration import Calibration, Cost, make_paper_table
 from calibgui.engine.camera import Lucchese, find_model
@@ -115,6 +115,8 @@ def _format_verdict(result: Result, verdict: Verdict) -> Iterator[str]:
         yield format_bullet(f"{finding.message} {finding.evidence}")
         options = describe_options(finding.action, result) if finding.action is not None else ""
         advice = options[:1].upper() + options[1:] or finding.remedy
+        if options and finding.cause is Cause.MIXED_VIEWS:  # those left out have a camera, too
+            advice = f"{finding.remedy} Or {options}"
         yield _fill_lines(f"{advice}{_describe_gain(finding)}", "  > ", "    ")
 
 

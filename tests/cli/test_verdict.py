@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -24,6 +25,21 @@ def test_the_option_beside_a_finding_does_what_is_promised(
     assert main(["calibrate", str(corners_file), "-q", *option.partition(" (")[0].split()]) == 0
     better = capsys.readouterr().out
     assert better.startswith("GOOD. ") and better.count("\n") == 1
+
+
+def test_of_two_pictures_side_by_side_it_says_to_cut_them_apart_first(
+    content: Any, tmp_path: Path, capsys: Capture
+) -> None:
+    width = content["size"][0]
+    content["size"][0] *= 2
+    for view in content["views"][::2]:
+        view["uv"] = [[u + width, v] for u, v in view["uv"]]
+    file = tmp_path / "corners.json"
+    file.write_text(json.dumps(content))
+    main(["calibrate", str(file)])
+    told = " ".join(capsys.readouterr().out.split())
+    remedy = "> Cut the photographs apart, and calibrate each side by itself. Or add --exclude "
+    assert remedy in told
 
 
 def test_images_are_left_out_by_name(corners_file: Path, capsys: Capture) -> None:
