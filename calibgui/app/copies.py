@@ -38,7 +38,9 @@ def disable_copies(corner_set: CornerSet) -> CornerSet:
             reason = f"A copy of {views[usable[first]].image}, which counts once."
             views[copy] = replace(views[copy], enabled=False, reason=reason)
     for copy, original in _find_resaved(views, usable, seen):
-        reason = f"Looks like a copy of {views[original].image}, stored again: that counts once."
+        # The original is not named in full, so that lists gather all views of one reason.
+        suffix = PurePath(views[original].image).suffix
+        reason = f"Looks like a copy of the {suffix} file of the same name, which counts once."
         views[copy] = replace(views[copy], enabled=False, reason=reason)
     return replace(corner_set, views=tuple(views))
 

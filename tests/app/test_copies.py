@@ -46,7 +46,7 @@ def test_a_photograph_that_is_stored_again_counts_once(quality: int, seen: list[
     for copy in ("a/1.jpg", "a/1.JPEG", "a/1.webp"):
         found = list_copies((copy, stored), ("a/1.png", kept), ("a/2.png", seen[1]))
         assert list(found) == [copy]
-        assert found[copy].startswith("Looks like a copy of a/1.png, stored again")
+        assert found[copy].startswith("Looks like a copy of the .png file of the same name")
 
 
 def test_photographs_from_a_tripod_count_each(seen: list[Array]) -> None:
