@@ -63,6 +63,10 @@ class Project:
     settings: Settings = field(default_factory=Settings)
     results: Mapping[str, Result] = field(default_factory=lambda: MappingProxyType({}))
     """Results by name, the oldest first."""
+    settings_of_results: Mapping[str, Settings] = field(
+        default_factory=lambda: MappingProxyType({})
+    )
+    """Settings by which results were made, by name, as far as they are known."""
     digests: Mapping[str, str] = field(default_factory=lambda: MappingProxyType({}))
     """SHA-256 of the image files that have been read, by path."""
 
@@ -81,10 +85,19 @@ class Project:
         return tuple(view for view in self.views if view.usable)
 
     def is_current(self, result: Result) -> bool:
-        """Return whether `result` is from the views as they are now."""
+        """Return whether `result` is from views, board and settings as they are now."""
+        return self.has_views_of(result) and self.has_settings_of(result)
+
+    def has_views_of(self, result: Result) -> bool:
+        """Return whether `result` is from the views and the board as they are now."""
         used, now = result.used, self.usable
         same = len(used) == len(now) and all(a is b for a, b in zip(used, now, strict=True))
         return same and result.board == self.board
+
+    def has_settings_of(self, result: Result) -> bool:
+        """Return whether `result` was made by the settings as they are now, or by unknown ones."""
+        names = (name for name, other in self.results.items() if other is result)
+        return self.settings_of_results.get(next(names, ""), self.settings) == self.settings
 
     def find(self, image: str) -> int:
         """Return the index of the view of `image`; -1 if there is none."""
@@ -195,13 +208,13 @@ def change_views(
 
 
 def add_result(project: Project, name: str, result: Result) -> Project:
-    """Return the project with `result` under `name`, as the newest."""
-    others = {key: value for key, value in project.results.items() if key != name}
-    return replace(project, results=MappingProxyType({**others, name: result}))
+    """Return the project with `result` under `name`, as the newest, from unknown settings."""
+    project = remove_result(project, name)
+    return replace(project, results=MappingProxyType({**project.results, name: result}))
 
 
 def record_result(project: Project, name: str, inputs: Sequence[View], result: Result) -> Project:
-    """Return the project with the `result` of a calibration from the views `inputs`.
+    """Return the project with the `result` of a calibration by its settings from views `inputs`.
 
     Outliers that the calibration left out are left out of the project's views as well: there the
     user sees it, and undo restores them.
@@ -212,19 +225,31 @@ def record_result(project: Project, name: str, inputs: Sequence[View], result: R
         views = tuple(screened.get(id(view), view) for view in project.views)
         project = replace(project, views=views)
     result = replace(result, lengths_confirmed=project.lengths_confirmed)
-    return add_result(project, name, result)
+    project = add_result(project, name, result)
+    settings = {**project.settings_of_results, name: project.settings}
+    return replace(project, settings_of_results=MappingProxyType(settings))
 
 
 def remove_result(project: Project, name: str) -> Project:
     """Return the project without the result of that name."""
-    others = {key: value for key, value in project.results.items() if key != name}
-    return replace(project, results=MappingProxyType(others))
+    return _name_results(project, {key: key for key in project.results if key != name})
 
 
 def rename_result(project: Project, old: str, new: str) -> Project:
     """Return the project with the result `old` under the name `new`, at its place."""
-    results = {new if key == old else key: value for key, value in project.results.items()}
-    return replace(project, results=MappingProxyType(results))
+    return _name_results(project, {key: new if key == old else key for key in project.results})
+
+
+def _name_results(project: Project, names: Mapping[str, str]) -> Project:
+    """Return the project with those of its results that have new names, under these."""
+    results = {new: project.results[old] for old, new in names.items()}
+    known = project.settings_of_results
+    settings = {new: known[old] for old, new in names.items() if old in known}
+    return replace(
+        project,
+        results=MappingProxyType(results),
+        settings_of_results=MappingProxyType(settings),
+    )
 
 
 def add_digests(project: Project, digests: Mapping[str, str]) -> Project:

@@ -15,6 +15,7 @@
                         robust; weigh_views and once (false where missing)
     views               as in ``views_json.py``, and sha256 of the image file where known
     results             by name, each as a result.json is (``result_json.py``)
+    settings_of_results by name, each as settings is, of the results whose settings are known
 
 Paths are relative to the folder of the file, with "/", so that folder and project move together;
 addresses of photographs, as http://, stay as they are.
@@ -135,6 +136,10 @@ def encode_project(project: Project, folder: Path) -> dict[str, Any]:
         "settings": _encode_settings(project.settings),
         "views": [_encode_view(view, project, board) for view in project.views],
         "results": {name: encode_result(result) for name, result in project.results.items()},
+        "settings_of_results": {
+            name: _encode_settings(settings)
+            for name, settings in project.settings_of_results.items()
+        },
     }
 
 
@@ -224,6 +229,7 @@ def _decode_project(node: Node) -> Project:
         if (digest := item.get("sha256"))
     }
     confirmed = node.get("lengths_confirmed")
+    settings = _decode_settings(node["settings"])
     return Project(
         views=views,
         size=decode_size(size) if size else None,
@@ -234,8 +240,9 @@ def _decode_project(node: Node) -> Project:
         by_hand=by_hand.flag() if (by_hand := node.get("by_hand")) else False,
         unit=Unit(board["unit"].choice(list(Unit))),
         lengths_confirmed=bool(node["results"].value) if confirmed is None else confirmed.flag(),
-        settings=_decode_settings(node["settings"]),
+        settings=settings,
         results=MappingProxyType(_decode_results(node, views)),
+        settings_of_results=MappingProxyType(_decode_settings_of_results(node, settings)),
         digests=MappingProxyType(digests),
     )
 
@@ -266,6 +273,20 @@ def _decode_settings(node: Node) -> Settings:
         weigh_views=weigh.flag() if (weigh := node.get("weigh_views")) else False,
         once=once.flag() if (once := node.get("once")) else False,
     )
+
+
+def _decode_settings_of_results(node: Node, now: Settings) -> dict[str, Settings]:
+    """Return settings by results' names; those that equal the project's become the same object, as
+    a board shape in them is compared by its identity."""
+    known = node.get("settings_of_results")
+    if known is None:
+        return {}
+    results, same = node["results"].value, node["settings"].value
+    return {
+        name: now if are_same_values(item.value, same) else _decode_settings(item)
+        for name, item in known.members().items()
+        if name in results
+    }
 
 
 def _decode_model(node: Node) -> str | None:

@@ -30,9 +30,9 @@ from calibgui.app.project import (
     Project,
     Unit,
     add_images,
-    add_result,
     change_views,
     find_free_name,
+    record_result,
     remove_result,
     remove_views,
     rename_result,
@@ -165,7 +165,10 @@ class Editing(RuleBasedStateMachine):
     @rule(which=st.sampled_from(["Calibration 1", "k3 held"]))
     def calibrate(self, which: str) -> None:
         result = examples.calibrated(_FOLDER).results[which]
-        self.edit("Calibrate", lambda p: add_result(p, find_free_name(p, "Calibration"), result))
+        self.edit(
+            "Calibrate",
+            lambda p: record_result(p, find_free_name(p, "Calibration"), result.views, result),
+        )
 
     @precondition(lambda self: self.document.project.results)
     @rule(data=st.data(), delete=st.booleans())

@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 
 from calibgui.app import project_file
-from calibgui.app.project import relocate_images
+from calibgui.app.project import record_result, relocate_images, remove_result, rename_result
 from calibgui.app.project_file import VERSION, encode_project, read_project, write_project
 from calibgui.app.settings import Settings
 from calibgui.engine.boards.shape import BoardShape, BoardShapeModel, BoardShapePrior
@@ -65,6 +65,31 @@ def test_a_changed_view_makes_its_results_old(tmp_path: Path) -> None:
     assert not again.is_current(again.results["k3 held"])
     assert again.results["k3 held"].views[1] is again.views[1]
     assert again.results["k3 held"].views[0] is not again.views[0]
+
+
+@pytest.mark.parametrize("shape", [BoardShapeModel.FREE, None, "known"])
+def test_results_know_their_settings(tmp_path: Path, shape: BoardShapeModel | str | None) -> None:
+    known = BoardShape(
+        BoardShapeModel.FREE, examples.BOARD.points()[:, :2], np.zeros((42, 3)), np.ones((42, 3))
+    )
+    chosen = known if isinstance(shape, str) and shape == "known" else shape
+    project = examples.calibrated(tmp_path)
+    before = project.settings
+    result = project.results["k3 held"]
+    after = replace(before, board_shape=chosen, fixed={"fx": 200.0})
+    project = record_result(replace(project, settings=after), "new", result.views, result)
+    project = rename_result(project, "new", "newer")
+    write_project(project, tmp_path / "project.json")
+    again = read_project(tmp_path / "project.json")
+    newer = again.results["newer"]
+    assert again.is_current(newer)
+    other = replace(again, settings=before)
+    assert not other.is_current(newer) and other.has_views_of(newer)
+    assert other.is_current(other.results["k3 held"]), "of unknown settings"
+    write_project(other, tmp_path / "project.json")
+    later = read_project(tmp_path / "project.json")
+    assert not later.is_current(later.results["newer"])
+    assert not remove_result(later, "newer").settings_of_results
 
 
 def test_relocated_images_keep_their_results_current(tmp_path: Path) -> None:

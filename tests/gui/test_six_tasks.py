@@ -188,7 +188,7 @@ def test_a_wrong_square(user: User, monkeypatch: pytest.MonkeyPatch) -> None:
     user.bot.keyClicks(box.lineEdit(), "25")
     user.decisions += 1
     user.bot.keyClick(box.lineEdit(), Qt.Key.Key_Return)
-    assert user.window.verdict.reason.text().startswith("Out of date: calibrate again.")
+    assert user.window.verdict.reason.text().startswith("Out of date, as images or board")
     user.click(user.window.calibrate)
     user.wait()
     result = user.window.session.result

@@ -41,12 +41,20 @@ class ExportDialog(QDialog):
 
     Each format that is looked at is written to a temporary folder by a job: what is shown is
     what will be saved, and the refit's error is known beforehand.
+
+    Args:
+        jobs: which prepare and write the files.
+        result: what is exported.
+        parent: over which the dialog opens.
+        age: a sentence that the result is out of date; "" if it is not.
     """
 
     exported = Signal(object)
     """The `ExportReport` of a file that was saved."""
 
-    def __init__(self, jobs: Jobs, result: Result, parent: QWidget | None = None) -> None:
+    def __init__(
+        self, jobs: Jobs, result: Result, parent: QWidget | None = None, *, age: str = ""
+    ) -> None:
         super().__init__(parent)
         self.setWindowTitle(self.tr("Export"))
         self._jobs, self._result = jobs, result
@@ -63,6 +71,10 @@ class ExportDialog(QDialog):
         self.text.setLineWrapMode(QPlainTextEdit.LineWrapMode.NoWrap)
         self.text.setAccessibleName(self.tr("The file's text"))
         self._facts = facts = QFormLayout()
+        if age:
+            self.age = WrappedLabel(age)
+            self.age.setStyleSheet(f"color: {theme.current().warning}")
+            facts.addRow(self.tr("Result"), self.age)
         facts.addRow(self.tr("Holds"), self.limits)
         facts.addRow(self.tr("Camera"), self.note)
         facts.addRow(self.tr("Largest error"), self.error)

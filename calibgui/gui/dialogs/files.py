@@ -244,8 +244,9 @@ class Files(QObject):
         """Offer the shown result in every format."""
         from calibgui.gui.dialogs.export_dialog import ExportDialog
 
-        if self._session.result is not None:
-            show_dialog(ExportDialog(self._session.jobs, self._session.result, self._window))
+        if (result := self._session.result) is not None:
+            age = self._session.describe_age(result)
+            show_dialog(ExportDialog(self._session.jobs, result, self._window, age=age))
 
     def print_board(self) -> None:
         """Offer a board to print, like the project's."""

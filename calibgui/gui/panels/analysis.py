@@ -253,12 +253,9 @@ class Analysis(QWidget):
         self.show_panel(ComparePanel).compare(name, self._session.result_name)
 
     def _show_state(self) -> None:
-        result = self._session.result
-        old = result is not None and not self._session.project.is_current(result)
-        self.state.setText(self.tr("out of date") if old else "")
-        self.state.setToolTip(
-            self.tr("Views or board have changed since: calibrate again.") if old else ""
-        )
+        age = self._session.describe_age(self._session.result)
+        self.state.setText(self.tr("out of date") if age else "")
+        self.state.setToolTip(age)
         self.state.setStyleSheet(f"color: {theme.current().warning}")
 
     def changeEvent(self, event: QEvent) -> None:  # noqa: N802 - Qt's name

@@ -76,6 +76,14 @@ class Session(QObject):
         """The result that is shown."""
         return self.project.results.get(self.result_name)
 
+    def describe_age(self, result: Result | None) -> str:
+        """Say that a result is out of date, why, and what to do; "" if it is not."""
+        if result is None or self.project.is_current(result):
+            return ""
+        if self.project.has_settings_of(result):
+            return self.tr("Out of date, as images or board have changed: calibrate again.")
+        return self.tr("Out of date, as settings have changed: calibrate again.")
+
     def show_result(self, name: str) -> None:
         """Show another result; the empty name stands for the newest."""
         self._chosen_results = [*(n for n in self._chosen_results if n != name), name]

@@ -73,7 +73,9 @@ class VerdictBar(QFrame):
         self.setObjectName("verdict")
         self._session = session
         self._result: Result | None = None
-        self._is_old = self._is_running = False
+        self._age = ""
+        """What says that the shown result is out of date; "" if it is not."""
+        self._is_running = False
         self.verdict: Verdict | None = None
         self._work = Latest(session.jobs, self)
         self.remedier = Remedier(session)
@@ -207,11 +209,9 @@ class VerdictBar(QFrame):
 
         A result that is about to take its place is shown then.
         """
-        if self._session.result is self._result and self._is_old is not self._is_out_of_date():
+        is_shown = self._session.result is self._result
+        if is_shown and self._age != self._session.describe_age(self._result):
             self._show_reason()
-
-    def _is_out_of_date(self) -> bool:
-        return self._result is not None and not self._session.project.is_current(self._result)
 
     def _show(self) -> None:
         verdict, result = self.verdict, self._result
@@ -232,18 +232,16 @@ class VerdictBar(QFrame):
     def _show_reason(self) -> None:
         """Show why the verdict is as it is, and whether it is out of date."""
         verdict, result = self.verdict, self._result
-        self._is_old = self._is_out_of_date()
+        self._age = self._session.describe_age(result)
         if result is None:
             hint = self.tr("How far the camera can be trusted is said here once it is calibrated.")
             self.reason.setText(hint)
         elif verdict is None:
             self.reason.setText(self.tr("What makes it better is being tried."))
         else:
-            old = self.tr("Out of date: calibrate again. ") if self._is_old else ""
             diagnosis = result.calibration.diagnosis
-            self.reason.setText(
-                old + (diagnosis.message if diagnosis else describe_reason(verdict, result))
-            )
+            reason = diagnosis.message if diagnosis else describe_reason(verdict, result)
+            self.reason.setText(f"{self._age} {reason}".lstrip())
 
     def _show_buttons(self) -> None:
         busy = self.remedier.running

@@ -10,8 +10,8 @@ from typing import Any
 
 import numpy as np
 import pytest
-from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QPushButton
+from PySide6.QtCore import QPoint, Qt
+from PySide6.QtWidgets import QApplication, QCheckBox, QPushButton
 from pytestqt.qtbot import QtBot
 
 from calibgui.app.calibration import calibrate_views
@@ -22,11 +22,13 @@ from calibgui.dataset import CornerSet, View
 from calibgui.engine.assessment import Cause, Grade
 from calibgui.engine.boards import AprilGrid, Circles, Pattern
 from calibgui.engine.numbers import format_two_digits
+from calibgui.gui.dialogs.export_dialog import ExportDialog
 from calibgui.gui.panels.coverage import CoveragePanel
 from calibgui.gui.panels.residuals import ResidualsPanel
 from calibgui.gui.verdict.before_after import BeforeAndAfter
 from calibgui.gui.verdict.verdict_bar import VerdictBar
 from calibgui.gui.widgets.lengths import describe_condition
+from calibgui.gui.widgets.wrapped_label import WrappedLabel
 from calibgui.gui.window.main_window import MainWindow
 from tests.app import examples
 
@@ -264,3 +266,57 @@ def test_a_search_that_comes_first_asks_too(window: MainWindow, plain: Project) 
     window.session.begin(Document(project))
     assert window.verdict.headline.text() == "NOT CALIBRATED"
     assert window.verdict.square.isVisible()
+
+
+def test_changed_settings_make_a_result_old_and_undo_makes_it_new(
+    plain: Project, open_project: Open, window: MainWindow, qtbot: QtBot
+) -> None:
+    bar = open_project(calibrated(plain))
+    session, settings = window.session, window.settings
+    window.inspector.show_setup()
+
+    def click(box: QCheckBox) -> None:
+        qtbot.mouseClick(box, LEFT, pos=QPoint(8, box.height() // 2))
+
+    def choose_method() -> None:
+        settings.method.setFocus()
+        qtbot.keyClick(settings.method, Qt.Key.Key_Down)
+
+    def choose_lens() -> None:
+        settings.model.setFocus()
+        qtbot.keyClick(settings.model, Qt.Key.Key_Down)
+
+    def hold() -> None:
+        settings.values.setFocus()
+        qtbot.keyClicks(settings.values, "fx=200")
+        qtbot.keyClick(settings.values, Qt.Key.Key_Return)
+
+    assert "Out of date" not in bar.reason.text()
+    for change in (
+        lambda: click(settings.robust),
+        lambda: click(settings.weigh),
+        lambda: click(settings.boxes["k3"]),
+        choose_lens,
+        hold,
+        choose_method,
+    ):
+        change()
+        assert bar.reason.text().startswith("Out of date, as settings have changed"), change
+        assert window.need_analysis().state.text() == "out of date"
+        assert "settings" in window.need_analysis().state.toolTip()
+        qtbot.keyClick(window, Qt.Key.Key_E, Qt.KeyboardModifier.ControlModifier)
+        dialog = QApplication.activeModalWidget()
+        assert isinstance(dialog, ExportDialog)
+        assert any("settings have" in label.text() for label in dialog.findChildren(WrappedLabel))
+        dialog.close()
+        qtbot.keyClick(window, Qt.Key.Key_Z, Qt.KeyboardModifier.ControlModifier)
+        assert "Out of date" not in bar.reason.text(), change
+        assert not window.need_analysis().state.text()
+    click(settings.robust)
+    qtbot.mouseClick(window.calibrate, LEFT)
+    qtbot.waitUntil(lambda: len(session.project.results) == 2, timeout=60_000)
+    qtbot.waitUntil(lambda: bar.verdict is not None and not session.jobs.running, timeout=60_000)
+    assert "Out of date" not in bar.reason.text()
+    session.show_result("Calibration 1")
+    qtbot.waitUntil(lambda: bar.verdict is not None and not session.jobs.running, timeout=60_000)
+    assert "Out of date" in bar.reason.text()

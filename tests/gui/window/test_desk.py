@@ -278,7 +278,10 @@ def test_another_verdict_moves_nothing(full: MainWindow, qtbot: QtBot) -> None:
     assert not verdict.unfold.isVisible()
     verdict.unfold.show()
     verdict.button.show()
-    verdict.reason.setText("Out of date: calibrate again. The photographs show nothing wrong.")
+    verdict.reason.setText(
+        "Out of date, as images or board have changed: calibrate again. The photographs show "
+        "nothing wrong."
+    )
     verdict.figures.setText("RMS 0.1 px")
     for _ in range(3):
         QApplication.processEvents()
