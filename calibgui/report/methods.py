@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from types import MappingProxyType
 
 from calibgui.engine.assessment import (
@@ -58,8 +58,10 @@ class MethodRow:
 
     name: str
     """Name of the method in the comparison."""
+    label: str
+    """Name that a user reads in a table."""
     title: str
-    """Name that a user reads."""
+    """Name that a user reads, with what the method does."""
     source: str
     """Publication that describes the method."""
     limits: str
@@ -114,6 +116,7 @@ def _make_row(comparison: MethodComparison, name: str) -> MethodRow:
     nan = math.nan
     return MethodRow(
         name=name,
+        label=method.label,
         title=method.title,
         source=method.source,
         limits=method.limits,
@@ -137,6 +140,7 @@ def _make_camera_row(trial: MethodTrial) -> MethodRow:
     found, difference = trial.calibration, trial.difference
     return MethodRow(
         name=trial.name,
+        label=trial.method.label,
         title=trial.method.title,
         source=trial.method.source,
         limits=trial.method.limits,
@@ -186,6 +190,7 @@ def _make_line_row(trial: LineTrial) -> MethodRow:
     ]
     return MethodRow(
         name=trial.name,
+        label=trial.method.label,
         title=trial.method.title,
         source=trial.method.source,
         limits=trial.method.limits,
@@ -222,9 +227,16 @@ def _list_coefficients(
     )
 
 
-def describe_method_comparison(comparison: MethodComparison) -> str:
-    """Describe in a few sentences, with figures, what the comparison supports."""
+def describe_method_comparison(comparison: MethodComparison, *, by_label: bool = False) -> str:
+    """Describe in a few sentences, with figures, what the comparison supports.
+
+    Args:
+        comparison: the comparison.
+        by_label: true to name methods by their labels, not as arguments name them.
+    """
     rows = list_method_rows(comparison)
+    if by_label:
+        rows = [replace(row, name=row.label) for row in rows]
     cameras = [row for row in rows if row.kind == "camera" and math.isfinite(row.unseen)]
     if not cameras:
         return "None of the methods could be tried on unseen views."

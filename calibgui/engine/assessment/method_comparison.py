@@ -50,6 +50,7 @@ from calibgui.engine.uncertainty.projection_uncertainty import make_map_grid
 
 AS_PRINTED = "lucchese-printed"
 """Name in a comparison of the paper's method as it is printed, with its own cost and lens."""
+_PRINTED_LABEL = "Lucchese, as printed"
 _PRINTED_TITLE = "Lucchese, with the cost and the lens as printed"
 _PRINTED_LIMITS = "It minimises distances on the reference plane, where far views weigh more."
 _TURNS = np.linspace(0, 2 * np.pi, 72, endpoint=False)
@@ -174,7 +175,13 @@ def list_compared_methods() -> dict[str, tuple[Description, dict[str, Any]]]:
     Methods without lengths have none.
     """
     default = METHODS[DEFAULT_METHOD]
-    printed = replace(default, name=AS_PRINTED, title=_PRINTED_TITLE, limits=_PRINTED_LIMITS)
+    printed = replace(
+        default,
+        name=AS_PRINTED,
+        label=_PRINTED_LABEL,
+        title=_PRINTED_TITLE,
+        limits=_PRINTED_LIMITS,
+    )
     listed: dict[str, tuple[Description, dict[str, Any]]] = {
         default.name: (default, {"method": default.name}),
         AS_PRINTED: (printed, {"method": default.name, "cost": Cost.PAPER}),

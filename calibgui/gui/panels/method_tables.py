@@ -148,12 +148,12 @@ class MethodTables(LinkedTables):
         ]
 
     def _make_name_column(self, rows: Sequence[MethodRow]) -> Column:
-        texts = {row.name: f"{row.name} *" if row.kind == "lines" else row.name for row in rows}
+        texts = {row.name: f"{row.label} *" if row.kind == "lines" else row.label for row in rows}
         return Column(
             self.tr("Method"),
             [row.name for row in rows],
             texts.__getitem__,
-            tips=[f"{row.title}\n{row.limits}" for row in rows],
+            tips=[f"{row.title} ({row.name})\n{row.limits}" for row in rows],
         )
 
 

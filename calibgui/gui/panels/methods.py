@@ -85,7 +85,7 @@ class MethodsPanel(OnDemandPanel[MethodComparison]):
         return compare_methods_again(result, progress)
 
     def _show_found(self, result: Result, found: MethodComparison) -> None:
-        sentences = [describe_method_comparison(found)]
+        sentences = [describe_method_comparison(found, by_label=True)]
         if result is not self._asked:
             sentences.append(
                 self.tr("Differences are from the calibration that was shown when they were found.")

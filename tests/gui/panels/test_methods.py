@@ -49,7 +49,7 @@ def _few_methods() -> Iterator[None]:
     def refuse(*_: object) -> None:
         raise CalibrationError(REFUSAL, "Tilt the board.")
 
-    refusing = replace(BOUGUET, name="tsai", title="Tsai", initialise=refuse)
+    refusing = replace(BOUGUET, name="tsai", label="Tsai", title="Tsai", initialise=refuse)
     few = {name: listed[name] for name in FEW} | {"tsai": (refusing, {"method": refusing})}
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(method_comparison, "list_compared_methods", lambda: few)
@@ -113,7 +113,7 @@ def test_the_button_compares_and_the_tables_hold_the_figures(
     assert "Cancel" in panel.run.text()
     qtbot.waitUntil(lambda: panel.found is not None, timeout=60_000)
     assert panel.compared.isVisible() and "ompare" in panel.run.text()
-    assert panel.words.toPlainText() == describe_method_comparison(comparison)
+    assert panel.words.toPlainText() == describe_method_comparison(comparison, by_label=True)
     errors, cameras = read_table(panel.tables.errors), read_table(panel.tables.camera)
     for row, error, camera in zip(list_method_rows(comparison), errors, cameras, strict=True):
         assert error["Method"] == camera["Method"] == row.name
@@ -139,7 +139,17 @@ def test_what_is_not_estimated_is_a_dash_that_says_why(panel: MethodsPanel) -> N
     assert "±" in tip(table, names.index("bouguet"), "fx")
     straight = tip(panel.tables.errors, names.index("stein"), "RMS")
     assert "straight rows and columns" in straight
-    assert panel.tables.errors.model().index(names.index("stein"), 0).data() == "stein *"
+    assert panel.tables.errors.model().index(names.index("stein"), 0).data() == "Stein *"
+
+
+def test_methods_have_plain_names_with_the_options_name_in_the_tooltip(panel: MethodsPanel) -> None:
+    for table in (panel.tables.errors, panel.tables.camera):
+        for k, row in enumerate(panel._rows):
+            assert table.model().index(k, 0).data().removesuffix(" *") == row.label
+            assert row.kind == "refused" or f"({row.name})" in tip(table, k, "Method")
+    words = panel.words.toPlainText()
+    assert "Lucchese" in words and "lucchese" not in words and AS_PRINTED not in words
+    assert "bouguet" not in words
 
 
 def test_the_selected_methods_map_and_words_are_shown(

@@ -88,6 +88,7 @@ def make_bouguet(skew: bool = False, k3: bool = False) -> Method:
     suffix = "-k3" * k3 + "-skew" * skew
     return Method(
         name=f"bouguet{suffix}",
+        label="Bouguet" + ", k3" * k3 + ", skew" * skew,
         title="Bouguet's toolbox" + ", k3" * k3 + ", with skew" * skew,
         source=_SOURCE,
         limits="It takes all corners as equally good, and every board as flat.",

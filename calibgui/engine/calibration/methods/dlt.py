@@ -210,6 +210,7 @@ def make_dlt(board_poses: Sequence[Pose] | None) -> Method:
     """
     return Method(
         name="dlt",
+        label="DLT",
         title="DLT: direct linear transformation",
         source="Y. I. Abdel-Aziz, H. M. Karara, Direct linear transformation from comparator "
         "coordinates into object space coordinates in close-range photogrammetry, Proceedings of "

@@ -199,6 +199,7 @@ def _list_remarks(calibration: Calibration) -> tuple[str, ...]:
 
 HEIKKILA_SILVEN = Method(
     name="heikkila-silven",
+    label="Heikkilä and Silvén",
     title="Heikkilä and Silvén: linear start, fit, inverse model",
     source="J. Heikkilä and O. Silvén, A four-step camera calibration procedure with implicit "
     "image correction, IEEE Conference on Computer Vision and Pattern Recognition (1997) 1106-1112",

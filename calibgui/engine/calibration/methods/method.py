@@ -106,8 +106,10 @@ class Description:
 
     name: str
     """Key in the table of methods, as arguments and files name it."""
+    label: str
+    """Name that a user reads in a table, at most 20 letters."""
     title: str
-    """Name that a user reads."""
+    """Name that a user reads, with what the method does."""
     source: str
     """Publication that describes the method."""
     limits: str

@@ -107,6 +107,7 @@ def _refine(
 
 OPENCV = Method(
     name="opencv",
+    label="OpenCV",
     title="OpenCV's calibrateCamera",
     source="OpenCV library, cv::calibrateCamera (https://docs.opencv.org)",
     limits="It takes all corners as equally good, knows no skew, and tells nothing of its "

@@ -191,6 +191,7 @@ LINE_METHODS: dict[str, LineMethod] = {
     for method in (
         LineMethod(
             name="devernay-faugeras",
+            label="Devernay, Faugeras",
             title="Devernay and Faugeras: straight lines, one coefficient and aspect",
             source="F. Devernay, O. Faugeras, Straight lines have to be straight, Machine Vision "
             "and Applications 13 (2001) 14-24",
@@ -200,6 +201,7 @@ LINE_METHODS: dict[str, LineMethod] = {
         ),
         LineMethod(
             name="stein",
+            label="Stein",
             title="Stein: straight lines, two coefficients",
             source="G. P. Stein, Internal camera calibration using rotation and geometric shapes, "
             "AITR-1426, MIT Artificial Intelligence Laboratory (1993)",

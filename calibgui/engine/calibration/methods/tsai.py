@@ -373,6 +373,7 @@ def _initialise_closed_form(given: Given) -> Initialisation:
 
 TSAI_CLOSED_FORM = Method(
     name="tsai-closed-form",
+    label="Tsai, closed form",
     title="Tsai: radial alignment constraint, closed form",
     source=_SOURCE,
     limits="It takes square pixels and a centre in the middle of the image, which a flat board "
@@ -387,6 +388,7 @@ TSAI_CLOSED_FORM = Method(
 TSAI = replace(
     TSAI_CLOSED_FORM,
     name="tsai",
+    label="Tsai",
     title="Tsai: radial alignment constraint, then all parameters",
     limits="Its lens has one radial coefficient, and its start needs views tilted by 30 degrees or "
     "more.",

@@ -96,6 +96,7 @@ def _list_remarks(calibration: Calibration) -> tuple[str, ...]:
 
 WENG = Method(
     name="weng",
+    label="Weng et al.",
     title="Weng, Cohen and Herniou: distortion and all else turn by turn",
     source="J. Weng, P. Cohen, M. Herniou, Camera calibration with distortion models and accuracy "
     "evaluation, IEEE Transactions on Pattern Analysis and Machine Intelligence 14 (1992) 965-980",

@@ -241,6 +241,7 @@ def _list_remarks_on_turns(calibration: Calibration) -> tuple[str, ...]:
 
 ZHANG = Method(
     name="zhang",
+    label="Zhang",
     title="Zhang: maximum likelihood with skew and two radial terms",
     source="Z. Zhang, A flexible new technique for camera calibration, IEEE Transactions on "
     "Pattern Analysis and Machine Intelligence 22 (2000) 1330-1334",
@@ -256,6 +257,7 @@ ZHANG = Method(
 ZHANG_CLOSED_FORM = replace(
     ZHANG,
     name="zhang-closed-form",
+    label="Zhang, closed form",
     title="Zhang: the closed form alone",
     limits="It has no distortion, so that a real lens shifts all of its values, minimises no error "
     "in the image, and needs three views to tell the skew.",
@@ -268,6 +270,7 @@ ZHANG_CLOSED_FORM = replace(
 ZHANG_ALTERNATION = replace(
     ZHANG,
     name="zhang-alternation",
+    label="Zhang, in turns",
     title="Zhang: camera and radial terms in turns",
     limits="It comes to the minimum of the method 'zhang' slowly, and needs three views to tell "
     "the skew.",

@@ -28,6 +28,7 @@ VIEWS = scene(barrel(), 4, seed=1).noisy(0.1, np.random.default_rng(0))
 def test_every_method_is_described() -> None:
     for name, method in METHODS.items():
         assert method.name == name
+        assert 0 < len(method.label) <= 20
         assert method.title
         assert method.source
         assert method.limits.endswith(".")
