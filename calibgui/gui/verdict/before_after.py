@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import numpy as np
-from PySide6.QtCore import Signal, SignalInstance
+from PySide6.QtCore import QSize, Signal, SignalInstance
+from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import QHBoxLayout, QPushButton, QVBoxLayout, QWidget
 
 from calibgui.engine.assessment import CameraDifference, Verdict, compare_cameras
@@ -20,8 +21,12 @@ from calibgui.gui.widgets.wrapped_label import WrappedLabel
 from calibgui.report.comparison import compare_parameters
 from calibgui.report.verdict import format_times
 
-_HEIGHT = 560
-"""Its height where there is more room, device-independent px."""
+_TABLES_SHARE = 0.55
+"""Share of the width that the tables have at most: the map takes what they leave."""
+_AXES = QSize(130, 70)
+"""Room that axes, scale of colours and caption take beside and below the map, px."""
+_LEAST = 320
+"""Its least height where there is room, device-independent px: some parameters below the errors."""
 
 
 class BeforeAndAfter(DropDown):
@@ -63,8 +68,8 @@ class BeforeAndAfter(DropDown):
         tables.addWidget(self.errors)
         tables.addWidget(self.parameters, 1)
         sides = QHBoxLayout()
-        sides.addLayout(tables, 4)
-        sides.addWidget(self.map, 3)
+        sides.addLayout(tables)
+        sides.addWidget(self.map, 1)
         layout = QVBoxLayout(self)
         layout.setContentsMargins(*[theme.SPACING] * 4)
         layout.addLayout(head)
@@ -119,11 +124,30 @@ class BeforeAndAfter(DropDown):
             lambda error: self.map.show_reason(str(error)),
         )
         self.open_up()
+        self._fit_tables()
         self.keep.setFocus()
 
-    def heightForWidth(self, width: int) -> int:  # noqa: N802, ARG002 - Qt's
-        """Return the height at which the map is well seen."""
-        return _HEIGHT
+    def heightForWidth(self, width: int) -> int:  # noqa: N802 - Qt's
+        """Return the height at which the map fills the width that the tables leave."""
+        if self._remedied is None:
+            return _LEAST
+        columns, rows = self._remedied.after.calibration.camera.size
+        map_width = width - self._choose_tables_width(width) - 3 * theme.SPACING - _AXES.width()
+        head = self.keep.sizeHint().height() + 3 * theme.SPACING
+        return max(_LEAST, round(map_width * rows / columns) + _AXES.height() + head)
+
+    def _choose_tables_width(self, width: int) -> int:
+        """Return how wide the tables are if the sheet has this width."""
+        natural = max(self.errors.natural_width, self.parameters.natural_width)
+        return min(natural, round(_TABLES_SHARE * width))
+
+    def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name
+        super().resizeEvent(event)
+        self._fit_tables()
+
+    def _fit_tables(self) -> None:
+        for table in (self.errors, self.parameters):
+            table.setFixedWidth(self._choose_tables_width(self.width()))
 
     def _show_errors(self, before: Verdict, after: Verdict) -> None:
         pairs = [

@@ -50,13 +50,13 @@ def describe_pixel_error(error: PixelError) -> str:
 
 
 def describe_figures(verdict: Verdict, result: Result) -> list[str]:
-    """Describe the error of a pixel, what it is in the scene, and how well the camera fits."""
+    """Describe the error of a pixel, and what it is in the scene."""
     parts = [describe_pixel_error(verdict.error)]
     if np.isfinite(mm := verdict.error.edge * verdict.mm_per_pixel):
         text = translate("VerdictTexts", "{0} mm at the edge, {1:.0f} mm away")
         parts.append(text.format(format_two_digits(mm), verdict.distance))
         parts[-1] += describe_condition(result)
-    return [*parts, describe_fit(result)]
+    return parts
 
 
 def describe_fit(result: Result) -> str:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import PurePath
 
 from PySide6.QtCore import QEvent, Qt, Signal
-from PySide6.QtGui import QResizeEvent
+from PySide6.QtGui import QColor, QPainter, QPaintEvent, QResizeEvent
 from PySide6.QtWidgets import (
     QBoxLayout,
     QFrame,
@@ -54,6 +54,8 @@ _LINES_OF_REASON, _LINES_OF_FIGURES = 2, 3
 """Lines that are reserved in a narrow bar, so that another verdict moves nothing below it."""
 _LOW = 600
 """Height of the window below which the first figure stands for all, device-independent px."""
+_STRIPE = 5
+"""Width of the stripe in the grade's colour, device-independent px."""
 _SIZE_OF_FIGURES = 0.9
 """Size of the figures' letters, of the others': each figure has one line, in the least width if
 errors are of 0.01 px or more, else in a window of 1280 px."""
@@ -89,6 +91,8 @@ class VerdictBar(QFrame):
         font = self.figures.font()
         font.setPointSizeF(_SIZE_OF_FIGURES * font.pointSizeF())
         self.figures.setFont(font)
+        self._fit = ""
+        """How well the camera fits, of which the words are made once for each calibration."""
         self._figures: list[str] = []
         self._is_low = False
         self.button = QPushButton(self.tr("Remedy"))
@@ -136,7 +140,7 @@ class VerdictBar(QFrame):
         self._row.addLayout(words, 1)
         self._row.addLayout(buttons)
         column = QVBoxLayout(self)
-        column.setContentsMargins(0, 0, 0, 0)
+        column.setContentsMargins(_STRIPE, 0, 0, 1)
         column.setSpacing(0)
         column.addLayout(self._row)
         column.addWidget(self.square)
@@ -185,6 +189,8 @@ class VerdictBar(QFrame):
         self._result, self.verdict = result, known
         self._work.cancel()
         if known is None:
+            self._fit = "" if result is None else describe_fit(result)
+        if known is None:
             self.unfold.setChecked(False)
         if result is not None and known is None:
             self._work.start(
@@ -220,10 +226,10 @@ class VerdictBar(QFrame):
         if verdict is None or result is None:
             first = self.tr("CALIBRATING…") if self._is_running else self.tr("NOT CALIBRATED")
             self.headline.setText(first if result is None else self.tr("JUDGING…"))
-            self._figures = [] if result is None else [describe_fit(result)]
+            self._figures = [] if result is None else [self._fit]
         else:
             self.headline.setText(describe_grade(verdict.grade, verdict.times_better))
-            self._figures = describe_figures(verdict, result)
+            self._figures = [*describe_figures(verdict, result), self._fit]
             self.findings.show_verdict(verdict, self._list_names(), state_condition(result))
         self._show_figures()
         self._show_buttons()
@@ -242,6 +248,9 @@ class VerdictBar(QFrame):
             diagnosis = result.calibration.diagnosis
             reason = diagnosis.message if diagnosis else describe_reason(verdict, result)
             self.reason.setText(f"{self._age} {reason}".lstrip())
+        theme.set_text_colour(
+            self.reason, theme.current().warning if self._age else theme.current().text
+        )
 
     def _show_buttons(self) -> None:
         busy = self.remedier.running
@@ -317,14 +326,20 @@ class VerdictBar(QFrame):
             self._restyle()
 
     def _restyle(self) -> None:
+        """Colour the words, by palettes: a style sheet would style all that is in the bar."""
         colours = theme.current()
         colour = get_colour(None if self.verdict is None else self.verdict.grade)
-        style = (
-            f"#verdict {{ background: {colours.base}; border: none;"
-            f" border-left: 5px solid {colour}; border-bottom: 1px solid {colours.line}; }}"
-        )
-        if style != self.styleSheet():
-            self.setStyleSheet(style)
-        self.headline.setStyleSheet(f"color: {colour}")
-        self.figures.setStyleSheet(f"color: {colours.muted}")
-        self.mark.update()
+        for label, text in (
+            (self.headline, colour),
+            (self.figures, colours.muted),
+        ):
+            theme.set_text_colour(label, text)
+        self.update()
+
+    def paintEvent(self, event: QPaintEvent) -> None:  # noqa: N802, ARG002 - Qt's name
+        """Paint the ground, the grade's colour along the left, and the line below."""
+        colours, painter = theme.current(), QPainter(self)
+        painter.fillRect(self.rect(), QColor(colours.base))
+        grade = None if self.verdict is None else self.verdict.grade
+        painter.fillRect(0, 0, _STRIPE, self.height(), QColor(get_colour(grade)))
+        painter.fillRect(_STRIPE, self.height() - 1, self.width(), 1, QColor(colours.line))

@@ -331,6 +331,18 @@ class Table(QTableView):
         if row >= 0 and not self.underMouse():  # nothing moves under the cursor
             self.scrollTo(self._order.mapFromSource(self._model.index(row, 0)))
 
+    @property
+    def natural_width(self) -> int:
+        """Width in which all columns that are not hidden are seen whole, with a scroll bar."""
+        header = self.horizontalHeader()
+        columns = [
+            max(self.sizeHintForColumn(place), header.sectionSizeHint(place))
+            for place, column in enumerate(self._model.columns)
+            if not column.hidden
+        ]
+        bar = self.verticalScrollBar().sizeHint().width()
+        return sum(columns) + bar + 2 * self.frameWidth()
+
     def as_csv(self, separator: str = ",") -> str:
         """The table in the order shown: titles with units, then values with every digit."""
         out = io.StringIO()

@@ -8,10 +8,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from enum import StrEnum
+from types import SimpleNamespace
 
 from PySide6.QtCore import QSettings, Qt
 from PySide6.QtGui import QColor, QFont, QFontDatabase, QPalette
-from PySide6.QtWidgets import QApplication
+from PySide6.QtWidgets import QApplication, QWidget
 
 SPACING = 8
 """Between widgets, and around a panel's content, device-independent px."""
@@ -133,11 +134,15 @@ NEXT_VIEW = QColor("#ff5c8a")
 HALO = QColor(0, 0, 0, 150)
 
 
+_shown = SimpleNamespace(theme=LIGHT)
+"""The theme that `apply` has shown last. What is painted asks for it all the time, and would wait
+for the interpreter at each question to Qt while another thread computes."""
+
+
 def current() -> Theme:
     """The theme that the application shows."""
-    app = QApplication.instance()
-    dark = isinstance(app, QApplication) and _is_dark(app.palette())
-    return DARK if dark else LIGHT
+    theme: Theme = _shown.theme
+    return theme
 
 
 def chosen() -> Scheme:
@@ -162,7 +167,7 @@ def apply(app: QApplication, scheme: Scheme) -> None:
         dark = app.styleHints().colorScheme() is Qt.ColorScheme.Dark
     else:
         dark = scheme is Scheme.DARK
-    theme = DARK if dark else LIGHT
+    theme = _shown.theme = DARK if dark else LIGHT
     if app.style().objectName() != "fusion":
         app.setStyle("Fusion")
     palette = _palette(theme)
@@ -197,13 +202,17 @@ def view_symbol(view: int) -> str:
     return _SYMBOLS[view // len(_OKABE_ITO) % len(_SYMBOLS)]
 
 
+def set_text_colour(label: QWidget, colour: str) -> None:
+    """Give the text of a widget a colour, which is quicker than by a style sheet."""
+    palette = label.palette()
+    if palette.color(label.foregroundRole()) != QColor(colour):
+        palette.setColor(label.foregroundRole(), QColor(colour))
+        label.setPalette(palette)
+
+
 def fixed_font() -> QFont:
     """A font whose digits align."""
     return QFontDatabase.systemFont(QFontDatabase.SystemFont.FixedFont)
-
-
-def _is_dark(palette: QPalette) -> bool:
-    return palette.color(QPalette.ColorRole.Window).lightness() < 128
 
 
 def _palette(theme: Theme) -> QPalette:

@@ -160,8 +160,8 @@ class MainWindow(QMainWindow):
                 lambda: show_dialog(Palette(menus, self)),
             ),
         )
+        # Another result to be shown changes nothing here, unless the project has changed as well.
         self.session.changed.connect(lambda *_: menus.refresh())
-        self.session.result_changed.connect(lambda _: menus.refresh())
 
     def _connect(self) -> None:
         self.session.changed.connect(self._refresh)

@@ -320,3 +320,20 @@ def test_changed_settings_make_a_result_old_and_undo_makes_it_new(
     session.show_result("Calibration 1")
     qtbot.waitUntil(lambda: bar.verdict is not None and not session.jobs.running, timeout=60_000)
     assert "Out of date" in bar.reason.text()
+
+
+@pytest.mark.parametrize("size", [(1280, 720), (1600, 900), (1920, 1080)])
+def test_before_and_after_use_the_room(
+    plain: Project, open_project: Open, window: MainWindow, qtbot: QtBot, size: tuple[int, int]
+) -> None:
+    window.resize(*size)
+    bar = open_project(calibrated(replace(plain, settings=Settings(fixed={"fx": 180.0}))))
+    comparison = act(bar, bar.button, window, qtbot)
+    QApplication.processEvents()
+    image = comparison.map.plot.image
+    drawn = image.mapRectToScene(image.boundingRect())
+    share = drawn.width() * drawn.height() / (comparison.width() * comparison.height())
+    assert share > 0.24
+    for table in (comparison.errors, comparison.parameters):
+        assert table.horizontalHeader().length() <= table.viewport().width()
+        assert table.viewport().width() < table.horizontalHeader().length() + 40

@@ -4,14 +4,17 @@ from __future__ import annotations
 
 from importlib.util import find_spec
 
+import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
+from calibgui.app.project import remove_result
 from calibgui.gui.panels.coverage import CoveragePanel
 from calibgui.gui.panels.panel import Panel
 from calibgui.gui.window import main_window
 from calibgui.gui.window.main_window import MainWindow
+from calibgui.gui.window.menus import Menus
 
 
 def test_every_module_that_is_imported_soon_exists() -> None:
@@ -65,3 +68,17 @@ def test_a_panel_is_filled_in_one_turn_and_painted_in_the_next(
     full.session.show_result("Calibration 1")
     assert is_painted_next(), "as at another result"
     qtbot.waitUntil(panel.updatesEnabled)
+
+
+def test_an_edit_and_its_undo_refresh_the_menus_once_each(
+    full: MainWindow, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    times: list[int] = []
+    refresh = Menus.refresh
+    monkeypatch.setattr(Menus, "refresh", lambda menus: (times.append(1), refresh(menus)))
+    document = full.session.document
+    name = full.session.result_name
+    document.edit("Delete", lambda p: remove_result(p, name))  # another result is shown then
+    assert full.session.result_name != name and len(times) == 1
+    document.undo()
+    assert full.session.result_name == name and len(times) == 2
