@@ -74,10 +74,8 @@ class Detection:
         """
         if self.size is None:
             raise refuse_unreadable(self.views)
-        seen = [view.corners for view in self.views if view.corners is not None]
-        if self.grid_size is None and (largest := measure_largest_part(seen)) is not None:
-            is_open = any(corners.relative for corners in seen)
-            raise _explain_unknown_size(largest, self.pattern, is_open=is_open)
+        if self.grid_size is None and (error := explain_unknown_size(self.views, self.pattern)):
+            raise error
         board = None if self.grid_size is None else Board(*self.grid_size, square, self.pattern)
         return CornerSet(self.size, self.views, board)
 
@@ -204,11 +202,15 @@ def _describe_zero_tail(image: Image) -> str:
     )
 
 
-def _explain_unknown_size(
-    largest: GridSize, pattern: Pattern, *, is_open: bool
-) -> CalibrationError:
-    """Return the error that pictures show parts of a board only, of which one is the `largest`, or
-    that end where a grid of circles may go on (`is_open`)."""
+def explain_unknown_size(views: Iterable[View], pattern: Pattern) -> CalibrationError | None:
+    """Return the error that the images do not tell the size of the board in them: they show parts
+    of it only, or end where a grid of circles may go on. None if they do, or no board is seen."""
+    views = tuple(views)
+    found = [view.corners for view in views if view.corners is not None]
+    largest = measure_largest_part(found)
+    if largest is None or infer_grid_size(views) or _find_shared_part(views):
+        return None
+    is_open = any(corners.relative for corners in found)
     rows, cols = largest
     shown = "where the grid ends on all sides" if is_open else "the whole board"
     points = "inner corners" if pattern.has_squares else "circles"

@@ -156,11 +156,14 @@ def set_pattern(project: Project, pattern: Pattern) -> Project:
 def set_grid_size(project: Project, grid_size: GridSize | None) -> Project:
     """Return the project with a stated number of rows and columns, None to count them.
 
-    Images whose corners are of another board, or that showed none, are to be searched again.
+    Images whose corners are of another board, or of a part that may be the whole of this one, and
+    those that showed none are to be searched again.
     """
 
     def fits(view: View) -> bool:
-        return view.corners is not None and grid_size in (None, view.corners.shape)
+        corners = view.corners
+        is_alike = corners is not None and corners.shape == grid_size and not corners.relative
+        return corners is not None and (grid_size is None or is_alike)
 
     views = (view if fits(view) else _reset_search(view) for view in project.views)
     return replace(project, grid_size=grid_size, views=tuple(views))

@@ -198,7 +198,8 @@ class ImagePage(QWidget):
 
     def _show_marks(self) -> None:
         session, view = self._session, self._session.view
-        self.reason.setText("" if view is None else view.reason)
+        remark = "" if view is None or view.corners is None else view.corners.remark
+        self.reason.setText("" if view is None else view.reason or remark)
         self.reason.setVisible(bool(self.reason.text()))
         for action in self.tools:
             enable_action(

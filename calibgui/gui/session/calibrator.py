@@ -9,6 +9,7 @@ from functools import partial
 
 from PySide6.QtCore import QObject, Signal
 
+from calibgui.app.detection import explain_unknown_size
 from calibgui.app.project import Project, find_free_name, record_result
 from calibgui.app.redetection import calibrate_twice
 from calibgui.dataset import CornerSet, Result
@@ -126,6 +127,8 @@ class Calibrator(QObject):
                 self.tr("There is no image to calibrate from."),
                 self.tr("Add photographs of a board."),
             )
+        if project.grid_size is None:
+            return explain_unknown_size(project.views, project.pattern)
         return None
 
     def _done(self, asked: CornerSet, result: Result) -> None:

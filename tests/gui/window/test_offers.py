@@ -9,11 +9,13 @@ from threading import Event
 
 import numpy as np
 import pytest
-from PySide6.QtCore import Qt
+from PySide6.QtCore import QPoint, Qt
 from pytestqt.qtbot import QtBot
 
 from calibgui.app.board_recognition import find_other_pattern
+from calibgui.app.detection import find_views
 from calibgui.app.document import Document
+from calibgui.app.paths import find_images
 from calibgui.app.project import Project, add_images, set_grid_size, set_pattern
 from calibgui.app.settings import DEFAULT_SETTINGS
 from calibgui.app.workers import do_tasks_here
@@ -37,6 +39,7 @@ from tests.engine.detection.conftest import Scene
 pytestmark = pytest.mark.slow
 
 CIRCLES = Circles(False, 0.5)
+LEFT = Qt.MouseButton.LeftButton
 
 
 def photographs(folder: Path, pattern: Pattern, grid_size: tuple[int, int], count: int = 1) -> None:
@@ -249,3 +252,40 @@ def test_a_size_that_is_counted_from_parts_is_told(
     assert "6 × 7 inner corners" in window.verdict.square.counted.text()
     for view in window.session.project.views:
         assert view.corners is not None and len(view.corners.uv) < 42
+
+
+def test_grids_of_circles_that_are_cut_are_refused_as_by_the_command_line(
+    window: MainWindow, qtbot: QtBot, tmp_path: Path
+) -> None:
+    """In either picture the next column of circles would be outside."""
+    v, u = np.indices((240, 320))
+    for k in range(2):
+        pixels = np.full((240, 320), 220.0)
+        for m, n in np.ndindex(4, 4):
+            distance = np.hypot(u - 186 - 36 * n, v - 60 - k - 36 * m)
+            pixels -= 180 * np.clip(9.3 - distance, 0, 1)
+        write_image(tmp_path / f"{k}.png", pixels.astype(np.uint8))
+    session, board = window.session, window.board
+    session.begin(Document(Project(settings=DEFAULT_SETTINGS, pattern=Circles())))
+    window.files.open_paths([str(tmp_path)])
+    qtbot.waitUntil(lambda: window.banner.isVisible() and not session.jobs.running, timeout=60_000)
+    found = find_views(find_images([str(tmp_path)]), pattern=Circles())
+    with pytest.raises(CalibrationError) as caught:
+        found.corner_set(30.0)
+    assert caught.value.message in window.banner.text.text()
+    assert "State the size of the board: 4 x 4" in window.banner.text.text()
+    assert session.result is None
+    assert window.page.reason.isVisible()
+    assert "state the numbers of rows and columns" in window.page.reason.text()
+    qtbot.mouseClick(window.calibrate, LEFT)
+    qtbot.wait(50)
+    assert session.result is None and not session.jobs.running, "the button does no other"
+
+    # Once the size is stated, what is seen of such a grid is its whole.
+    window.inspector.show_setup()
+    qtbot.mouseClick(board.inferred, LEFT, pos=QPoint(8, board.inferred.height() // 2))
+    assert session.project.grid_size == (4, 4)
+    qtbot.mouseClick(window.calibrate, LEFT)
+    qtbot.waitUntil(lambda: session.result is not None, timeout=60_000)
+    qtbot.waitUntil(lambda: not session.jobs.running, timeout=60_000)
+    assert not window.page.reason.isVisible()
