@@ -18,6 +18,11 @@ REMEDY_OF_LENS = (
     "to the image's edges, which determine more of the lens."
 )
 """Sentence on what to do about a lens that its model does not follow."""
+REMEDY_OF_FEW_VIEWS = (
+    "Add views with the board tilted by 20 to 45 degrees in different directions and all over the "
+    "image; six good ones are enough."
+)
+"""Sentence on what to do about views that are too few."""
 
 
 class Cause(StrEnum):

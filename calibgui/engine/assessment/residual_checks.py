@@ -178,7 +178,7 @@ class NoiseReport:
     def cause(self) -> NoiseCheck | None:
         """Failed test to attend to first, by the tests alone; None if all are passed.
 
-        What is to be said to users is in ``findings.py``, where one cause is chosen among all.
+        What is to be said to users is in ``cause_choice.py``, where one cause is chosen among all.
         """
         failed = [check for check in self.checks if not check.passed]
         most = max((check.share for check in failed), default=0.0)
