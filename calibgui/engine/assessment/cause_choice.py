@@ -1,19 +1,21 @@
 """The one cause of residuals that are not noise, chosen among all that may explain them.
 
-Most causes look like others to some degree. They are asked in an order in which each can be told
+Most causes look like others to some degree, and the more unknowns a cause has, the more it follows
+any other. So all are compared by Akaike's criterion (``cause_fits.py``), which tells what is most
+probable and weighs the unknowns. Beside it they are asked in an order in which each can be told
 without those behind it:
 
-1. **Lens or board**, which all views share: the lens if ``calibration/lens_error.py`` says so, or
-   whichever explains most of what any cause does (``residual_checks.py``). What a board or a lens
-   explains, causes that differ from view to view explain as well, since they have unknowns of
-   their own in each view. A free board, which has many unknowns of its own, takes much of what
-   a wrong lens or two kinds of views leave: so it is estimated before it is named, and if one of
-   these explains much of what is left, that is the cause; the board follows once it is gone. So
-   are two kinds that explain more than any board does. Where it is not the board, a lens of another
-   kind (``rival_lens.py``) is fitted in any case.
+1. **Lens or board**, which all views share: the board if it is most probable; the lens if
+   ``calibration/lens_error.py`` says so, or whichever explains most of what any cause does
+   (``residual_checks.py``). What a board or a lens explains, causes that differ from view to view
+   explain as well, since they have unknowns of their own in each view. A free board, which has many
+   unknowns of its own, takes much of what a wrong lens or two kinds of views leave: so it is
+   estimated before it is named, and if one of these explains much of what is left, that is the
+   cause; the board follows once it is gone. So are two kinds that explain more than any board does.
+   Where it is not the board, a lens of another kind (``rival_lens.py``) is fitted in any case.
 2. **Two kinds of views** (``mixed_views.py``), which have twice the unknowns of one.
-3. **Focus, centre, bending, motion**, which differ from view to view; then **blur**, which moves
-   nothing.
+3. **Focus, centre, bending, motion**, which differ from view to view: that which is most probable
+   by far, or else shifts from row to row; then **blur**, which moves nothing.
 """
 
 from __future__ import annotations
@@ -77,20 +79,14 @@ _MAX_RMS_IF_TURNED = 1.2
 leave to the first order, up to which they were upside down: with no unknowns more."""
 _CHECKS_OF_BOARD = ("squares", "bow", "board")
 """Tests of a board that is the same in all views."""
-_CHECKS_OF_VIEWS = {
-    "focus": (0.05, 0.7),
-    "centre": (0.05, 0.9),
-    "bending": (0.05, 0.7),
-    "rows": (0.05, 0.9),
-    "lines": (0.3, 1.0),
-}
-"""Tests of causes that each view has of its own, with the least share of the squared residuals and
-the least part of what the best of them explains: the more unknowns a cause has, the more it follows
-any other."""
-_MIN_PART_OF_SMOOTH = 0.8
-"""Part of what any smooth displacement of each view's own explains, from which a cause is singled
-out. Of 70 faults that were (seeds 7000 to 7007 and 9000 to 9013 of ``tests/faults``) it was 0.82 at
-least; of paper that curls anew in each view, of which no test is, 0.7 at most."""
+_CHECKS_OF_VIEWS = ("focus", "centre", "bending", "rows")
+"""Tests of causes with few unknowns of each view's own."""
+_MIN_LEAD = 4.0
+"""Difference of Akaike's criterion from the next cause, from which one of the views' own is named:
+that has considerably less support (Burnham and Anderson 2002)."""
+_MIN_SHARE_OF_VIEWS, _MIN_SHARE_OF_LINES = 0.05, 0.3
+"""Shares of the squared residuals that they explain, and shifts from row to row, from which one is
+named."""
 _MIN_SHARE_OF_SMOOTH = 1 / 3
 """Share of the squared residuals that smooth displacements explain, from which they are told of
 where no cause is singled out. Where views were blurred it was at most 0.08, and 0.12 of real
@@ -146,7 +142,7 @@ def find_systematic_cause(case: Case) -> Finding | None:
     failed = {check.name: check for check in report.checks if not check.passed}
     if report.are_lens_and_board_alike and len(case.views) < MIN_VIEWS_TO_JUDGE:
         return _describe_lens_or_board(case, failed)
-    check = _choose_shared_cause(case.calibration, failed)
+    check = _choose_shared_cause(case.calibration, report.checks)
     if check is not None:
         found = _describe_check(case, check)
         beside = _find_cause_beside_board(case, failed) if check.name in _CHECKS_OF_BOARD else None
@@ -161,7 +157,7 @@ def find_systematic_cause(case: Case) -> Finding | None:
     split = find_split(case)
     if split is not None and split.is_certain:
         return _describe_two_kinds(case, split)
-    check = _choose_cause_of_views(failed)
+    check = _choose_cause_of_views(report.checks)
     if check is not None:
         return _describe_check(case, check)
     disagreement = None if split is None else describe_disagreement(case, split)
@@ -235,44 +231,52 @@ def _find_blur(case: Case, failed: dict[str, NoiseCheck]) -> Finding | None:
 
 
 def _choose_shared_cause(
-    calibration: Calibration, failed: dict[str, NoiseCheck]
+    calibration: Calibration, checks: Sequence[NoiseCheck]
 ) -> NoiseCheck | None:
     """Choose between board and lens, if either is the cause; None if not."""
-    best = find_largest_share(failed.values())
-    lens = failed.get("lens")
-    if lens is not None and lens.share >= best * (
-        _MIN_PART_OF_LENS if calibration.lens_error > _MIN_LENS_PX else _MIN_PART_OF_BEST
-    ):
-        return lens if lens.share >= _MIN_SHARE else None
+    failed = {check.name: check for check in checks if not check.passed}
+    best = find_largest_share(checks)
     board = [failed[name] for name in _CHECKS_OF_BOARD if name in failed]
+    is_board = _order_by_probability(checks)[0] in board
+    lens = failed.get("lens")
+    enough = _MIN_PART_OF_LENS if calibration.lens_error > _MIN_LENS_PX else _MIN_PART_OF_BEST
+    if lens is not None and not is_board and lens.share >= enough * best:
+        return lens if lens.share >= _MIN_SHARE else None
     explained = find_largest_share(board)
-    is_suspect = calibration.board_shape_error > 0
-    enough = _MIN_SHARE_SUSPECT if is_suspect else _MIN_SHARE
-    if board and explained >= max(enough, _MIN_PART_OF_BOARD * best):
+    least = _MIN_SHARE_SUSPECT if calibration.board_shape_error > 0 else _MIN_SHARE
+    if explained >= least and (is_board or explained >= _MIN_PART_OF_BOARD * best):
         return next(c for c in board if c.share >= _MIN_PART_OF_BOARDS * explained)
     return None
 
 
 def find_largest_share(checks: Iterable[NoiseCheck]) -> float:
     """Return the largest share of the squared residuals that any cause explains, but for noise."""
-    causes = (*_CHECKS_OF_BOARD, "lens", *_CHECKS_OF_VIEWS)
+    causes = (*_CHECKS_OF_BOARD, "lens", *_CHECKS_OF_VIEWS, "lines")
     return max((check.share for check in checks if check.name in causes), default=0.0)
 
 
-def _choose_cause_of_views(failed: dict[str, NoiseCheck]) -> NoiseCheck | None:
+def _choose_cause_of_views(checks: Sequence[NoiseCheck]) -> NoiseCheck | None:
     """Choose the cause among those that differ from view to view; None if it is none of them.
 
-    Where none is singled out and much is smooth, that is what there is to be told of.
+    It is the most probable of all causes, by far. Where it is another, and much is smooth or along
+    the rows, that is what there is to be told of.
     """
-    best = find_largest_share(failed[name] for name in _CHECKS_OF_VIEWS if name in failed)
-    smooth = failed.get("smooth")
-    explained = 0.0 if smooth is None else smooth.share
-    for name, (least, part) in _CHECKS_OF_VIEWS.items():
-        check = failed.get(name)
-        enough = max(least, part * best, _MIN_PART_OF_SMOOTH * explained)
-        if check is not None and check.share >= enough:
-            return check
-    return smooth if explained >= _MIN_SHARE_OF_SMOOTH else None
+    first, second = _order_by_probability(checks)[:2]
+    is_singled_out = second.criterion - first.criterion >= _MIN_LEAD
+    if first.name in _CHECKS_OF_VIEWS and first.share >= _MIN_SHARE_OF_VIEWS and is_singled_out:
+        return first
+    smooth, lines = (next(c for c in checks if c.name == name) for name in ("smooth", "lines"))
+    if lines.share >= max(_MIN_SHARE_OF_LINES, smooth.share):
+        return lines
+    return smooth if smooth.share >= _MIN_SHARE_OF_SMOOTH else None
+
+
+def _order_by_probability(checks: Iterable[NoiseCheck]) -> list[NoiseCheck]:
+    """Order causes with few unknowns and with many, the most probable first.
+
+    Shifts from row to row are none of them: they count as errors that are not independent.
+    """
+    return sorted((c for c in checks if c.name != "lines"), key=lambda check: check.criterion)
 
 
 def _describe_two_kinds(case: Case, split: Split) -> Finding:

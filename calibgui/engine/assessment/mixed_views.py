@@ -28,10 +28,10 @@ import numpy as np
 import scipy
 
 from calibgui.engine.arrays import Array, BoolArray, IntArray
+from calibgui.engine.assessment.cause_fits import fit_nothing, fit_own_cause
 from calibgui.engine.assessment.systematic_errors import (
+    OWN_CAUSES,
     ViewProducts,
-    explain_by_bending,
-    explain_by_rows,
     multiply_by_board,
     multiply_by_camera,
     multiply_by_focus,
@@ -86,7 +86,11 @@ def find_two_kinds(fit: LinearisedFit) -> Split | None:
     split = max(camera, board, key=lambda split: (split.is_certain, split.share))
     if camera.is_certain == board.is_certain:
         split = split._replace(what="camera or board")
-    motion = max(explain_by_rows(fit).share, explain_by_bending(fit).share)
+    without = fit_nothing(fit)
+    motion = max(
+        fit_own_cause(fit, OWN_CAUSES[name]).judge(without, fit.degrees_of_freedom).share
+        for name in ("rows", "bending")
+    )
     if split.share > 0 and split.share >= _MIN_PART_OF_MOTION * motion and split.part >= _MIN_PART:
         return split
     return None

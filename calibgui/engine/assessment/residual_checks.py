@@ -37,15 +37,23 @@ are far off.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 import scipy
 
 from calibgui.engine.arrays import Array, BoolArray, freeze
-from calibgui.engine.assessment import systematic_errors
+from calibgui.engine.assessment.cause_fits import CauseFit, fit_board, fit_nothing, fit_own_cause
 from calibgui.engine.assessment.residual_statistics import summarise_residuals
+from calibgui.engine.assessment.systematic_errors import (
+    OWN_CAUSES,
+    measure_dispersion,
+    prepare_fit,
+    step_to_lines,
+    step_to_smooth,
+    weigh_views,
+)
 from calibgui.engine.boards.shape import BoardShapeModel
 from calibgui.engine.calibration.lens_error import outdoes_board
 from calibgui.engine.calibration.observations import (
@@ -58,7 +66,6 @@ from calibgui.engine.calibration.result import Calibration
 from calibgui.engine.calibration.score_tests import (
     CURVED,
     LENS,
-    Explanation,
     LinearisedFit,
     SharedCauses,
 )
@@ -82,15 +89,8 @@ _SHARED_CAUSES = {
     "board": BoardShapeModel.FREE,
 }
 """Causes that all views share, by the names of their tests."""
-_VIEW_CAUSES: dict[str, Callable[[LinearisedFit], Explanation]] = {
-    "focus": systematic_errors.explain_by_focus,
-    "centre": systematic_errors.explain_by_centre,
-    "bending": systematic_errors.explain_by_bending,
-    "rows": systematic_errors.explain_by_rows,
-    "lines": systematic_errors.explain_by_lines,
-    "smooth": systematic_errors.explain_by_smooth,
-}
-"""Tests of the causes that each view has of its own."""
+_STEPS = ("lines", "smooth")
+"""Tests of causes with many unknowns of each view's own, to which one step is taken."""
 _ADVICE_ON_CAUSES = {
     "squares": "The board's squares are not as wide as high, or askew: measure its sides over many "
     "squares, or estimate the board's shape (affine).",
@@ -151,6 +151,8 @@ class NoiseCheck:
     """Share of the squared residuals that the cause explains, where the test is of one."""
     probability: float = 1.0
     """Probability that noise explains as much, where the test is of a cause."""
+    criterion: float = np.inf
+    """Akaike's criterion of the cause, where the test is of one (``cause_fits.py``); 0 of none."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -203,12 +205,12 @@ def check_residuals(
         Cancelled: if `progress` raises it.
     """
     names = names or name_views(len(views))
-    fit = systematic_errors.prepare_fit(calibration, views)
+    fit = prepare_fit(calibration, views)
     r = fit.linearise(slice(0, len(views))).residual
     sigma = estimate_view_sigma(r, fit)
     relative = r / sigma[:, None, None]
     seen = fit.observations.mask > 0
-    weighed = systematic_errors.weigh_views(fit, sigma)
+    weighed = weigh_views(fit, sigma)
     shared = SharedCauses(weighed, list(_SHARED_CAUSES.values()))
     causes = tuple(_check_causes(calibration, weighed, shared, progress))
     return NoiseReport(
@@ -242,17 +244,33 @@ def _check_causes(
     progress: Progress | None,
 ) -> Iterator[NoiseCheck]:
     """Test what each cause explains of the residuals, of equally noisy views, against noise."""
-    rms = summarise_residuals(calibration.residuals).rms
+    rms, freedom = summarise_residuals(calibration.residuals).rms, fit.degrees_of_freedom
+    without, squares = fit_nothing(fit), fit_board(fit, BoardShapeModel.AFFINE)
+    fits = {
+        name: without.lower(*shared.reduce_cost(cause)) for name, cause in _SHARED_CAUSES.items()
+    } | {"squares": squares}
     names, after, left = list(_ADVICE_ON_CAUSES), [], 1.0
-    if calibration.lens_error > 0 or outdoes_board(shared):
+    fits["smooth"], fits["lines"] = step_to_smooth(fit), step_to_lines(fit)
+    dispersion = measure_dispersion(fit, fits["smooth"])
+
+    def compute_criterion(name: str) -> float:
+        return fits[name].compute_akaike(without, freedom, dispersion)
+
+    is_lens_likely = compute_criterion("lens") < compute_criterion("squares")
+    if is_lens_likely and (calibration.lens_error > 0 or outdoes_board(shared)):
         names.sort(key=lambda name: name != "lens")
         after, left = [LENS], 1 - shared.reduce_cost(LENS)[0] / shared.cost
     for done, name in enumerate(names):
         if progress is not None:
             progress(done, len(names))
         share = 1.0
-        if name in _VIEW_CAUSES:
-            found = _VIEW_CAUSES[name](fit)
+        if name in OWN_CAUSES:
+            fits[name] = fit_own_cause(fit, OWN_CAUSES[name])
+            found = fits[name].judge(without, freedom)
+        elif name in _STEPS:
+            found = fits[name].judge(CauseFit(shared.cost, 0), freedom)
+        elif name == "squares" and not after:
+            found = squares.judge(without, freedom)
         elif name == "lens":
             found = shared.explain(LENS)
         else:
@@ -270,6 +288,7 @@ def _check_causes(
             _ADVICE_ON_CAUSES[name],
             0.0 if passed else share,
             found.probability,
+            compute_criterion(name),
         )
 
 

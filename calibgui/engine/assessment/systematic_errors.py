@@ -1,20 +1,22 @@
-"""Causes of systematic residuals that each view has of its own, and how much they would explain.
+"""Causes of systematic residuals that each view has of its own, as columns of derivatives.
 
 A board that bends anew, a camera that moves while its rows are read: such causes add columns to
-the derivatives in each view. The score test, and the causes that all views share, are in
-``calibration/score_tests.py``. The columns are eliminated with the view's pose; the camera's few
-parameters are left out of N here.
+the derivatives in each view. How much they explain is measured by a fit (``cause_fits.py``), but
+for that of any smooth displacement, whose many columns follow the camera's: there it is a score
+test (``calibration/score_tests.py``) without the camera's parameters. The products of columns with
+each other, after the views' poses are eliminated, serve to part views (``mixed_views.py``).
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
 
 from calibgui.engine.arrays import Array
+from calibgui.engine.assessment.cause_fits import CauseFit, Columns
 from calibgui.engine.calibration.observations import Observation, slice_views
 from calibgui.engine.calibration.problem import (
     find_free_parameters,
@@ -23,7 +25,7 @@ from calibgui.engine.calibration.problem import (
 )
 from calibgui.engine.calibration.refinement.residuals import Linearised
 from calibgui.engine.calibration.result import Calibration, Cost
-from calibgui.engine.calibration.score_tests import Explanation, LinearisedFit, judge_explanation
+from calibgui.engine.calibration.score_tests import LinearisedFit
 
 _KNOT_SPACING = 1 / 16
 """Distance of the knots between which rows are shifted, over the image's longer side."""
@@ -52,11 +54,6 @@ class ViewProducts(NamedTuple):
     """Number of residual coordinates beyond that of the fitted unknowns."""
 
 
-Columns = Callable[[Linearised, Array, slice], Array]
-"""Function that returns the columns (k, N, 2, m) of some views from the fit's derivatives, the
-weights (k, N, 2, 2) and the slice of these views."""
-
-
 def prepare_fit(calibration: Calibration, views: Sequence[Observation]) -> LinearisedFit:
     """Prepare a calibration and the views that it was made from for the tests."""
     observations = prepare_observations(calibration, views)
@@ -77,65 +74,89 @@ def weigh_views(fit: LinearisedFit, sigma: Array) -> LinearisedFit:
     return fit.weigh(fit.get_weight(slice(0, len(sigma))) / sigma[:, None, None, None])
 
 
-def explain_by_focus(fit: LinearisedFit) -> Explanation:
-    """Explain the residuals by a focal length of each view's own."""
-    return _judge_products(multiply_by_focus(fit))
+def step_to_lines(fit: LinearisedFit) -> CauseFit:
+    """Take a step to a shift along the rows that wanders from row to row in each view."""
+    return _take_own_step(fit, _make_line_columns)
 
 
-def explain_by_centre(fit: LinearisedFit) -> Explanation:
-    """Explain the residuals by a principal point of each view's own.
+def step_to_smooth(fit: LinearisedFit) -> CauseFit:
+    """Take a step to any smooth displacement of each view's own, cubic over the board.
+
+    It follows all of `OWN_CAUSES`, and many that have no test.
+    """
+    return _take_own_step(fit, _make_cubic_displacements)
+
+
+def measure_dispersion(fit: LinearisedFit, smooth: CauseFit) -> float:
+    """Measure how much more than independent noise each further unknown of a view explains.
+
+    It is the mean square that shifts from row to row explain of what smooth displacements leave,
+    over the variance that both leave; at least 1. Rows that do not start evenly have errors that
+    are alike along them, of which any cause with many unknowns takes more than its share.
+    """
+
+    def make_columns(fit: LinearisedFit, linear: Linearised, views: slice) -> Array:
+        parts = [
+            make(fit, linear, views) for make in (_make_cubic_displacements, _make_line_columns)
+        ]
+        return np.concatenate(parts, axis=-1)
+
+    both = _take_own_step(fit, make_columns)
+    further, rest = both.unknowns - smooth.unknowns, fit.degrees_of_freedom - both.unknowns
+    if further < 1 or rest < 1 or not both.cost > 0:
+        return 1.0
+    return max((smooth.cost - both.cost) / further / (both.cost / rest), 1.0)
+
+
+def _take_own_step(fit: LinearisedFit, columns: Columns) -> CauseFit:
+    """Take a step to columns of each view's own, beside the poses."""
+    found = _multiply_own_columns(fit, columns)
+    T, rank = np.sum([_compute_reduction(N, b) for N, b in zip(found.N, found.b, strict=True)], 0)
+    return CauseFit(found.cost, 0).lower(float(T), int(rank))
+
+
+def _make_focus_columns(fit: LinearisedFit, _: Linearised, views: slice) -> Array:
+    """Make the column of a focal length of each view's own."""
+    from_centre = fit.predict_corners(views) - fit.camera.centre
+    return np.asarray(fit.get_weight(views) @ from_centre[..., None])
+
+
+def _make_centre_columns(_: LinearisedFit, linear: Linearised, __: slice) -> Array:
+    """Make the columns of a principal point of each view's own.
 
     A rotation of the camera hides most of it; what is left is that of an image in perspective, so
     that an image that was straightened is explained as well as one that was shifted or cropped.
     """
-
-    def columns(linear: Linearised, _: Array, __: slice) -> Array:
-        return linear.by_params[..., 2:4]
-
-    return _judge_products(_multiply_view_columns(fit, columns))
+    return linear.by_params[..., 2:4]
 
 
-def explain_by_bending(fit: LinearisedFit) -> Explanation:
-    """Explain the residuals by a board that bends anew in each view, quadratically."""
-
-    def columns(linear: Linearised, _: Array, views: slice) -> Array:
-        x, y = np.moveaxis(_scale_places(fit, views), -1, 0)
-        by_height = linear.by_pose[..., 3:] @ fit.state.R[views, None, :, 2:]
-        return by_height * np.stack([x * x, x * y, y * y], axis=-1)[..., None, :]
-
-    return _judge_products(_multiply_view_columns(fit, columns))
+def _make_bending_columns(fit: LinearisedFit, linear: Linearised, views: slice) -> Array:
+    """Make the columns of a board that bends anew in each view, quadratically."""
+    x, y = np.moveaxis(_scale_places(fit, views), -1, 0)
+    by_height = linear.by_pose[..., 3:] @ fit.state.R[views, None, :, 2:]
+    return np.asarray(by_height * np.stack([x * x, x * y, y * y], axis=-1)[..., None, :])
 
 
-def explain_by_rows(fit: LinearisedFit) -> Explanation:
-    """Explain the residuals by a steady motion while the rows are read: a rolling shutter's."""
-
-    def columns(linear: Linearised, _: Array, views: slice) -> Array:
-        return linear.by_pose * _measure_rows(fit, views)[..., None, None]
-
-    return _judge_products(_multiply_view_columns(fit, columns))
+def _make_row_columns(fit: LinearisedFit, linear: Linearised, views: slice) -> Array:
+    """Make the columns of a steady motion while the rows are read: a rolling shutter's."""
+    return np.asarray(linear.by_pose * _measure_rows(fit, views)[..., None, None])
 
 
-def explain_by_lines(fit: LinearisedFit) -> Explanation:
-    """Explain the residuals by a shift along the rows that wanders from row to row in each view."""
-
-    def columns(_: Linearised, weight: Array, views: slice) -> Array:
-        rows = _measure_rows(fit, views)[..., None]
-        hats = np.maximum(1 - np.abs(rows / _KNOT_SPACING - _KNOTS), 0.0)
-        return np.asarray(weight[..., :1] * hats[..., None, :])
-
-    return _judge_products(_multiply_view_columns(fit, columns))
+def _make_line_columns(fit: LinearisedFit, _: Linearised, views: slice) -> Array:
+    """Make the columns of a shift along the rows that wanders from row to row in each view."""
+    rows = _measure_rows(fit, views)[..., None]
+    hats = np.maximum(1 - np.abs(rows / _KNOT_SPACING - _KNOTS), 0.0)
+    return np.asarray(fit.get_weight(views)[..., :1] * hats[..., None, :])
 
 
-def explain_by_smooth(fit: LinearisedFit) -> Explanation:
-    """Explain the residuals by any smooth displacement of each view's own, cubic over the board.
-
-    It follows all causes above but the shifts from row to row, and many that have no test.
-    """
-
-    def columns(_: Linearised, __: Array, views: slice) -> Array:
-        return _make_cubic_displacements(fit, views)
-
-    return _judge_products(_multiply_view_columns(fit, columns))
+OWN_CAUSES: dict[str, Columns] = {
+    "focus": _make_focus_columns,
+    "centre": _make_centre_columns,
+    "bending": _make_bending_columns,
+    "rows": _make_row_columns,
+}
+"""Columns of the causes with few unknowns of each view's own, by the names of their tests
+(``residual_checks.py``)."""
 
 
 def _measure_rows(fit: LinearisedFit, views: slice) -> Array:
@@ -146,16 +167,12 @@ def _measure_rows(fit: LinearisedFit, views: slice) -> Array:
 
 def multiply_by_focus(fit: LinearisedFit) -> ViewProducts:
     """Multiply the column of a focal length of each view's own."""
-
-    def columns(_: Linearised, weight: Array, views: slice) -> Array:
-        return np.asarray(weight @ (fit.predict_corners(views) - fit.camera.centre)[..., None])
-
-    return _multiply_view_columns(fit, columns)
+    return _multiply_own_columns(fit, _make_focus_columns)
 
 
 def multiply_by_camera(fit: LinearisedFit) -> ViewProducts:
     """Multiply the columns of a camera (fx, fy, cx, cy) of each view's own."""
-    return _multiply_view_columns(fit, lambda linear, _, __: linear.by_params[..., :4])
+    return _multiply_own_columns(fit, lambda _, linear, __: linear.by_params[..., :4])
 
 
 def multiply_by_board(fit: LinearisedFit) -> ViewProducts:
@@ -163,26 +180,20 @@ def multiply_by_board(fit: LinearisedFit) -> ViewProducts:
     y = fit.observations.xy[..., 1]
     y = y / np.abs(y).max()
 
-    def columns(linear: Linearised, _: Array, views: slice) -> Array:
+    def make_columns(fit: LinearisedFit, linear: Linearised, views: slice) -> Array:
         by_place = linear.by_pose[..., 3:] @ fit.state.R[views, None, :, :2]
         return np.asarray(by_place * y[views, :, None, None])
 
-    return _multiply_view_columns(fit, columns)
+    return _multiply_own_columns(fit, make_columns)
 
 
-def _judge_products(found: ViewProducts) -> Explanation:
-    """Judge what columns that each view has of its own explain of the residuals."""
-    T, rank = np.sum([_compute_reduction(N, b) for N, b in zip(found.N, found.b, strict=True)], 0)
-    return judge_explanation(float(T), int(rank), found.cost, found.freedom)
-
-
-def _multiply_view_columns(fit: LinearisedFit, columns: Columns) -> ViewProducts:
+def _multiply_own_columns(fit: LinearisedFit, columns: Columns) -> ViewProducts:
     """Multiply columns that each view has of its own, and the camera's, without the view's pose."""
     parts, cost, P = [], 0.0, len(fit.free)
     for views in slice_views(len(fit.state.R)):
         linear = fit.linearise(views)
         k = len(linear.residual)
-        X = columns(linear, fit.get_weight(views), views)
+        X = columns(fit, linear, views)
         stacked = (linear.by_params[..., fit.free], X, linear.residual[..., None])
         X = np.concatenate(stacked, axis=-1).reshape(k, -1, P + X.shape[-1] + 1)
         # Columns that no corner depends on would be divided by 0.
@@ -215,17 +226,18 @@ def make_smooth_columns(fit: LinearisedFit) -> Array:
     each other, as in views of few corners, leave zeros at the end.
     """
     K = len(fit.observations.xy)
-    smooth = _make_cubic_displacements(fit, slice(0, K))
+    linear = fit.linearise(slice(0, K))
+    smooth = _make_cubic_displacements(fit, linear, slice(0, K))
     smooth = smooth.reshape(K, -1, smooth.shape[-1])
     # Columns that no corner depends on would be divided by 0.
     smooth /= np.maximum(np.linalg.norm(smooth, axis=1, keepdims=True), 1e-300)
-    pose = np.linalg.qr(fit.linearise(slice(0, K)).by_pose.reshape(K, -1, 6))[0]
+    pose = np.linalg.qr(linear.by_pose.reshape(K, -1, 6))[0]
     left, values, _ = np.linalg.svd(smooth - pose @ (np.swapaxes(pose, 1, 2) @ smooth), False)
     left *= (values > np.sqrt(_MIN_EIGENVALUE))[:, None, :]
     return np.concatenate([pose, left], axis=-1)
 
 
-def _make_cubic_displacements(fit: LinearisedFit, views: slice) -> Array:
+def _make_cubic_displacements(fit: LinearisedFit, _: Linearised, views: slice) -> Array:
     """Make columns (k, N, 2, 20): weighted displacements of the image, cubic over the board."""
     x, y = np.moveaxis(_scale_places(fit, views), -1, 0)
     terms = np.stack([x**i * y**j for i in range(4) for j in range(4 - i)], axis=-1)

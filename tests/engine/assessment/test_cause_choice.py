@@ -17,6 +17,7 @@ from calibgui.engine.camera.camera import Camera
 from calibgui.engine.camera.projection import pixels_from_rays
 from calibgui.engine.geometry.rotations import rotation_from_vector
 from tests.engine.scenes import BOARD, VGA, barrel, looking, scene, seen
+from tests.faults.campaign import inject_fault
 from tests.faults.sets import change_camera, draw_rendered_set, photograph
 
 CLEAN = scene(barrel(), 10, seed=3).noisy(0.1, np.random.default_rng(1))
@@ -80,6 +81,35 @@ def test_stabilised_images_are_no_rolling_shutter() -> None:
     named = list_findings(calibrate(stabilised, barrel().size), stabilised)
     assert [finding.cause for finding in named] == [Cause.MOVING_CENTRE]
     assert "stabilisation off" in named[0].remedy
+
+
+def test_a_weak_rolling_shutter_is_no_changing_focus() -> None:
+    """It has six unknowns in each view, four of which explain nothing, and focus has one."""
+    made = inject_fault("rolling-shutter", 31031)
+    named = list_findings(calibrate(made.views, made.size), made.views)
+    assert [finding.cause for finding in named] == [Cause.ROLLING_SHUTTER]
+
+
+def test_shifted_rows_are_named_and_do_not_hide_focus_or_squares() -> None:
+    """They let causes with many unknowns explain more than their share."""
+    rng = np.random.default_rng(3)
+
+    def shift_rows(uv: Array, size: float) -> Array:
+        shift = np.interp(uv[:, 1], np.arange(0, 481, 20), rng.normal(0, size, 25))
+        return np.asarray(uv + np.column_stack([shift, 0 * shift]))
+
+    views, centre = scene(barrel(), 14, seed=3).noisy(0.05, rng), barrel().centre
+    scales = 1 + rng.normal(0, 0.004, len(views))
+    for cause in (Cause.FOCUS, Cause.BOARD_SHAPE, Cause.LINE_JITTER):
+        changed = []
+        for k, (uv, xy, _) in enumerate(views):
+            if cause is Cause.FOCUS:
+                uv = centre + scales[k] * (uv - centre)
+            if cause is Cause.BOARD_SHAPE:
+                xy = xy / [1.0, 1.003]
+            size = 0.2 if cause is Cause.LINE_JITTER else 0.07
+            changed.append(Observation(shift_rows(uv, size), xy))
+        assert [finding.cause for finding in found(changed)] == [cause]
 
 
 def test_paper_that_curls_anew_in_each_view_is_no_rolling_shutter() -> None:

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from calibgui.engine.assessment import systematic_errors
+from calibgui.engine.assessment.cause_fits import CauseFit, fit_nothing, fit_own_cause
 from calibgui.engine.calibration.calibrate import calibrate
 from calibgui.engine.calibration.observations import Observation
 from calibgui.engine.calibration.result import Cost
@@ -21,13 +22,25 @@ def test_every_cost_can_be_examined(cost: Cost) -> None:
     fit = systematic_errors.prepare_fit(calibrate(views, SIZE, cost=cost), views)
     residual = fit.linearise(slice(0, 8)).residual
     assert np.sqrt(np.mean(residual**2)) == pytest.approx(0.1, rel=0.1)
-    for test in (
-        explain_by_lens,
-        systematic_errors.explain_by_rows,
-        systematic_errors.explain_by_bending,
-        systematic_errors.explain_by_lines,
-    ):
-        assert test(fit).probability > 0.001
+    assert explain_by_lens(fit).probability > 0.001
+    without = fit_nothing(fit)
+    for columns in systematic_errors.OWN_CAUSES.values():
+        found = fit_own_cause(fit, columns).judge(without, fit.degrees_of_freedom)
+        assert found.probability > 0.001
+    smooth = systematic_errors.step_to_smooth(fit)
+    for step in (smooth, systematic_errors.step_to_lines(fit)):
+        start = CauseFit(float(np.sum(residual**2)), 0)
+        assert step.judge(start, fit.degrees_of_freedom).probability > 0.001
+    assert 1.0 <= systematic_errors.measure_dispersion(fit, smooth) < 1.5
+
+
+def test_errors_that_are_alike_along_rows_are_dispersed() -> None:
+    rng, views = np.random.default_rng(2), []
+    for view in scene(barrel(), 8, 1).noisy(0.05, rng):
+        shift = np.interp(view.uv[:, 1], np.arange(0, 481, 20), rng.normal(0, 0.1, 25))
+        views.append(Observation(view.uv + np.column_stack([shift, 0 * shift]), view.xy))
+    fit = systematic_errors.prepare_fit(calibrate(views, SIZE), views)
+    assert systematic_errors.measure_dispersion(fit, systematic_errors.step_to_smooth(fit)) > 2
 
 
 def test_weights_divide_the_residuals() -> None:
