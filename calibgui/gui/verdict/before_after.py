@@ -40,6 +40,9 @@ class BeforeAndAfter(DropDown):
     def __init__(self, bar: QWidget, session: Session) -> None:
         super().__init__(bar)  # all of a small window's height
         self._remedied: Remedied | None = None
+        self._natural = 0
+        """Width of the tables with all their columns, as measured once for each content: the room
+        for them, in which headings are shortened, must not change it."""
         self._work = Latest(session.jobs, self)
         self.title = WrappedLabel()
         font = self.title.font()
@@ -123,6 +126,7 @@ class BeforeAndAfter(DropDown):
             show,
             lambda error: self.map.show_reason(str(error)),
         )
+        self._natural = max(self.errors.natural_width, self.parameters.natural_width)
         self.open_up()
         self._fit_tables()
         self.keep.setFocus()
@@ -138,8 +142,7 @@ class BeforeAndAfter(DropDown):
 
     def _choose_tables_width(self, width: int) -> int:
         """Return how wide the tables are if the sheet has this width."""
-        natural = max(self.errors.natural_width, self.parameters.natural_width)
-        return min(natural, round(_TABLES_SHARE * width))
+        return min(self._natural, round(_TABLES_SHARE * width))
 
     def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name
         super().resizeEvent(event)

@@ -28,6 +28,7 @@ from calibgui.gui.panels.residuals import ResidualsPanel
 from calibgui.gui.verdict.before_after import BeforeAndAfter
 from calibgui.gui.verdict.verdict_bar import VerdictBar
 from calibgui.gui.widgets.lengths import describe_condition
+from calibgui.gui.widgets.tables import Table
 from calibgui.gui.widgets.wrapped_label import WrappedLabel
 from calibgui.gui.window.main_window import MainWindow
 from tests.app import examples
@@ -337,3 +338,22 @@ def test_before_and_after_use_the_room(
     for table in (comparison.errors, comparison.parameters):
         assert table.horizontalHeader().length() <= table.viewport().width()
         assert table.viewport().width() < table.horizontalHeader().length() + 40
+
+
+def test_before_and_after_measures_its_tables_once(
+    plain: Project,
+    open_project: Open,
+    window: MainWindow,
+    qtbot: QtBot,
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """To measure one asks for another layout, for which it would be measured again, without end."""
+    bar = open_project(calibrated(replace(plain, settings=Settings(fixed={"fx": 180.0}))))
+    comparison = act(bar, bar.button, window, qtbot)
+    before = comparison.geometry()
+    again = property(lambda _: pytest.fail("measured again"))
+    monkeypatch.setattr(Table, "natural_width", again)
+    for width in (1800, 960, 1280):
+        window.resize(width, 720)
+        QApplication.processEvents()
+    assert comparison.geometry() == before
