@@ -12,7 +12,12 @@ from enum import StrEnum
 from functools import cached_property
 from types import MappingProxyType
 
-from calibgui.app.detection import infer_grid_size, infer_pattern, measure_largest_part
+from calibgui.app.detection import (
+    explain_unknown_size,
+    infer_grid_size,
+    infer_pattern,
+    measure_largest_part,
+)
 from calibgui.app.settings import Settings
 from calibgui.dataset import Result, View, ViewStatus
 from calibgui.engine.arrays import GridSize, Size
@@ -78,6 +83,15 @@ class Project:
         grid_size = self.grid_size or infer_grid_size(self.views) or measure_largest_part(found)
         pattern = infer_pattern(self.views, self.pattern)
         return None if grid_size is None else Board(*grid_size, self.square, pattern)
+
+    @cached_property
+    def size_doubt(self) -> CalibrationError | None:
+        """Why it is not known how many rows and columns the board has, of which parts are seen;
+        None if it is stated or seen, or no board is found. The board counts as its largest part
+        for what is shown, and nothing is calibrated."""
+        if self.grid_size is not None:
+            return None
+        return explain_unknown_size(self.views, self.pattern)
 
     @cached_property
     def usable(self) -> tuple[View, ...]:

@@ -9,7 +9,6 @@ from functools import partial
 
 from PySide6.QtCore import QObject, Signal
 
-from calibgui.app.detection import explain_unknown_size
 from calibgui.app.project import Project, find_free_name, record_result
 from calibgui.app.redetection import calibrate_twice
 from calibgui.dataset import CornerSet, Result
@@ -127,9 +126,7 @@ class Calibrator(QObject):
                 self.tr("There is no image to calibrate from."),
                 self.tr("Add photographs of a board."),
             )
-        if project.grid_size is None:
-            return explain_unknown_size(project.views, project.pattern)
-        return None
+        return project.size_doubt
 
     def _done(self, asked: CornerSet, result: Result) -> None:
         name = find_free_name(self._session.project, self.tr("Calibration"))

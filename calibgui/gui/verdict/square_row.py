@@ -82,6 +82,9 @@ class SquareRow(QWidget):
             )
             counting = self.tr("How far apart are the circles? The board is being counted.")
             unknown = self.tr("How far apart are the circles? No board has been found yet.")
+            parts = self.tr(
+                "How far apart are the circles? Their number is not known: state it in the Set-up."
+            )
         elif isinstance(pattern, AprilGrid):
             known = self.tr(
                 "How long are the tags' sides? The board has {0} × {1} corners as counted; "
@@ -89,6 +92,9 @@ class SquareRow(QWidget):
             )
             counting = self.tr("How long are the tags' sides? The board is being counted.")
             unknown = self.tr("How long are the tags' sides? No board has been found yet.")
+            parts = self.tr(
+                "How long are the tags' sides? Their number is not known: state it in the Set-up."
+            )
         else:
             known = self.tr(
                 "How long are the squares? The board has {0} × {1} inner corners as counted; "
@@ -96,11 +102,15 @@ class SquareRow(QWidget):
             )
             counting = self.tr("How long are the squares? The board is being counted.")
             unknown = self.tr("How long are the squares? No board has been found yet.")
-        if board is not None:
+            parts = self.tr(
+                "How long are the squares? Their number is not known: state it in the Set-up."
+            )
+        if board is not None and project.size_doubt is None:
             length = project.square / project.unit.mm
             return known.format(board.rows, board.cols, length, project.unit)
-        is_waiting = any(view.status is ViewStatus.WAITING for view in project.views)
-        return counting if is_waiting else unknown
+        if any(view.status is ViewStatus.WAITING for view in project.views):
+            return counting
+        return unknown if board is None else parts
 
     def _name_side(self, pattern: Pattern) -> str:
         if not pattern.has_squares:

@@ -275,6 +275,7 @@ def test_grids_of_circles_that_are_cut_are_refused_as_by_the_command_line(
     assert caught.value.message in window.banner.text.text()
     assert "State the size of the board: 4 x 4" in window.banner.text.text()
     assert session.result is None
+    assert "Their number is not known" in window.verdict.square.counted.text()
     assert window.page.reason.isVisible()
     assert "state the numbers of rows and columns" in window.page.reason.text()
     qtbot.mouseClick(window.calibrate, LEFT)
@@ -289,3 +290,4 @@ def test_grids_of_circles_that_are_cut_are_refused_as_by_the_command_line(
     qtbot.waitUntil(lambda: session.result is not None, timeout=60_000)
     qtbot.waitUntil(lambda: not session.jobs.running, timeout=60_000)
     assert not window.page.reason.isVisible()
+    assert "4 × 4 circles as counted" in window.verdict.square.counted.text()
