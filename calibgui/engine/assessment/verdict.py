@@ -1,9 +1,11 @@
 """The verdict on a calibration: good, usable, can be so many times better, or not usable.
 
-It is decided from the error of a pixel over the image, which has two parts. One is the standard
+It is decided from the error of a pixel over the image, which has three parts. One is the standard
 deviation of projection (``uncertainty/projection_uncertainty.py``), at infinity and in the
 direction where it is largest; it includes noise, the board's shape and the views' disagreement.
-The other is what that leaves out: a lens that the model does not follow, corners that are not where
+One is how far another lens model goes elsewhere that fits as well (``lens_extrapolation.py``): next
+to nothing among corners, and most of the error beyond them.
+The third is what these leave out: a lens that the model does not follow, corners that are not where
 they are said to be, a wrong value that is held. Both together are measured by carrying out what
 remedies a finding (`try_action`). With s' the standard deviation afterwards and d the displacement
 of the camera's pixels by the remedy (``comparison.py``), the error before was
@@ -27,7 +29,7 @@ and on half of all pixels, so that a board in the image's middle is not enough. 
 that no photograph shows is no error of the calibration; its uncertainty is said in a sentence.
 
 The error does not measure what no photograph of the set shows: the length of the squares, or a
-lens far from all corners that behaves otherwise than its formula.
+lens far from all corners that behaves otherwise than both formulas.
 """
 
 from __future__ import annotations
@@ -45,6 +47,7 @@ from calibgui.engine.assessment.cross_validation import choose_board_shape
 from calibgui.engine.assessment.finding import Action, ActionKind, Cause, Finding
 from calibgui.engine.assessment.findings import list_findings
 from calibgui.engine.assessment.lens_choice import choose_lens_stepwise
+from calibgui.engine.assessment.lens_extrapolation import map_disagreement
 from calibgui.engine.assessment.outliers import screen_outliers, select_corners
 from calibgui.engine.assessment.view_weights import calibrate_weighted
 from calibgui.engine.boards.shape import BoardShapeModel
@@ -206,7 +209,10 @@ def judge_calibration(
             continue
         errors.append(before)
         tried.append(_state_gain(finding, trial, times))
-    error = np.fmax.reduce(errors) if errors else _map_uncertainty(calibration, views)
+    own = _map_uncertainty(calibration, views)
+    if calibration.diagnosis is None:
+        own = np.hypot(own, map_disagreement(calibration, views))
+    error = np.fmax.reduce([own, *errors])
     distance = _measure_distance(calibration, views)
     pixels = _UNKNOWN if calibration.diagnosis is not None else _summarise(error, covered)
     grade, reason = _grade(calibration, pixels, tried)
