@@ -41,6 +41,7 @@ from calibgui.engine.detection.checkerboard.corner_template import (
     estimate_template_of,
 )
 from calibgui.engine.detection.checkerboard.near_priors import NearPriors
+from calibgui.engine.detection.checkerboard.undisturbed_fit import fit_undisturbed
 from calibgui.engine.detection.checkerboard.x_corner_fit import XCornerFit
 from calibgui.engine.detection.corners import Corners, RejectedCorner
 from calibgui.engine.detection.detector_io import (
@@ -314,12 +315,27 @@ def _fit_corners(
     rejected: list[RejectedCorner] = []
     while True:
         require_enough_corners(lattice)
-        found = lattice.found
-        priors = NearPriors(_locate_places(lattice, gap), unit)
-        fit = x_corner_fit.fit_x_corners(image, lattice, priors=priors)
-        good = verification.find_described_corners(fit, lattice)
+        found, uv = lattice.found, lattice.uv[lattice.found]
+        fit, displacement = fit_undisturbed(
+            lattice,
+            lambda part: _fit_all_corners(image, part, gap, unit),
+            lambda part: _locate_places(part, gap)[:, ::-1] / unit,
+        )
+        described = verification.find_described_corners(fit, lattice, None, displacement)
+        near = verification.find_tolerable_displacements(displacement, lattice)
+        good = described & near
         if good.all():
-            return lattice, fit, rejected
-        rejected += list_rejected_corners(lattice.uv[found][~good], "not two crossing edges")
+            return lattice, fit.widen(displacement), rejected
+        rejected += list_rejected_corners(uv[~described], "not two crossing edges")
+        rejected += list_rejected_corners(uv[described & ~near], verification.DRAWN_ASIDE)
         found[found] = good
         lattice = lattice.select(found)
+
+
+def _fit_all_corners(
+    image: GreyImage, lattice: Lattice, gap: float, unit: float
+) -> tuple[XCornerFit, BoolArray]:
+    """Fit the model at all corners, see `FitCorners`."""
+    priors = NearPriors(_locate_places(lattice, gap), unit)
+    fit = x_corner_fit.fit_x_corners(image, lattice, priors=priors)
+    return fit, verification.find_suspect_corners(fit.board_residual)

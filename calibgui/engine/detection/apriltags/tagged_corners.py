@@ -75,9 +75,9 @@ def fit_tagged_corners(
         found = lattice.found
         outermost = np.ones(lattice.shape, dtype=np.bool_)
         outermost[1:-1, 1:-1] = False
-        fit = x_corner_fit.fit_x_corners(image, lattice, plain)
+        fit = x_corner_fit.fit_x_corners(image, lattice, plain, own_light=False)
         suspect = outermost[found] | verification.find_suspect_corners(fit.residual)
-        fit = fit_near(image, lattice, plain, fit, suspect)
+        fit = fit_near(image, lattice, plain, fit, suspect, own_light=False)
         good = verification.find_described_corners(fit, lattice)
         if good.all():
             return lattice, fit, rejected

@@ -15,11 +15,12 @@ from __future__ import annotations
 import numpy as np
 import scipy
 
-from calibgui.engine.arrays import Array, GreyImage, GridSize
+from calibgui.engine.arrays import Array, BoolArray, GreyImage, GridSize
 from calibgui.engine.boards.charuco import MarkerLayout
 from calibgui.engine.detection.charuco.markers import Markers
 from calibgui.engine.detection.charuco.thresholds import CHARUCO_THRESHOLDS
 from calibgui.engine.detection.checkerboard import saddle, verification, x_corner_fit
+from calibgui.engine.detection.checkerboard.undisturbed_fit import fit_undisturbed
 from calibgui.engine.detection.checkerboard.x_corner_fit import XCornerFit
 from calibgui.engine.detection.corners import RejectedCorner
 from calibgui.engine.detection.detector_io import list_rejected_corners
@@ -131,17 +132,30 @@ def fit_corners(
     rejected: list[RejectedCorner] = []
     for _ in range(_MAX_FITS):
         require_enough_corners(lattice)
-        fit = x_corner_fit.fit_x_corners(image, lattice, plain)
-        found = lattice.found
-        good = verification.find_described_corners(fit, lattice)
+        fit, displacement = fit_undisturbed(
+            lattice, lambda part: _fit_all_corners(image, part, plain)
+        )
+        found, uv = lattice.found, lattice.uv[lattice.found]
+        described = verification.find_described_corners(fit, lattice, None, displacement)
+        near = verification.find_tolerable_displacements(displacement, lattice)
+        good = described & near
         if good.all():
             if verification.has_step_edges(fit):
-                return lattice, fit, rejected
+                return lattice, fit.widen(displacement), rejected
             break
-        rejected += list_rejected_corners(lattice.uv[found][~good], "not two crossing edges")
+        rejected += list_rejected_corners(uv[~described], "not two crossing edges")
+        rejected += list_rejected_corners(uv[described & ~near], verification.DRAWN_ASIDE)
         found[found] = good
         lattice = lattice.select(found)
     raise _distrust()
+
+
+def _fit_all_corners(
+    image: GreyImage, lattice: Lattice, plain: float
+) -> tuple[XCornerFit, BoolArray]:
+    """Fit the model at all corners, see `FitCorners`."""
+    fit = x_corner_fit.fit_x_corners(image, lattice, plain)
+    return fit, verification.find_suspect_corners(fit.board_residual)
 
 
 def require_enough_corners(lattice: Lattice) -> None:

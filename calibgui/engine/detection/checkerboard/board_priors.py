@@ -163,25 +163,28 @@ class BoardPriors:
         derivatives, misfit = self._differentiate(values)
         slopes = derivatives[:2].transpose(1, 0, 2)
         before, after, second = self._take_differences(values)
-        known = second[np.isfinite(second[..., 0])]
-        if len(known):
-            noise = _NOISE_PER_DIFFERENCE * compute_median(np.ascontiguousarray(abs(known).T))
-            is_broken = misfit > _THRESHOLDS.max_relative_misfit * noise
-            if is_broken.any():
-                lesser = np.where(abs(before) < abs(after), before, after)
-                slopes = np.where(is_broken, np.nan_to_num(lesser), slopes)
+        is_broken = find_broken(misfit, estimate_noise(second))
+        if is_broken.any():
+            lesser = np.where(abs(before) < abs(after), before, after)
+            slopes = np.where(is_broken, np.nan_to_num(lesser), slopes)
         return _solve_steps(steps, slopes).transpose(0, 2, 1)
 
     def estimate_gradient_covariance(self, steps: Array, values: Array) -> Array:
         """Estimate the covariance (n, 2, 2) over the image, per px^2, that the gradient of `values`
-        (n,) has from their scatter about the polynomial.
+        (n,) has from their scatter about the polynomial, or where they break from that of their
+        differences.
 
         Args:
             steps: (n, 2, 2) to the next column and row, px.
         """
         Q, derivatives = self._terms.orthonormal, self._terms.derivatives
         weights = Q.T @ values
-        count = int(self._choose_counts(values[:, None], weights[:, None])[0][0])
+        counts, misfit = self._choose_counts(values[:, None], weights[:, None])
+        noise = estimate_noise(self._take_differences(values[:, None])[2])
+        if find_broken(misfit, noise).any():
+            slopes = np.linalg.inv(steps)
+            return np.asarray(2 * noise**2 * slopes @ slopes.transpose(0, 2, 1))
+        count = int(counts[0])
         rss = np.sum((values - Q[:, :count] @ weights[:count]) ** 2)
         variance = rss / max(len(values) - count, 1)
         slopes = _solve_steps(steps, derivatives[:2, :, :count].transpose(1, 0, 2))
@@ -226,6 +229,22 @@ class BoardPriors:
         rss = np.maximum(np.sum(values**2, axis=0) - explained, 0.0)
         score = rss / (1 - _THRESHOLDS.term_cost * counts[:, None] / (len(values) + 1)) ** 2
         return counts[np.argmin(score, axis=0)], np.sqrt(score.min(axis=0) / len(values))
+
+
+def find_broken(misfit: Array, noise: Array) -> BoolArray:
+    """Find the values (k,) that polynomials miss by a `misfit` (k,) far beyond their `noise` (k,):
+    they break."""
+    return np.asarray(misfit > _THRESHOLDS.max_relative_misfit * noise)
+
+
+def estimate_noise(second: Array) -> Array:
+    """Estimate the noise (k,) of values from their `second` differences (n, 2, k), NaN where there
+    are none; it is endless where there are none at all."""
+    known = second[np.isfinite(second[..., 0])]
+    if not len(known):
+        return np.full(second.shape[-1], np.inf)
+    median = compute_median(np.ascontiguousarray(abs(known).T))
+    return np.asarray(_NOISE_PER_DIFFERENCE * median)
 
 
 def _solve_steps(steps: Array, slopes: Array) -> Array:

@@ -45,7 +45,10 @@ from calibgui.engine.detection.checkerboard.pyramid_search import (
 )
 from calibgui.engine.detection.checkerboard.saddle import refine_lattice
 from calibgui.engine.detection.checkerboard.thresholds import THRESHOLDS
-from calibgui.engine.detection.checkerboard.undisturbed_fit import fit_undisturbed
+from calibgui.engine.detection.checkerboard.undisturbed_fit import (
+    fit_plain_corners,
+    fit_undisturbed,
+)
 from calibgui.engine.detection.checkerboard.x_corner_fit import XCornerFit
 from calibgui.engine.detection.corners import METHODS, Corners, OtherBoard, RejectedCorner
 from calibgui.engine.detection.detector_io import check_grey_levels, list_rejected_corners
@@ -294,7 +297,9 @@ def _fit_board(
             return Refusal(lattice.shape, objection)
         if method == "saddle":
             return RefinedBoard(lattice, tuple(rejected), None)
-        fit, displacement = fit_undisturbed(grey, lattice, plain)
+        fit, displacement = fit_undisturbed(
+            lattice, lambda part: fit_plain_corners(grey, part, plain)
+        )
         described = verification.find_described_corners(fit, lattice, None, displacement)
         near = verification.find_tolerable_displacements(displacement, lattice)
         good = described & near
@@ -311,9 +316,7 @@ def _fit_board(
             break
         uv = lattice.uv[lattice.found]
         rejected += list_rejected_corners(uv[~described], "not two crossing edges")
-        rejected += list_rejected_corners(
-            uv[described & ~near], "drawn aside by what is seen there"
-        )
+        rejected += list_rejected_corners(uv[described & ~near], verification.DRAWN_ASIDE)
         keep = lattice.found
         keep[keep] = good
         lattice = drop_isolated_and_crop(lattice.select(keep))

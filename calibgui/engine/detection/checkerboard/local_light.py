@@ -12,7 +12,7 @@ Such corners leave less unexplained with gradients of their own, by more than no
 of the four more unknowns is 1 on average for any other. What a camera does to all corners alike, as
 one that sharpens to one side, gradients explain a little of, too, and those that have them would be
 moved against the others. So a corner has its own only if it leaves more unexplained than most, or
-if on most of the board gradients explain much of it.
+if on most of a board of plain squares gradients explain much of it.
 
 Those corners are fitted with them, and once more to the nearer half of their edges. An edge of the
 light may cross the farther one, and bend the edges as no gradient does: where the two places differ
@@ -46,7 +46,7 @@ _STEPS = 3
 
 
 def find_uneven_light(
-    model: XCornerModel, products: Array, square: Array, least_noise: float
+    model: XCornerModel, products: Array, square: Array, least_noise: float, is_plain: bool
 ) -> BoolArray:
     """Find the corners (n,) that gradients of the light of their own describe clearly better.
 
@@ -55,6 +55,8 @@ def find_uneven_light(
         products: (n, 14, 14) that this step was taken from.
         square: (n,) mean square that it leaves unexplained.
         least_noise: least square of the noise that is believed, grey levels^2.
+        is_plain: whether nothing is printed in the squares: blurred, that looks like light at all
+            corners.
     """
     _, _, lit_square = take_lit_step(model, products)
     free = products[:, 6, 6] - UNKNOWNS
@@ -63,7 +65,7 @@ def find_uneven_light(
     if not is_clear.any():
         return np.asarray(is_clear)
     share = compute_median(gain / np.maximum(free * square, least_noise))
-    if share > _THRESHOLDS.min_median_share:
+    if is_plain and share > _THRESHOLDS.min_median_share:
         return np.asarray(is_clear)
     usual = float(compute_median(np.sqrt(square)))
     return np.asarray(is_clear & (np.sqrt(square) > _THRESHOLDS.min_relative_residual * usual))

@@ -25,7 +25,12 @@ _MIN_CORNERS = 16
 
 
 def fit_near(
-    image: GreyImage, lattice: Lattice, plain: float, fit: XCornerFit, suspect: BoolArray
+    image: GreyImage,
+    lattice: Lattice,
+    plain: float,
+    fit: XCornerFit,
+    suspect: BoolArray,
+    own_light: bool = True,
 ) -> XCornerFit:
     """Return the fit with the suspect corners (n,) fitted to what is plain around them only, where
     that is enough.
@@ -36,6 +41,7 @@ def fit_near(
         plain: how far from the corners is looked, squares.
         fit: at all n corners.
         suspect: (n,) those that are fitted again.
+        own_light: see `fit_x_corners`.
     """
     found = lattice.found
     large = plain * lattice.spacing() > _MIN_ARM
@@ -43,6 +49,6 @@ def fit_near(
         return fit
     places = np.argwhere(found & large)[:, ::-1].astype(np.float64)
     near = x_corner_fit.fit_x_corners(
-        image, lattice.select(large), priors=NearPriors(places, 2 * plain)
+        image, lattice.select(large), priors=NearPriors(places, 2 * plain), own_light=own_light
     )
     return replace_fits(fit, near, large[found], suspect[large[found]])

@@ -4,7 +4,8 @@ The edge fit looks at half a square around a corner. Around the corner of a tag 
 plain: the tag's border, the gap. So the fit is made in units of `unit` pitches, twice what is plain
 around every corner, and wants steps and gradients per unit there. Both come from the map of the
 board's places to the image, a radial homography with a smooth residual (`grid_map`), whatever the
-distances of its lines, and from polynomials in the place on the board.
+distances of its lines, and from polynomials in the place on the board; where light breaks, from
+the lesser of the slopes to both sides, as in `board_priors`.
 """
 
 from __future__ import annotations
@@ -16,7 +17,12 @@ import numpy as np
 
 from calibgui.engine.arrays import Array
 from calibgui.engine.detection import grid_map
-from calibgui.engine.detection.checkerboard.board_priors import BoardPriors, compute_curvatures
+from calibgui.engine.detection.checkerboard.board_priors import (
+    BoardPriors,
+    compute_curvatures,
+    estimate_noise,
+    find_broken,
+)
 from calibgui.engine.detection.checkerboard.edge_bend import ReadEdges
 from calibgui.engine.detection.checkerboard.edge_map import EdgeGeometry
 
@@ -24,6 +30,8 @@ _DIFFERENCE_STEP = 0.5
 """Step of the central differences of the grid map, units."""
 _AROUND = np.array([(0, 0), (0, -1), (0, 1), (-1, 0), (1, 0)])
 """(5, 2) the places (row, column) around a corner that they are taken at, and its own."""
+_SAME_LINE = 1e-3
+"""Distance across a line up to which places count as on it, units."""
 _MAX_DEGREE = 4
 """Greatest degree of the polynomials that gradients are taken from."""
 _TERM_COST = 1.4
@@ -83,7 +91,43 @@ class NearPriors(BoardPriors):
             better = score < best
             best = np.where(better, score, best)
             slopes = np.where(better, derivatives @ weights, slopes)
+        before, after, second = self._take_slopes(values)
+        misfit = np.sqrt(best / len(values))
+        is_broken = find_broken(misfit, estimate_noise(second))
+        if is_broken.any():
+            lesser = np.where(abs(before) < abs(after), before, after)
+            slopes = np.where(is_broken, np.nan_to_num(lesser), slopes)
         return np.asarray(np.linalg.solve(steps, slopes).transpose(0, 2, 1))
+
+    def _take_slopes(self, values: Array) -> tuple[Array, Array, Array]:
+        """Take slopes of `values` (n, k) between the corners of a line.
+
+        Returns:
+            (n, 2, k) slopes by X and by Y from the corner before and to the one after, where there
+            is none the other one; and second differences of the values, as large as of even
+            lines, NaN at the ends.
+        """
+        n, k = values.shape
+        before, after, second = (np.full((n, 2, k), np.nan) for _ in range(3))
+        lines = np.rint(self._places / _SAME_LINE)
+        for axis in (0, 1):
+            order = np.lexsort((lines[:, axis], lines[:, 1 - axis]))
+            same = np.diff(lines[order, 1 - axis]) == 0
+            distance = np.diff(self._places[order, axis])
+            rise = np.diff(values[order], axis=0)
+            slope = np.where(same[:, None], rise / np.where(same, distance, 1.0)[:, None], np.nan)
+            before[order[1:], axis], after[order[:-1], axis] = slope, slope
+            inner = same[1:] & same[:-1]
+            one, other = distance[:-1][inner, None], distance[1:][inner, None]
+            bend = (slope[1:] - slope[:-1])[inner]
+            # of values of a variance 1 the slopes' difference has that below, and of even lines 6
+            variance = 1 / one**2 + 1 / other**2 + (1 / one + 1 / other) ** 2
+            second[order[1:-1][inner], axis] = bend * np.sqrt(6 / variance)
+        return (
+            np.where(np.isnan(before), after, before),
+            np.where(np.isnan(after), before, after),
+            second,
+        )
 
     @cached_property
     def _polynomials(self) -> list[_Polynomial]:

@@ -9,6 +9,8 @@ fitted.
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 
 from calibgui.engine.arrays import Array, BoolArray, GreyImage
@@ -27,33 +29,49 @@ _MAX_ROUNDS = 4
 """Number of times that corners that are drawn aside are left out and the rest fitted again."""
 
 
-def fit_undisturbed(grey: GreyImage, lattice: Lattice, plain: float) -> tuple[XCornerFit, Array]:
+FitCorners = Callable[[Lattice], tuple[XCornerFit, BoolArray]]
+"""A function from a lattice to the edge model at its corners, and which (n,) left more unexplained
+than most."""
+LocateCorners = Callable[[Lattice], Array]
+"""A function from a lattice to the rows and columns (n, 2) of its corners in pitches of the
+board."""
+
+
+def list_cells(lattice: Lattice) -> Array:
+    """List the rows and columns (n, 2) of a lattice's corners, whose lines are evenly spaced."""
+    return np.argwhere(lattice.found).astype(np.float64)
+
+
+def fit_undisturbed(
+    lattice: Lattice, fit_corners: FitCorners, locate: LocateCorners = list_cells
+) -> tuple[XCornerFit, Array]:
     """Fit the edge model at all corners of a lattice, and find those that something draws aside.
 
     Args:
-        grey: (h, w) grey levels.
         lattice: refined corners.
-        plain: how far from the corners nothing is printed in the squares and on their edges.
+        fit_corners: the fit at this kind of board.
+        locate: where its corners lie on the board.
 
     Returns:
         The fit, and how far (n,) px corners are drawn aside; 0 for most.
     """
-    fit, suspect = _fit_corners(grey, lattice, plain)
+    fit, suspect = fit_corners(lattice)
     if not suspect.any():
         return fit, np.zeros(len(lattice))
     undisturbed = lattice.found
     if verification.is_credible(int(np.count_nonzero(suspect)), len(lattice)):
         undisturbed[undisturbed] = ~suspect
+    cells = locate(lattice)
     for _ in range(_MAX_ROUNDS):
         rest = lattice.select(undisturbed)
-        part, in_part = _fit_corners(grey, rest, plain)
-        displaced = verification.find_displaced_corners(part, rest, in_part)
+        part, in_part = fit_corners(rest)
+        displaced = verification.find_displaced_corners(part, locate(rest), in_part)
         if not displaced.any():
             break
         undisturbed[undisturbed] = ~displaced
     kept = undisturbed[lattice.found]
     fit = replace_fits(fit, part, rest.found[lattice.found], np.ones(len(rest), np.bool_))
-    off = verification.measure_displacements(fit.uv, lattice, undisturbed)
+    off = verification.measure_displacements(fit.uv, cells, kept)
     # What the model describes near a corner is the corner, however paper or shutter bend the lines.
     poor = verification.find_suspect_corners(fit.residual)
     farthest = verification.limit_fit_shift(lattice.spacing()[lattice.found])
@@ -61,11 +79,16 @@ def fit_undisturbed(grey: GreyImage, lattice: Lattice, plain: float) -> tuple[XC
     return fit, np.where(kept & ~poor, 0.0, off)
 
 
-def _fit_corners(grey: GreyImage, lattice: Lattice, plain: float) -> tuple[XCornerFit, BoolArray]:
-    """Fit the edge model at all corners of a lattice, and near those that are the better for it.
+def fit_plain_corners(
+    grey: GreyImage, lattice: Lattice, plain: float
+) -> tuple[XCornerFit, BoolArray]:
+    """Fit the edge model at all corners of a checkerboard, and near those that are the better for
+    it; see `FitCorners`.
 
-    Returns:
-        The fit, and which corners (n,) left more unexplained than most at first.
+    Args:
+        grey: (h, w) grey levels.
+        lattice: refined corners.
+        plain: how far from the corners nothing is printed in the squares and on their edges.
     """
     fit = fit_x_corners(grey, lattice, bare_edge=plain)
     # What covers a part of the squares would pass for light of a corner's own.

@@ -46,6 +46,8 @@ from calibgui.engine.images.sampling import sample_image
 
 TOO_BLURRED = "its edges are too blurred, or too ragged, to be told from waves"
 """What speaks against a lattice of wide edges."""
+DRAWN_ASIDE = "drawn aside by what is seen there"
+"""What speaks against a corner that lies where the others do not expect it."""
 
 _INSIDE_SQUARES = np.array([[0.5, 0.3], [0.5, 0.7], [0.3, 0.5], [0.7, 0.5]])
 """Where whole squares beside a corner are sampled, apart from their edges, which blur, or what lies
@@ -290,16 +292,15 @@ def find_suspect_corners(residual: Array) -> BoolArray:
     return np.asarray(residual > limit * compute_median(residual))
 
 
-def find_displaced_corners(fit: XCornerFit, lattice: Lattice, suspect: BoolArray) -> BoolArray:
-    """Find the suspect corners of a lattice that the edge model puts where the others do not expect
-    them.
+def find_displaced_corners(fit: XCornerFit, cells: Array, suspect: BoolArray) -> BoolArray:
+    """Find the suspect corners that the edge model puts where the others do not expect them.
 
     Where the edge of a shadow or of a reflection runs through a corner there are two crossing
     edges, and something that draws them aside by much more than noise would.
 
     Args:
-        fit: edge model at the lattice's n corners.
-        lattice: corners before the fit.
+        fit: edge model at n corners.
+        cells: (n, 2) rows and columns of these on the board.
         suspect: (n,) those that the model describes worse than most.
 
     Returns:
@@ -308,31 +309,25 @@ def find_displaced_corners(fit: XCornerFit, lattice: Lattice, suspect: BoolArray
     if not suspect.any():
         return suspect
     limits = THRESHOLDS.verification
-    mask = lattice.found
-    mask[mask] = ~suspect
-    off = measure_displacements(fit.uv, lattice, mask)
+    off = measure_displacements(fit.uv, cells, ~suspect)
     usual = np.sqrt(np.mean(off[~suspect] ** 2))
     limit = max(limits.max_relative_displacement * usual, limits.max_displacement)
     return np.asarray(suspect & ~(off <= limit))
 
 
-def measure_displacements(fitted: Array, lattice: Lattice, undisturbed: BoolArray) -> Array:
+def measure_displacements(uv: Array, cells: Array, undisturbed: BoolArray) -> Array:
     """Measure how far corners lie from where the undisturbed ones expect them.
 
     Args:
-        fitted: (n, 2) px, the corners after the fit.
-        lattice: the n corners before it.
-        undisturbed: (rows, cols) those of them whose smooth grid map is taken.
+        uv: (n, 2) px, the corners.
+        cells: (n, 2) rows and columns of these on the board.
+        undisturbed: (n,) those of them whose smooth grid map is taken.
 
     Returns:
         (n,) px.
     """
-    uv = lattice.uv.copy()
-    uv[lattice.found] = fitted
-    expected = grid_map.fit_grid_map(Lattice(uv, lattice.dark).select(undisturbed)).locate(
-        np.argwhere(lattice.found).astype(np.float64)
-    )
-    return np.asarray(compute_lengths(fitted - expected))
+    expected = grid_map.fit_cells(cells[undisturbed], uv[undisturbed]).locate(cells)
+    return np.asarray(compute_lengths(uv - expected))
 
 
 def find_tolerable_displacements(displacement: Array, lattice: Lattice) -> BoolArray:

@@ -27,8 +27,8 @@ So does the pull of gm grow, and the board tells gm and ga with a covariance. On
 are unknowns of the last step, which the board holds, and where it leaves them open so does what
 lies between the edges (`flat_squares`). Light that varies slowly is known best from the whole
 board, light that varies from square to square from the squares at the corner. What is printed in
-squares looks like light where it is blurred: there the gradients are the board's, and what it
-leaves open of gm is added to the covariance.
+squares looks like light where it is blurred: there the gradients are the board's, but where the
+light ends at a corner (`local_light`), and what it leaves open of gm is added to the covariance.
 
 **Light.** The model lights the blurred pattern, where a camera blurs the lit one. Under light L
 that rises by l = grad L / L,
@@ -153,6 +153,7 @@ def fit_x_corners(
     bare_edge: float = 0.5,
     geometry: tuple[Array, Array] | None = None,
     priors: BoardPriors | None = None,
+    own_light: bool = True,
 ) -> XCornerFit:
     """Fit the model at every corner of `lattice`, whose positions are the start.
 
@@ -164,6 +165,8 @@ def fit_x_corners(
         geometry: steps and curvatures of the edges, if a known camera predicts them better than
             the corners found; see ``BoardPriors.estimate_geometry``.
         priors: what is taken from the board as a whole, where its lines are not evenly spaced.
+        own_light: whether corners may have light of their own; what is printed beside one may look
+            like it.
     """
     found = lattice.found
     board = priors or (
@@ -180,11 +183,11 @@ def fit_x_corners(
     before = model
     model, inverse, square = take_step(before, products)
     least_noise = estimate_least_noise(image)
-    uneven = np.zeros(len(square), np.bool_)
     # What is printed looks like light where it is blurred.
     is_plain = priors is None and min(plain, bare_edge) == 0.5
-    if is_plain:
-        uneven = find_uneven_light(before, products, square, least_noise)
+    uneven = np.zeros(len(square), np.bool_)
+    if own_light:
+        uneven = find_uneven_light(before, products, square, least_noise, is_plain)
     noise = np.maximum(_estimate_noise(square, odd_part), least_noise)
     covariance = noise[:, None, None] * inverse
     by_bend = np.zeros_like(covariance)

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from calibgui.engine.detection.checkerboard.board_priors import BoardPriors
+from calibgui.engine.detection.checkerboard.near_priors import NearPriors
 
 TAIL = {(0, c) for c in range(1, 9)} | {(1, 6), (1, 8)}
 COLUMN = {(r, 8) for r in range(6)}
@@ -62,3 +63,30 @@ def test_gradients_scatter_as_their_covariance_says(degree: int) -> None:
         inverse = np.linalg.inv(priors.estimate_gradient_covariance(steps, values))
         deviations.append(np.mean(np.einsum("ni,nij,nj->n", error, inverse, error) / 2))
     assert 0.8 < np.mean(deviations) < 1.25
+
+
+def test_the_break_of_light_does_not_widen_gradients_elsewhere() -> None:
+    """The scatter about a polynomial that cannot follow made them 30 times as wide."""
+    found = np.ones((7, 10), np.bool_)
+    cell = np.argwhere(found)[:, ::-1].astype(np.float64)
+    noise = 0.3 * np.random.default_rng(2).standard_normal(len(cell))
+    values = np.where(cell @ [1.0, 0.4] > 5.3, 60.0, 100.0) + noise
+    steps = np.tile(20 * np.eye(2), (len(cell), 1, 1))
+    covariance = BoardPriors(found).estimate_gradient_covariance(steps, values)
+    expected = 2 * (0.3 / 20) ** 2
+    np.testing.assert_allclose(covariance, np.tile(expected * np.eye(2), (70, 1, 1)), atol=expected)
+
+
+def test_light_that_breaks_does_not_ring_between_uneven_lines() -> None:
+    """Corners of tags lie a tag and a gap apart in turn; the polynomial alone was 10 levels a
+    unit off at half of them."""
+    line = np.repeat(np.arange(5) * 1.3, 2) + np.tile([0.0, 1.0], 5)
+    places = np.stack(np.meshgrid(line, line[:8]), axis=-1).reshape(-1, 2)
+    across = places @ np.array([1.0, 0.3]) - 4.03
+    ramp = 2.0 * places[:, 1]
+    noise = 0.05 * np.random.default_rng(3).standard_normal(len(places))
+    values = np.where(across > 0, 60.0, 100.0) + ramp + noise
+    steps = np.tile(np.eye(2), (len(places), 1, 1))
+    gradient = NearPriors(places, 1.0).estimate_gradients(steps, values[:, None])[:, 0]
+    # The shadow's edge may pass a corner on both sides.
+    assert np.quantile(abs(gradient - [0.0, 2.0]).max(axis=1), 0.9) < 1.0

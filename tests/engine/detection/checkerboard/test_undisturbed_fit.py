@@ -7,7 +7,10 @@ import numpy as np
 import pytest
 
 from calibgui.engine.detection.checkerboard import undisturbed_fit
-from calibgui.engine.detection.checkerboard.undisturbed_fit import fit_undisturbed
+from calibgui.engine.detection.checkerboard.undisturbed_fit import (
+    fit_plain_corners,
+    fit_undisturbed,
+)
 from calibgui.engine.detection.find_corners import find_corners
 from calibgui.engine.detection.lattice import Lattice
 from tests.scenes.checkerboards import draw
@@ -25,7 +28,9 @@ def test_an_undisturbed_board_is_fitted_once(monkeypatch: pytest.MonkeyPatch) ->
         "fit_x_corners",
         lambda *args, **options: calls.append(1) or fit_once(*args, **options),
     )
-    _, displacement = fit_undisturbed(image, Lattice(scene.uv, True), 0.5)
+    _, displacement = fit_undisturbed(
+        Lattice(scene.uv, True), lambda part: fit_plain_corners(image, part, 0.5)
+    )
     assert not displacement.any()
     assert len(calls) == 1
 

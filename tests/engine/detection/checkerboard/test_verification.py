@@ -17,6 +17,7 @@ from scipy.ndimage import gaussian_filter
 
 from calibgui.engine.detection.checkerboard import verification
 from calibgui.engine.detection.checkerboard.numbering import turn_lattice
+from calibgui.engine.detection.checkerboard.undisturbed_fit import list_cells
 from calibgui.engine.detection.lattice import (
     Lattice,
     add_border,
@@ -438,7 +439,7 @@ class TestDisplacedCorners:
         residuals[[0, K]] = 2.6, residual
         fit = pretend_fit(lattice, uv=uv, residual=residuals)
         suspect = verification.find_suspect_corners(fit.residual)
-        found = verification.find_displaced_corners(fit, lattice, suspect)
+        found = verification.find_displaced_corners(fit, list_cells(lattice), suspect)
         np.testing.assert_array_equal(np.flatnonzero(found), [K] * displaced)
 
     @pytest.mark.parametrize(("shift", "displaced"), [(5.5, False), (6.5, True)])
@@ -452,7 +453,7 @@ class TestDisplacedCorners:
         uv[k] = lattice.uv[5, 7] + (0.0, 0.05 * shift)
         fit = pretend_fit(lattice, uv=uv, residual=(k, 2.6))
         suspect = verification.find_suspect_corners(fit.residual)
-        found = verification.find_displaced_corners(fit, lattice, suspect)
+        found = verification.find_displaced_corners(fit, list_cells(lattice), suspect)
         np.testing.assert_array_equal(np.flatnonzero(found), [k] * displaced)
 
 
