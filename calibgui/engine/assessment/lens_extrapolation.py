@@ -46,7 +46,8 @@ formula that is right make it 1.06; a model that cannot follow the lens says not
 
 def map_disagreement(calibration: Calibration, views: Sequence[Observation]) -> Array:
     """Map how far (m, n) px another lens model that fits as well images the same directions from
-    the pixels of a calibration; 0 where none is known, as for a spline, which has no other kind.
+    the pixels of a calibration; 0 where corners cover the image, and where no other is known, as
+    for a spline, which has no other kind.
 
     Args:
         calibration: a calibration with any cost.
@@ -65,10 +66,10 @@ def map_disagreement(calibration: Calibration, views: Sequence[Observation]) -> 
         settings["board_shape"] = calibration.board_shape
     try:
         other = calibrate(views, camera.size, model_errors=False, **settings)
-        apart = compare_cameras(camera, other.camera, views=views).length
+        apart = compare_cameras(camera, other.camera, views=views)
     except CalibrationError:
         return none
     rms = summarise_residuals(other.residuals).rms
     if rms > _MAX_RELATIVE_RMS * summarise_residuals(calibration.residuals).rms:
         return none
-    return np.nan_to_num(apart)
+    return np.where(apart.region, 0.0, np.nan_to_num(apart.length))

@@ -1,11 +1,9 @@
 """The verdict on a calibration: good, usable, can be so many times better, or not usable.
 
-It is decided from the error of a pixel over the image, which has three parts. One is the standard
+It is decided from the error of a pixel over the image, which has two parts. One is the standard
 deviation of projection (``uncertainty/projection_uncertainty.py``), at infinity and in the
 direction where it is largest; it includes noise, the board's shape and the views' disagreement.
-One is how far another lens model goes elsewhere that fits as well (``lens_extrapolation.py``): next
-to nothing among corners, and most of the error beyond them.
-The third is what these leave out: a lens that the model does not follow, corners that are not where
+The other is what that leaves out: a lens that the model does not follow, corners that are not where
 they are said to be, a wrong value that is held. Both together are measured by carrying out what
 remedies a finding (`try_action`). With s' the standard deviation afterwards and d the displacement
 of the camera's pixels by the remedy (``comparison.py``), the error before was
@@ -15,9 +13,10 @@ of the camera's pixels by the remedy (``comparison.py``), the error before was
 and the remedy makes it e / s' times smaller, by the root mean square over the part of the image
 that the corners of all views cover (``comparison.find_covered_pixels``). So the number in "can be x
 times better" is what a trial gave for the stated errors, and the same comes out when it is done
-again. Where nothing can be tried, e is the standard deviation as it is. A board's shape that brings
-nothing is not what is wrong; where it leaves pixels too poorly known all the same, the views do not
-tell board and camera apart, and photographs of a stiff board are needed.
+again. Where nothing can be tried, e is the standard deviation as it is. Beyond the corners it
+includes how far another lens model goes there that fits as well (``lens_extrapolation.py``). A
+board's shape that brings nothing is not what is wrong; where it leaves pixels too poorly known all
+the same, the views do not tell board and camera apart, and photographs of a stiff board are needed.
 
 Against the truth of 24 rendered sets with shifted rows, wrong held values, bowed boards and unequal
 squares that were remedied (``tests/benchmarks/verdict_gain.py``), e was within 14 % in 22, 30 % off
@@ -209,10 +208,9 @@ def judge_calibration(
             continue
         errors.append(before)
         tried.append(_state_gain(finding, trial, times))
-    own = _map_uncertainty(calibration, views)
+    error = np.fmax.reduce(errors) if errors else _map_uncertainty(calibration, views)
     if calibration.diagnosis is None:
-        own = np.hypot(own, map_disagreement(calibration, views))
-    error = np.fmax.reduce([own, *errors])
+        error = np.hypot(error, map_disagreement(calibration, views))
     distance = _measure_distance(calibration, views)
     pixels = _UNKNOWN if calibration.diagnosis is not None else _summarise(error, covered)
     grade, reason = _grade(calibration, pixels, tried)

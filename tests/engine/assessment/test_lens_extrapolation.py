@@ -60,12 +60,12 @@ def test_the_largest_error_is_stated(lens: str, model: str, alone: float, seed: 
     assert judge_calibration(result, views).error.worst >= 0.99 * stated
 
 
-def test_where_corners_are_the_models_agree() -> None:
+def test_nothing_counts_where_corners_are() -> None:
     views = photograph(TRUE["eucm"], 5)
     apart = map_disagreement(calibrate(views, VGA, model="brown-conrady"), views)
     covered = find_covered_pixels(make_mesh(*make_map_grid(VGA)), views)
     assert apart[~covered].max() > 0.3
-    assert np.sqrt(np.mean(apart[covered] ** 2)) < 0.003
+    assert not apart[covered].any()
 
 
 def test_a_model_that_does_not_follow_the_lens_tells_nothing() -> None:
