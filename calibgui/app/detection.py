@@ -1,11 +1,12 @@
 """Search of photographs for the board.
 
 A failure with one image is recorded in its view and does not stop the search. One camera has one
-image size, and its photographs are all turned alike (``sensor_frame.py``). If the grid size of
-the board is not given, the most frequent one among completely seen boards is taken, or that of a
-part which several photographs share, and images that show another size, or may cut the board, are
-searched again. Unknown properties of a pattern, such as the dictionary of its markers, are inferred
-in the same way.
+image size, and its photographs are all turned alike (``sensor_frame.py``). The size is that of most
+images that show the board: those of the most frequent size are searched first, then those of any
+other size of which there are more than showed it. If the grid size of the board is not given, the
+most frequent one among completely seen boards is taken, or that of a part which several photographs
+share, and images that show another size, or may cut the board, are searched again. Unknown
+properties of a pattern, such as the dictionary of its markers, are inferred in the same way.
 """
 
 from __future__ import annotations
@@ -19,7 +20,7 @@ from threading import Event
 from typing import Protocol
 
 from calibgui.app.kernel_preparation import prepare_finder
-from calibgui.app.sensor_frame import share_frame
+from calibgui.app.sensor_frame import list_other_frames, share_frame
 from calibgui.app.workers import Crashed, map_in_processes
 from calibgui.dataset import CornerSet, View, ViewStatus
 from calibgui.engine import detection
@@ -99,9 +100,11 @@ def find_views(
         images: files, in the order of the views.
         grid_size: rows and columns of inner corners; inferred from the whole set if None.
         rois: (4, 2) px, regions to search in some of the images.
-        progress: called after each image; images searched again add to the total.
+        progress: called after each image; images of other sizes and those searched again add to
+            the total.
         stop: abandons the search within 0.2 s when set.
-        size: width and height of the camera's images; the most frequent ones if None.
+        size: width and height of the camera's images; if None, those of most images that show the
+            board, or of most images if none does.
         orientation: EXIF orientation by which the images are turned; the most frequent one if None.
         method: of locating corners, one of ``detection.METHODS``.
         pattern: of the board; its unknown properties are inferred from the whole set.
@@ -114,10 +117,13 @@ def find_views(
     """
     rois = rois or {}
     waiting = [View(str(path), roi=rois.get(path)) for path in images]
-    views, size = share_frame(waiting, size, orientation)
-    unsearched = tuple(views)
+    views, usual_size = share_frame(waiting, size, orientation)
+    unsearched = list(views)
+    searches = 0
 
-    def search(which: Sequence[int], grid_size: GridSize | None, before: int = 0) -> None:
+    def search(which: Sequence[int], grid_size: GridSize | None) -> None:
+        nonlocal searches
+        total = searches + len(which)
         items = [unsearched[k] for k in which]
         results = map_in_processes(
             partial(
@@ -128,13 +134,34 @@ def find_views(
             preparing,
             prepare_finder,
         )
-        for done, (i, view) in enumerate(results, start=before + 1):
+        for i, view in results:
+            searches += 1
             views[which[i]] = _record_crash(items[i]) if isinstance(view, Crashed) else view
             if progress is not None:
-                progress(done, before + len(which), views[which[i]])
+                progress(searches, total, views[which[i]])
 
-    readable = [k for k, view in enumerate(views) if view.status is ViewStatus.WAITING]
-    search(readable, grid_size)
+    def search_instead(others: Mapping[int, View]) -> None:
+        """Take other views of some images, turned otherwise or refused, and search them."""
+        for k, view in others.items():
+            views[k] = unsearched[k] = view
+        search([k for k, view in others.items() if view.status is ViewStatus.WAITING], grid_size)
+
+    search([k for k, view in enumerate(views) if view.status is ViewStatus.WAITING], grid_size)
+    if size is None and usual_size is not None:
+        shown = _count_found(views)
+        rivals = [each for each in list_other_frames(waiting, views) if len(each[1]) > shown]
+        search_instead({k: view for _, frame in rivals for k, view in frame.items()})
+        size = _choose_size(views, usual_size, rivals)
+        if rivals and _count_found(views):
+            chosen, _ = share_frame(waiting, size, orientation)
+            search_instead(
+                {
+                    k: view
+                    for k, view in enumerate(chosen)
+                    if view.status is not ViewStatus.WAITING
+                    or view.orientation != unsearched[k].orientation
+                }
+            )
     seen = None if grid_size else infer_grid_size(views)
     shared = None if grid_size or seen else _find_shared_part(views)
     if (inferred := seen or shared) is not None:
@@ -142,7 +169,7 @@ def find_views(
         again = [
             k for k, view in enumerate(views) if _is_worth_searching_again(view, inferred, pattern)
         ]
-        search(again, inferred, before=len(readable))
+        search(again, inferred)
     pattern = infer_pattern(views, pattern)
     if pattern.identifies_points and any(view.corners is not None for view in views):
         read_mirrored = partial(
@@ -172,6 +199,25 @@ def search_view(
     said = [view.note, *(each for each in (doubt, corners.remark) if each not in view.note)]
     note = " ".join(filter(None, said))
     return replace(view, status=ViewStatus.FOUND, reason="", note=note, corners=corners)
+
+
+def _choose_size(
+    views: Sequence[View], usual: Size, rivals: Sequence[tuple[Size, Mapping[int, View]]]
+) -> Size:
+    """Return the size of most images that show the board; of equals, that of most images.
+
+    Args:
+        views: what was found.
+        usual: the most frequent size of the images.
+        rivals: other sizes, with the views of each by their indices.
+    """
+    shown = {size: _count_found(views[k] for k in frame) for size, frame in rivals}
+    shown = {usual: _count_found(views) - sum(shown.values()), **shown}
+    return max(shown, key=shown.__getitem__)
+
+
+def _count_found(views: Iterable[View]) -> int:
+    return sum(view.status is ViewStatus.FOUND for view in views)
 
 
 def _name_mirrored(

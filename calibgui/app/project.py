@@ -93,6 +93,13 @@ class Project:
             return None
         return explain_unknown_size(self.views, self.pattern)
 
+    @property
+    def size_of_boards(self) -> Size | None:
+        """Width and height of the images that show the board, px; None while none does, so that
+        images of another size may turn out to be those that are meant."""
+        is_seen = any(view.status is ViewStatus.FOUND for view in self.views)
+        return self.size if is_seen else None
+
     @cached_property
     def usable(self) -> tuple[View, ...]:
         """Views that a calibration would use."""

@@ -144,8 +144,10 @@ def redetect_view(view: View, calibration: Calibration, grid_size: GridSize) -> 
     """
     before = view.corners
     try:
-        pixels = read_image(view.image, view.orientation).pixels
-        corners = redetection.redetect_corners(pixels, calibration, grid_size, before)
+        image = read_image(view.image, view.orientation)
+        if image.size != calibration.camera.size:  # searched while the camera's was not known
+            return view
+        corners = redetection.redetect_corners(image.pixels, calibration, grid_size, before)
     except CalibrationError:
         return view
     if before is None:

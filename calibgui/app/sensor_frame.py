@@ -10,7 +10,7 @@ been turned by the program that wrote it, and are left as they are.
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 
 from calibgui.dataset import View, ViewStatus
@@ -62,6 +62,28 @@ def share_frame(
     return result, size
 
 
+def list_other_frames(
+    views: Sequence[View], shared: Sequence[View]
+) -> Iterator[tuple[Size, dict[int, View]]]:
+    """Yield the other sizes that photographs have, with those of that size, all turned alike.
+
+    Args:
+        views: views to be searched.
+        shared: the same as `share_frame` returned them.
+
+    Yields:
+        The size, and the views of it by their indices; the most frequent size first.
+    """
+    rest = [k for k, view in enumerate(shared) if view.status is ViewStatus.WRONG_SIZE]
+    while rest:
+        turned, size = share_frame([views[k] for k in rest])
+        if size is None:  # the files are gone since their headers were read
+            return
+        pairs = list(zip(rest, turned, strict=True))
+        yield size, {k: view for k, view in pairs if view.status is ViewStatus.WAITING}
+        rest = [k for k, view in pairs if view.status is ViewStatus.WRONG_SIZE]
+
+
 def choose_orientation(header: Header, size: Size | None, usual: int | None) -> int | None:
     """Return the orientation by which an image is turned to its size; None if there is none.
 
@@ -86,7 +108,7 @@ def _describe_wrong_size(size: Size, usual: Size, count: Counter[Size]) -> str:
         usual: those of the camera's images.
         count: number of the images of each size.
     """
-    if 0 < count[usual] < _MIN_OF_A_SIZE <= len(count):
+    if count[usual] and max(count.values()) < _MIN_OF_A_SIZE <= len(count):
         return (
             f"The images have {len(count)} different sizes, as if they were cropped or resized one "
             "by one: take the files as the camera wrote them."

@@ -93,6 +93,42 @@ def test_sixteen_bits_give_the_same_corners(found: Detection) -> None:
     np.testing.assert_allclose(fine.uv, coarse.uv, atol=1e-3)
 
 
+def test_the_size_is_that_of_the_photographs_that_show_the_board(
+    photographs: Path, tmp_path: Path
+) -> None:
+    """Those of another size are more: depth maps, and some photographs of another camera."""
+    for k in (1, 2, 3):
+        shutil.copy(photographs / f"view{k}.png", tmp_path)
+    for k in (4, 5):
+        larger = np.kron(read_image(photographs / f"view{k}.png").pixels, np.ones((2, 2), np.uint8))
+        write_image(tmp_path / f"larger{k}.png", larger)
+    for k in range(4):
+        write_image(tmp_path / f"depth{k}.png", np.full((480, 640), 128, np.uint8))
+    told: list[tuple[int, int]] = []
+    with workers.do_tasks_here():
+        found = find_views(
+            find_images([str(tmp_path)]), progress=lambda done, total, _: told.append((done, total))
+        )
+    assert found.size == CAMERA.size
+    assert told[:9] == [*((k, 6) for k in range(1, 7)), *((k, 9) for k in range(7, 10))]
+    for view in found.views:
+        if view.name.startswith("view"):
+            assert view.status is ViewStatus.FOUND
+        else:
+            assert view.status is ViewStatus.WRONG_SIZE and view.corners is None
+            assert view.reason.startswith("640 x 480 pixels, others have 320 x 240.")
+
+
+def test_where_no_image_shows_the_board_the_most_frequent_size_counts(tmp_path: Path) -> None:
+    """All of them are searched: another board may be in any."""
+    for k, width in enumerate((64, 80, 80)):
+        write_image(tmp_path / f"{k}.png", np.full((60, width), 128, np.uint8))
+    with workers.do_tasks_here():
+        found = find_views(find_images([str(tmp_path)]))
+    assert found.size == (80, 60)
+    assert [view.status for view in found.views] == [ViewStatus.NO_BOARD] * 3
+
+
 def test_progress_counts_every_search(photographs: Path) -> None:
     told: list[tuple[int, int, str]] = []
     images = find_images([str(photographs)])

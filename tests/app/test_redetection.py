@@ -61,6 +61,17 @@ def test_gains_the_view_and_calibrates_from_it(damaged: CornerSet) -> None:
     assert not {tuple(place) for place in gained.corners.grid.tolist()} & set(HIDDEN)
 
 
+def test_an_image_of_another_size_is_not_searched(damaged: CornerSet, tmp_path: Path) -> None:
+    """Images without a board may have it: none of them tells the camera's."""
+    result = calibrate_views(damaged)
+    pixels = read_image(damaged.views[2].image).pixels
+    view = View(str(tmp_path / "cropped.png"), ViewStatus.NO_BOARD)
+    write_image(view.image, pixels[:-2])
+    assert redetect_view(view, result.calibration, SHAPE) is view
+    write_image(view.image, pixels)
+    assert redetect_view(view, result.calibration, SHAPE).status is ViewStatus.FOUND
+
+
 def test_missed_corners_are_gained_and_noted(damaged: CornerSet) -> None:
     whole = damaged.views[2]
     found = whole.corners

@@ -99,6 +99,24 @@ def test_most_photographs_decide(tmp_path: Path) -> None:
     assert [bool(view.note) for view in shared] == [False, False, False, True]
 
 
+def test_photographs_are_turned_alike_where_images_of_another_size_are_more(
+    photographs: Path, tmp_path: Path
+) -> None:
+    """What a camera takes, held upright or level, is of one size."""
+    for k in range(3):
+        write(tmp_path, f"depth{k}.png", (40, 30), UPRIGHT, "")
+    for k, orientation in ((1, PORTRAIT), (2, UPRIGHT)):
+        exif = Pillow.Exif()
+        exif[0x0112], exif[0x010F] = orientation, "Maker"
+        Pillow.open(photographs / f"view{k}.png").save(tmp_path / f"view{k}.png", exif=exif)
+    write(tmp_path, "other.png", (50, 30), UPRIGHT, "")
+    found = find_views(find_images([str(tmp_path)]), BOARD.grid_size)
+    views = {view.name: view for view in found.views}
+    assert {views[f"view{k}.png"].status for k in (1, 2)} == {ViewStatus.FOUND}
+    assert len({views[f"view{k}.png"].orientation for k in (1, 2)}) == 1
+    assert views["depth0.png"].reason.startswith("40 x 30 pixels, others have ")
+
+
 def test_photographs_that_come_later_are_turned_like_those_before(tmp_path: Path) -> None:
     later = [write(tmp_path, f"{k}.jpg", (40, 30), UPSIDE_DOWN, "M") for k in range(3)]
     shared, _ = share_frame(later, (40, 30), UPRIGHT)

@@ -183,7 +183,7 @@ class Marker(QObject):
         corners, points = tool.preview, np.array(tool.points)
         image = self._session.images.read(self._image)
         size = image.size
-        others = self._session.project.size
+        others = self._session.project.size_of_boards
         if others is not None and others != size:
             self._session.failed.emit(
                 CalibrationError(

@@ -92,7 +92,7 @@ class Detector(QObject):
                 rois,
                 progress,
                 job.cancelling,
-                project.size,
+                project.size_of_boards,
                 orientation=find_orientation(project.views),
                 method=project.method,
                 pattern=pattern,
@@ -178,8 +178,18 @@ class Detector(QObject):
             self._session.notified.emit(detection.remark)
         if detection.size is not None:
             self._session.document.learn(
-                lambda p: replace(p, size=detection.size) if p.views and p.size is None else p
+                lambda p: replace(p, size=detection.size) if self._is_size_open(p) else p
             )
+
+    def _is_size_open(self, project: Project) -> bool:
+        """Return whether the batch decides on the images' size: all boards are known from it."""
+        if project.size is None:
+            return bool(project.views)
+        batch = self._found_in_batch
+        found = [view for view in project.views if view.status is ViewStatus.FOUND]
+        return bool(found) and all(
+            view.image in batch and view.corners is batch[view.image] for view in found
+        )
 
     def _fail(self, error: Exception) -> None:
         """Report it, and do not try again: it would fail in the same way."""

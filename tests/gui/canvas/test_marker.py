@@ -165,15 +165,17 @@ def test_a_photograph_that_was_held_otherwise_is_marked_in_the_frame_of_the_othe
 def test_an_image_of_another_size_is_not_marked(window: MainWindow, qtbot: QtBot) -> None:
     path = find_resource("sample") / "view01.png"
     hand, page = Hand(window, qtbot), window.page
-    window.session.begin(Document(Project(views=(View(str(path)),), size=(800, 600), by_hand=True)))
+    corners = find_corners(read_image(path).grey)
+    views = View(str(path)), View("other.png", ViewStatus.FOUND, corners=corners)
+    window.session.begin(Document(Project(views=views, size=(800, 600), by_hand=True)))
     hand.choose_image(path.name)
     page.tools[0].trigger()
-    for point in outermost(find_corners(read_image(path).grey)):
+    for point in outermost(corners):
         hand.click(point)
     hand.wait(page.marker.roi_bar.accept.isEnabled)
     hand.key(Qt.Key.Key_Return)
     assert "640 × 480 pixels, the others 800 × 600" in window.banner.text.text()
-    assert not window.session.project.usable
+    assert not window.session.project.views[0].usable
     page.marker.leave()
 
 

@@ -41,6 +41,8 @@ class Search:
         self.asked: list[list[str]] = []
         self.methods: list[str] = []
         self.grid_sizes: list[tuple[int, int] | None] = []
+        self.sizes: list[tuple[int, int] | None] = []
+        self.size = 200, 150
         self.findings: queue.SimpleQueue[View | None] = queue.SimpleQueue()
 
     def __call__(
@@ -50,14 +52,15 @@ class Search:
         __: Any,
         progress: Any,
         stop: Event,
-        ___: Any,
+        size: tuple[int, int] | None,
         method: str,
         preparing: Any = None,
-        **____: Any,
+        **___: Any,
     ) -> Detection:
         self.preparing = preparing
         self.methods.append(method)
         self.grid_sizes.append(grid_size)
+        self.sizes.append(size)
         self.asked.append([image.name for image in images])
         found: dict[str, View] = {}
         while (view := self.findings.get()) is not None:
@@ -65,7 +68,7 @@ class Search:
             progress(len(found), len(images), view)
         if stop.is_set():
             raise Cancelled
-        return Detection(tuple(found.values()), (200, 150), None)
+        return Detection(tuple(found.values()), self.size, None)
 
 
 @pytest.fixture
@@ -173,6 +176,29 @@ def test_images_added_during_a_search_are_searched_after_it(
         pass
     assert search.asked == [["0.png", "1.png", "2.png"], ["late.png"]]
     assert status(session)[3] is ViewStatus.NO_BOARD
+
+
+def test_images_without_a_board_do_not_decide_the_size(
+    qtbot: QtBot, session: Session, search: Search, tmp_path: Path
+) -> None:
+    detector, views = begun(session, tmp_path)
+    depth_maps = [View(view.image, ViewStatus.NO_BOARD, "No board.") for view in views]
+    for view in (*depth_maps, None):
+        search.findings.put(view)
+    with qtbot.waitSignal(detector.finished):
+        pass
+    assert session.project.size == search.size
+    for size, later in (((640, 480), "first"), ((320, 240), "second")):
+        search.size = size
+        shown = replace(views[0], image=str(tmp_path / f"{later}.png"))
+        session.edit("Add", lambda p, image=shown.image: add_images(p, [image]))
+        detector.search()
+        for answer in (shown, None):
+            search.findings.put(answer)
+        with qtbot.waitSignal(detector.finished):
+            pass
+        assert session.project.size == (640, 480), "that of the first image with a board"
+    assert search.sizes == [None, None, (640, 480)]
 
 
 def test_a_cancelled_search_leaves_images_waiting_and_calibrates_nothing(
