@@ -23,6 +23,7 @@ from calibgui.dataset import CornerSet
 from calibgui.engine.errors import CalibrationError
 from calibgui.formats.corners_json import read_corners
 from calibgui.report.boards import describe_recognised_board
+from calibgui.report.tables import fill_lines
 
 
 def add_corner_options(parser: argparse.ArgumentParser, need: str) -> None:
@@ -80,7 +81,7 @@ def read_or_search(
     assert side is not None, "a command that has no side of its own checks that one is given"
     corner_set, remarks = search_board(options, console, side)
     for remark in remarks:
-        console.print_text(remark + "\n")
+        console.print_text(fill_lines(remark, "", "  ") + "\n")
     return _exclude_images(corner_set, options.exclude)
 
 

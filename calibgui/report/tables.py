@@ -88,7 +88,7 @@ def _format_briefly(result: Result, verdict: Verdict, remarks: Sequence[str]) ->
             "\n".join([*_format_verdict(result, verdict), *remarks[:count]]),
             list_unused_views(result.views),
             tabulate_camera(result.calibration),
-            _fill_lines(describe_rms(result), "", "  "),
+            fill_lines(describe_rms(result), "", "  "),
         )
         if text.count("\n") < _MAX_LINES:
             break
@@ -107,17 +107,17 @@ def _format_verdict(result: Result, verdict: Verdict) -> Iterator[str]:
     yield (
         f"{headline}."
         if verdict.findings
-        else _fill_lines(f"{headline}. {describe_reason(verdict, result)}", "", "  ")
+        else fill_lines(f"{headline}. {describe_reason(verdict, result)}", "", "  ")
     )
     in_scene = describe_error_in_scene(verdict, result.condition)
-    yield _fill_lines("; ".join(filter(None, [describe_error(verdict), in_scene])) + ".", "", "  ")
+    yield fill_lines("; ".join(filter(None, [describe_error(verdict), in_scene])) + ".", "", "  ")
     for finding in verdict.findings:
         yield format_bullet(f"{finding.message} {finding.evidence}")
         options = describe_options(finding.action, result) if finding.action is not None else ""
         advice = options[:1].upper() + options[1:] or finding.remedy
         if options and finding.cause is Cause.MIXED_VIEWS:  # those left out have a camera, too
             advice = f"{finding.remedy} Or {options}"
-        yield _fill_lines(f"{advice}{_describe_gain(finding)}", "  > ", "    ")
+        yield fill_lines(f"{advice}{_describe_gain(finding)}", "  > ", "    ")
 
 
 def _describe_gain(finding: Finding) -> str:
@@ -203,7 +203,7 @@ def list_unused_views(all_views: Iterable[View]) -> str:
             named = reason.startswith(view.image)
             names.setdefault(reason, []).extend([] if named else [view.name])
     lines = [
-        _fill_lines(_join_names(images) + make_printable(reason), "  ", "    ")
+        fill_lines(_join_names(images) + make_printable(reason), "  ", "    ")
         for reason, images in names.items()
     ]
     return "\n".join(["Left out", *lines]) if lines else ""
@@ -402,10 +402,10 @@ def _format_decimals(value: float, decimals: int) -> str:
 
 def format_bullet(text: str) -> str:
     """Format a remark in lines of at most `WIDTH_CHARACTERS`."""
-    return _fill_lines(text, "- ", "  ")
+    return fill_lines(text, "- ", "  ")
 
 
-def _fill_lines(text: str, first: str, others: str) -> str:
+def fill_lines(text: str, first: str, others: str) -> str:
     """Fill lines that begin with `first` and `others`; a path longer than a line stays whole."""
     return textwrap.fill(
         text,
