@@ -98,7 +98,7 @@ def _describe_in_detail(result: Result, findings: Sequence[Finding]) -> Iterator
     if lost := describe_lost_images(result):
         yield Sentence(Tone.CAUTION, lost)
     yield from _describe_diagnosis(result)
-    yield from _describe_ending(result)
+    yield from _describe_ending(result, findings)
     if result.condition:
         yield Sentence(Tone.FACT, f"All lengths hold {result.condition}: nobody has confirmed it.")
     yield from _describe_findings(findings)
@@ -151,7 +151,7 @@ def _describe_diagnosis(result: Result) -> Iterator[Sentence]:
         )
 
 
-def _describe_ending(result: Result) -> Iterator[Sentence]:
+def _describe_ending(result: Result, findings: Sequence[Finding]) -> Iterator[Sentence]:
     """Describe how the solve ended, where it did not converge, and its warnings."""
     calibration = result.calibration
     if calibration.status is Status.STOPPED:
@@ -161,10 +161,10 @@ def _describe_ending(result: Result) -> Iterator[Sentence]:
             "Calibrate again for final ones.",
         )
     elif calibration.status is Status.MAX_ITERATIONS:
-        yield Sentence(
-            Tone.CAUTION,
-            "The solve used up its iterations without converging. Allow more of them, or hold "
-            "the parameters that the views do not determine.",
+        yield _state_fault(
+            findings,
+            "The solve used up its iterations without converging.",
+            "Allow more of them, or hold the parameters that the views do not determine.",
         )
     for warning in calibration.warnings:
         is_choice = warning == calibration.settings.get("model_reason")
@@ -242,10 +242,17 @@ def describe_board_shape_error(rms: float) -> str:
     )
 
 
-def _advises_board_shape(findings: Sequence[Finding]) -> bool:
-    """Return whether estimating the board's shape makes the camera better, as a trial showed."""
-    actions = [finding.action for finding in findings if finding.action is not None]
-    return any(action.kind is ActionKind.ESTIMATE_BOARD_SHAPE for action in actions)
+def _advises(findings: Sequence[Finding], kind: ActionKind) -> bool:
+    """Return whether an action of that kind is advised."""
+    return any(finding.action is not None and finding.action.kind is kind for finding in findings)
+
+
+def _state_fault(findings: Sequence[Finding], fault: str, remedy: str) -> Sentence:
+    """Return a caution with its remedy, or the mere fact where another lens model is advised: one
+    that is to be given up need not be mended, and with another the fault may be gone."""
+    if _advises(findings, ActionKind.CHOOSE_LENS_MODEL):
+        return Sentence(Tone.FACT, fault)
+    return Sentence(Tone.CAUTION, f"{fault} {remedy}")
 
 
 def describe_view_scatter(scatter: float) -> str:
@@ -281,7 +288,7 @@ def _describe_board(result: Result, findings: Sequence[Finding]) -> Iterator[Sen
         matters = any(finding.cause is Cause.BOARD_SHAPE for finding in findings)
         tone = Tone.CAUTION if matters else Tone.FACT
         text = describe_board_shape_error(error)
-        if _advises_board_shape(findings):
+        if _advises(findings, ActionKind.ESTIMATE_BOARD_SHAPE):
             text += " Estimate the board's shape to remove it."
         yield Sentence(tone, text, Cause.BOARD_SHAPE)
     if board_shape is not None:
@@ -328,9 +335,9 @@ def _describe_parameters(result: Result, findings: Sequence[Finding]) -> Iterato
 
     left_open = any(finding.cause is Cause.UNDETERMINED for finding in findings)
     for lacking in () if left_open else calibration.undetermined:
-        yield Sentence(
-            Tone.CAUTION,
-            f"{lacking.name} is not determined by these views: {lacking.reason}. "
+        yield _state_fault(
+            findings,
+            f"{lacking.name} is not determined by these views: {lacking.reason}.",
             "Hold it, or add views that differ more from each other.",
         )
     lengths = [n for n in names[:4] if n in free and n not in missing]
@@ -340,14 +347,12 @@ def _describe_parameters(result: Result, findings: Sequence[Finding]) -> Iterato
         else:
             yield Sentence(Tone.GOOD, f"Well determined: {listed(good)} px.")
     if poor := [n for n in lengths if relative[n] > _MIN_POOR_RELATIVE_SIGMA]:
-        yield Sentence(
-            Tone.CAUTION,
-            f"Badly determined: {listed(poor)} px. "
-            + (
-                "Estimate the board's shape."
-                if _advises_board_shape(findings)
-                else "Add views with the board tilted by 30 to 45 degrees in different directions."
-            ),
+        yield _state_fault(
+            findings,
+            f"Badly determined: {listed(poor)} px.",
+            "Estimate the board's shape."
+            if _advises(findings, ActionKind.ESTIMATE_BOARD_SHAPE)
+            else "Add views with the board tilted by 30 to 45 degrees in different directions.",
         )
     coefficients = [n for n in names[4:] if n in free and n not in missing]
     away = np.abs(camera.params) / np.where(sigma > 0, sigma, np.inf)
@@ -357,7 +362,7 @@ def _describe_parameters(result: Result, findings: Sequence[Finding]) -> Iterato
             f"Not told from zero: {listed(vague)}. They may be held at 0; to measure them, "
             + (
                 "estimate the board's shape."
-                if _advises_board_shape(findings)
+                if _advises(findings, ActionKind.ESTIMATE_BOARD_SHAPE)
                 else "bring corners closer to the image's edges."
             ),
         )
@@ -388,10 +393,11 @@ def _describe_outlying_views(result: Result, findings: Sequence[Finding]) -> Ite
         if k in named:
             continue
         name = shorten_name(result.used[k].image)
-        yield Sentence(
-            Tone.CAUTION,
-            f"{name} fits much worse than the others ({result.calibration.residuals[k].rms:.3f} "
-            "px): look at its corners, or exclude it.",
+        rms = result.calibration.residuals[k].rms
+        yield _state_fault(
+            findings,
+            f"{name} fits much worse than the others ({rms:.3f} px).",
+            "Look at its corners, or exclude it.",
         )
 
 

@@ -15,7 +15,7 @@ from calibgui.dataset import Result, View, ViewStatus
 from calibgui.engine.assessment.error_sources import ErrorSources
 from calibgui.engine.boards.shape import BoardShape, BoardShapeModel
 from calibgui.engine.calibration.observations import Observation
-from calibgui.engine.calibration.result import Status
+from calibgui.engine.calibration.result import Status, Undetermined
 from calibgui.engine.geometry.pose import Pose
 from calibgui.report.summary import (
     Tone,
@@ -113,6 +113,19 @@ def test_a_fisheye_is_told_from_a_board_that_is_off(data_dir: Path) -> None:
     assert "does not follow" not in texts(fisheye, Tone.CAUTION)
     assert "not flat" in texts(fisheye, Tone.CAUTION)
     assert "the board adds 0.43 px" in texts(fisheye, Tone.FACT)
+
+
+def test_what_would_help_a_lens_model_that_is_to_be_given_up_is_not_advised(good: Result) -> None:
+    lacking = Undetermined("cx", "the views leave it open")
+    for result, tone in ((good, Tone.CAUTION), (solved(everywhere(), model="pinhole"), Tone.FACT)):
+        unfinished = replace(
+            result.calibration, status=Status.MAX_ITERATIONS, undetermined=(lacking,)
+        )
+        told = texts(replace(result, calibration=unfinished), tone)
+        is_advised = tone is Tone.CAUTION
+        assert "used up its iterations" in told and "cx is not determined" in told
+        assert ("Allow more of them" in told) is is_advised
+        assert ("Hold it, or add views" in told) is is_advised
 
 
 def test_an_unfinished_solve_is_not_taken_apart(good: Result) -> None:
