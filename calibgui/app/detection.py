@@ -330,5 +330,5 @@ def _is_worth_searching_again(view: View, grid_size: GridSize, pattern: Pattern)
 
 
 def _record_crash(view: View) -> View:
-    reason = "Searching it ended the process that did. Leave it out."
+    reason = "The process that searched it died. Search it again, or leave it out."
     return view.refuse(ViewStatus.UNREADABLE, reason)

@@ -75,7 +75,7 @@ def calibrate_twice(
     if settings.once or is_final:
         return result
     more, sentences = redetect_views(corner_set, result, stop) if search else (corner_set, ())
-    if sentences:
+    if more is not corner_set:
         result = calibrate_views(more, settings, report, progress)
     labelled = relabel_views(result)
     if have_same_labels(labelled, result.views):
@@ -100,10 +100,11 @@ def redetect_views(
         stop: an event that abandons the search when it is set.
 
     Returns:
-        The corners with those that were gained, and a sentence that names the gain; the same set
-        and no sentence if nothing was gained.
+        The corners with those that were gained, the same set if none were, and sentences that name
+        the gain and the images whose search broke off.
 
     Raises:
+        CalibrationError: if a process that searches could not be started.
         Cancelled: if `stop` was set.
     """
     calibration, board = result.calibration, corner_set.board
@@ -117,18 +118,22 @@ def redetect_views(
     ]
     views = list(corner_set.views)
     task = partial(redetect_view, calibration=calibration, grid_size=(board.rows, board.cols))
-    changed = []
+    changed, lost = [], []
     for i, view in _process_views(task, [views[k] for k in chosen], stop):
+        if isinstance(view, Crashed):
+            lost.append(views[chosen[i]])
+            continue
         # Views that come back from other processes are never the objects that were sent.
         if not _have_same_corners(view, views[chosen[i]]):
             views[chosen[i]] = view
             changed.append(chosen[i])
+    sentences = (_describe_loss(lost),) if lost else ()
     if not changed:
-        return corner_set, ()
+        return corner_set, sentences
     changed.sort()
     before = [corner_set.views[k] for k in changed]
-    sentence = _describe_gain(before, [views[k] for k in changed])
-    return replace(corner_set, views=tuple(views)), (sentence,)
+    gain = _describe_gain(before, [views[k] for k in changed])
+    return replace(corner_set, views=tuple(views)), (gain, *sentences)
 
 
 def redetect_view(view: View, calibration: Calibration, grid_size: GridSize) -> View:
@@ -190,15 +195,13 @@ def _have_same_corners(a: View, b: View) -> bool:
 
 def _process_views(
     task: partial[View], items: Sequence[View], stop: Event | None
-) -> Iterator[tuple[int, View]]:
+) -> Iterator[tuple[int, View | Crashed]]:
     """Apply a task to views, in other processes if they are many; yield index and result."""
     if len(items) <= _MAX_SERIAL_IMAGES:
         for i, item in enumerate(items):
             yield i, task(item)
         return
-    for i, view in map_in_processes(task, items, stop):
-        if not isinstance(view, Crashed):
-            yield i, view
+    yield from map_in_processes(task, items, stop)
 
 
 def _describe_changes(before: Corners, after: Corners) -> Iterator[str]:
@@ -235,3 +238,11 @@ def _describe_gain(before: Sequence[View], after: Sequence[View]) -> str:
     if found:
         text += f", {', '.join(shorten_names(found))} for the first time"
     return text + "."
+
+
+def _describe_loss(lost: Sequence[View]) -> str:
+    """Say in a sentence which images were not searched again, as the process that did died."""
+    return (
+        f"Searching {', '.join(shorten_names(lost))} again with the camera known broke off: what "
+        "was found there before counts. Calibrate again to try it once more."
+    )

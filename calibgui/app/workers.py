@@ -28,7 +28,7 @@ from threading import Event
 from typing import Any, TypeVar, cast
 
 from calibgui.engine import opencv
-from calibgui.engine.errors import Cancelled
+from calibgui.engine.errors import CalibrationError, Cancelled
 from calibgui.engine.kernels import NumbaWarning, when_compiling
 from calibgui.engine.threads import limit_blas_threads
 
@@ -90,6 +90,7 @@ def map_in_processes(
 
     Raises:
         Cancelled: if `stop` was set.
+        CalibrationError: if a process could not be started.
         Exception: any that `task` raised, with the traceback in the worker as a note.
     """
     waiting = list(enumerate(items))[::-1]
@@ -102,14 +103,15 @@ def map_in_processes(
     if is_serial:
         yield from _do_here(task, items, stop)
         return
-    team = [
-        _start_worker(task, None if k else prepare)
-        for k in range(min(len(items), count or os.cpu_count() or 1))
-    ]
-    # The index of the item that each worker is busy with; None until it has started.
-    busy: dict[Connection, int | None] = {connection: None for connection, _ in team}
+    team: list[tuple[Connection, BaseProcess]] = []
     is_prepared = prepare is None
     try:
+        team.extend(
+            _start_worker(task, None if k else prepare)
+            for k in range(min(len(items), count or os.cpu_count() or 1))
+        )
+        # The index of the item that each worker is busy with; None until it has started.
+        busy: dict[Connection, int | None] = {connection: None for connection, _ in team}
         while busy:
             # The others' messages wait until the first worker has prepared what all of them load.
             heard = list(busy) if is_prepared else [team[0][0]]
@@ -126,7 +128,7 @@ def map_in_processes(
                         preparing = None
                     continue
                 if lost and index is None:
-                    raise RuntimeError("A worker process could not be started.")
+                    raise _explain_failed_start()
                 if prepare is not None:
                     _prepared.add(prepare)
                     is_prepared = True
@@ -178,7 +180,7 @@ def _start_worker(
     task: Callable[[Any], Any], prepare: Callable[[], None] | None = None
 ) -> tuple[Connection, BaseProcess]:
     """Start a worker, which calls `prepare` first; return it with the connection for items and
-    results."""
+    results. Raises CalibrationError if the system starts no process."""
     forks = _can_fork()
     context: Any = multiprocessing.get_context("fork" if forks else "spawn")
     ours, theirs = context.Pipe()
@@ -190,20 +192,37 @@ def _start_worker(
         with opencv.single_thread(), _block_interrupts(), warnings.catch_warnings():
             # Python counts the threads of BLAS, which stops them itself before a fork.
             warnings.filterwarnings("ignore", ".*multi-threaded.*fork", DeprecationWarning)
-            process.start()
+            _start_process(process)
     else:
         resource_tracker.ensure_running()  # it unblocks interrupts, and would be started within
         with _block_interrupts():
-            process.start()
+            _start_process(process)
     theirs.close()
     return ours, process
+
+
+def _start_process(process: BaseProcess) -> None:
+    """Start a process. Raises CalibrationError if the system refuses, or if it ended at once."""
+    try:
+        process.start()
+    except OSError as error:
+        raise _explain_failed_start() from error
+
+
+def _explain_failed_start() -> CalibrationError:
+    """Return the error that a worker could not be started; why stands on its standard error."""
+    return CalibrationError(
+        "A process that should do part of the work ended before it could begin.",
+        "Try again. If that does not help, close other programs, as memory may be short, and start "
+        "this program anew, as its files may have changed while it ran.",
+    )
 
 
 def _receive_result(connection: Connection) -> tuple[Any, bool]:
     """Return a message of a worker, and whether it has died. Raises an exception of its task."""
     try:
         error, result = connection.recv()
-    except (EOFError, ConnectionError):
+    except (EOFError, OSError):  # it died before a message, or within one
         return Crashed(), True
     if error is not None:
         raise error

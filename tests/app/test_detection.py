@@ -222,6 +222,9 @@ def test_a_crash_is_the_images_own(photographs: Path, monkeypatch: pytest.Monkey
     monkeypatch.setattr(detection, "map_in_processes", spread)
     found = find_views(find_images([str(photographs)]))
     assert {view.status for view in found.views} == {ViewStatus.UNREADABLE}
+    assert {view.reason for view in found.views} == {
+        "The process that searched it died. Search it again, or leave it out."
+    }
     assert found.grid_size is None
 
 

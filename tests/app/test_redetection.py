@@ -14,6 +14,7 @@ from calibgui.app.calibration import ChosenLens, calibrate_views
 from calibgui.app.detection import find_views
 from calibgui.app.redetection import calibrate_twice, redetect_view, redetect_views
 from calibgui.app.settings import Settings
+from calibgui.app.workers import Crashed
 from calibgui.dataset import CornerSet, Result, View, ViewStatus
 from calibgui.engine.boards.board import Board
 from calibgui.engine.boards.shape import BoardShapeModel
@@ -125,6 +126,20 @@ def test_what_other_processes_return_unchanged_is_no_gain(
 
     monkeypatch.setattr("calibgui.app.redetection._process_views", copy_views)
     assert redetect_views(damaged, calibrate_views(damaged)) == (damaged, ())
+
+
+def test_a_search_that_breaks_off_is_said_with_the_result(
+    damaged: CornerSet, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def lose_views(_: object, items: list[View], __: object) -> Iterator[tuple[int, Crashed]]:
+        yield from ((k, Crashed()) for k in range(len(items)))
+
+    monkeypatch.setattr("calibgui.app.redetection._process_views", lose_views)
+    result = calibrate_twice(damaged)
+    (said,) = [w for w in result.calibration.warnings if "broke off" in w]
+    assert damaged.views[0].name in said and "Calibrate again" in said
+    once = calibrate_views(damaged).calibration.camera.params
+    np.testing.assert_array_equal(result.calibration.camera.params, once)
 
 
 def test_an_image_that_is_gone_stays_as_it_was(damaged: CornerSet, tmp_path: Path) -> None:

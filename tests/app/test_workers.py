@@ -9,6 +9,7 @@ import subprocess
 import sys
 import time
 from functools import partial
+from multiprocessing.process import BaseProcess
 from pathlib import Path
 from threading import Event
 from types import ModuleType
@@ -18,7 +19,7 @@ import pytest
 
 from calibgui.app import workers
 from calibgui.app.workers import Crashed, map_in_processes
-from calibgui.engine.errors import Cancelled
+from calibgui.engine.errors import CalibrationError, Cancelled
 
 
 @pytest.fixture(params=["forked", "spawned"], autouse=True)
@@ -124,9 +125,53 @@ def test_workers_that_cannot_start_are_an_error(monkeypatch: pytest.MonkeyPatch)
     only_here = ModuleType("only_here")
     exec("def task(item):\n    return item\n", only_here.__dict__)
     monkeypatch.setitem(sys.modules, "only_here", only_here)
-    with pytest.raises(RuntimeError, match="could not be started"):
+    with pytest.raises(CalibrationError, match="ended before it could begin") as caught:
         list(map_in_processes(only_here.task, [1, 2, 3]))
+    assert "start this program anew" in caught.value.hint
     assert not multiprocessing.active_children()
+
+
+def test_a_preparation_that_fails_is_an_error_too(monkeypatch: pytest.MonkeyPatch) -> None:
+    if workers._can_fork():
+        pytest.skip("this process prepares itself")
+    monkeypatch.setattr(workers, "_prepared", set())
+    with pytest.raises(CalibrationError, match="ended before it could begin"):
+        list(map_in_processes(abs, [1, 2, 3], prepare=_break))
+    assert not multiprocessing.active_children()
+
+
+def _break() -> None:
+    raise ImportError("by design")
+
+
+def test_processes_that_the_system_refuses_are_an_error(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The first is started, and ends with the error about the second."""
+    start, begun = BaseProcess.start, []
+
+    def start_one(process: BaseProcess) -> None:
+        if begun:
+            raise BlockingIOError("Resource temporarily unavailable")
+        begun.append(process)
+        start(process)
+
+    monkeypatch.setattr(BaseProcess, "start", start_one)
+    with pytest.raises(CalibrationError, match="ended before it could begin"):
+        list(map_in_processes(abs, [1, 2, 3], count=2))
+    assert begun and not multiprocessing.active_children()
+
+
+def test_a_process_that_dies_within_its_answer_costs_its_item_only() -> None:
+    answers = dict(map_in_processes(eval, [_HALF_AN_ANSWER, "2"], count=1))
+    assert isinstance(answers[0], Crashed) and answers[1] == 2
+
+
+_HALF_AN_ANSWER = (
+    "[__import__('os').write(c.fileno(), b'\\0\\0\\0\\x64half') "
+    "for c in __import__('gc').get_objects() "
+    "if type(c) is __import__('multiprocessing.connection').connection.Connection "
+    "and not c.closed and c.writable] and __import__('os')._exit(3)"
+)
+"""Writes the length of a message and its beginning to the parent, and dies."""
 
 
 @pytest.mark.skipif(not hasattr(signal, "pthread_sigmask"), reason="needs POSIX signals")

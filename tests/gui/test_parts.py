@@ -286,11 +286,30 @@ def test_a_bug_that_comes_again_is_shown_once(full: MainWindow) -> None:
     assert isinstance(dialog, BugDialog)
     dialog.close()
     fail("second")
-    assert QApplication.activeModalWidget() is None
+    assert QApplication.activeModalWidget() is None and not full.banner.isVisible()
     full.show_failure(ValueError("another"))
     dialog = QApplication.activeModalWidget()
     assert isinstance(dialog, BugDialog)
     dialog.close()
+
+
+def test_work_that_fails_again_is_told_in_the_banner(full: MainWindow, qtbot: QtBot) -> None:
+    """It ends without what the user asked for, and must not do so without a word."""
+
+    def fails(_: object) -> None:
+        raise ImportError("half a file")
+
+    full.session.jobs.start("Failing", fails)
+    qtbot.waitUntil(lambda: isinstance(QApplication.activeModalWidget(), BugDialog))
+    dialog = QApplication.activeModalWidget()
+    assert dialog is not None
+    dialog.close()
+    assert not full.banner.isVisible()
+    full.session.jobs.start("Failing", fails)
+    qtbot.waitUntil(full.banner.isVisible)
+    assert "an error again: half a file." in full.banner.text.text()
+    assert "start the program anew" in full.banner.text.text()
+    assert QApplication.activeModalWidget() is None
 
 
 def test_a_panel_that_fails_leaves_the_others(

@@ -11,7 +11,7 @@ from PySide6.QtCore import QObject, Signal
 
 from calibgui.app.project import Project, find_free_name, record_result
 from calibgui.app.redetection import calibrate_twice
-from calibgui.dataset import CornerSet, Result
+from calibgui.dataset import CornerSet, Result, ViewStatus
 from calibgui.engine.calibration import Iteration, Status
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.kernels import SOLVER_SECONDS, when_compiling
@@ -116,7 +116,8 @@ class Calibrator(QObject):
                     "or turn “Mark all by hand” off."
                 ),
             )
-        if project.views and project.size is None:
+        is_any_readable = any(v.status is not ViewStatus.UNREADABLE for v in project.views)
+        if project.views and (project.size is None or not is_any_readable):
             return CalibrationError(
                 self.tr("None of the photographs can be read."),
                 self.tr("Click on one to see why, or add others."),

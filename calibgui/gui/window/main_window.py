@@ -165,7 +165,7 @@ class MainWindow(QMainWindow):
 
     def _connect(self) -> None:
         self.session.changed.connect(self._refresh)
-        self.session.failed.connect(self.show_failure)
+        self.session.failed.connect(self._show_failed_work)
         self.session.notified.connect(self.banner.show_text)
         Offers(self.session, self.detector, self.calibrator, self.files, self.images, self.banner)
         self.verdict.panel_wanted.connect(lambda name: self.need_analysis().show_panel_named(name))
@@ -262,22 +262,34 @@ class MainWindow(QMainWindow):
             # A frame later, not in the same turn: what has been opened is on screen by then.
             QTimer.singleShot(_FRAME, self, self.need_analysis)
 
-    def show_failure(self, error: BaseException) -> None:
+    def _show_failed_work(self, error: Exception) -> None:
+        """Show why work has ended without a result: also a bug whose dialog was shown before."""
+        if not self.show_failure(error):
+            self.banner.show_error(
+                CalibrationError(
+                    self.tr("The program has met an error again: {0}.").format(error),
+                    self.tr("Save the project, and start the program anew."),
+                )
+            )
+
+    def show_failure(self, error: BaseException) -> bool:
         """Show what cannot be done in the banner, and a bug in a dialog, each bug once.
 
-        One in what is painted would come back as soon as its dialog is closed.
+        One in what is painted would come back as soon as its dialog is closed. Return whether the
+        failure was shown.
         """
         if isinstance(error, CalibrationError):
             self.banner.show_error(error)
-            return
+            return True
         place = type(error), *[frame[:2] for frame in extract_tb(error.__traceback__)[-1:]]
         if place in self._bugs:
-            return
+            return False
         self._bugs.add(place)
         self.files.keep_work()
         from calibgui.gui.dialogs.bug_dialog import BugDialog
 
         show_dialog(BugDialog(error, self))
+        return True
 
     def _refresh(self) -> None:
         document = self.session.document

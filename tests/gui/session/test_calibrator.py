@@ -71,3 +71,15 @@ def test_a_lack_of_views_is_put_down_to_the_images_that_cannot_be_used(
     (error,) = failed.args
     assert f"{len(lost)} of {len(project.views)} images cannot be used" in error.hint
     qtbot.waitUntil(lambda: not session.jobs.running)
+
+
+def test_images_whose_search_died_are_not_put_down_to_the_photographs(
+    qtbot: QtBot, session: Session, tmp_path: Path
+) -> None:
+    project = examples.calibrated(tmp_path)
+    lost = [view.refuse(ViewStatus.UNREADABLE, "The process died.") for view in project.views]
+    session.begin(Document(replace(project, views=tuple(lost))))
+    with qtbot.waitSignal(session.failed) as failed:
+        Calibrator(session, Detector(session)).calibrate()
+    (error,) = failed.args
+    assert str(error).startswith("None of the photographs can be read. Click on one to see why")

@@ -25,7 +25,7 @@ from calibgui.app.project import (
     set_method,
 )
 from calibgui.dataset import View, ViewStatus
-from calibgui.engine.errors import Cancelled
+from calibgui.engine.errors import CalibrationError, Cancelled
 from calibgui.engine.images.reading import write_image
 from calibgui.gui.session import detector as detector_module
 from calibgui.gui.session.calibrator import Calibrator
@@ -331,7 +331,7 @@ def test_a_search_that_cannot_be_made_is_reported_once(
     qtbot: QtBot, session: Session, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
     def broken(*_: Any) -> Detection:
-        raise RuntimeError("A worker process could not be started.")
+        raise CalibrationError("A process could not be started.", "Try again.")
 
     monkeypatch.setattr(detector_module, "find_views", broken)
     failures: list[Exception] = []
