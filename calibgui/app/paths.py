@@ -104,11 +104,11 @@ def count_images_below(folder: Path) -> dict[Path, int]:
     return dict(sorted(counts.items(), key=lambda one: make_natural_key(one[0])))
 
 
-def describe_unread_folders(names: Sequence[str]) -> str:
+def describe_unread_folders(names: Sequence[str], known: Iterable[Path] = ()) -> str:
     """Say which folders with images lie below those that `names` mean, and are not read with them;
-    empty if there are none."""
+    empty if there are none. `known` are images that have been read before."""
     named = [Path(name) for name in names if Path(name).is_dir()]
-    read = {path.parent.resolve() for path in find_images(names)}
+    read = {folder.resolve() for folder in {path.parent for path in (*find_images(names), *known)}}
     unread = {
         below: count
         for folder in named
@@ -119,7 +119,7 @@ def describe_unread_folders(names: Sequence[str]) -> str:
         return ""
     return (
         f"Not read: {_list_counts(unread)}. Of a folder only the images directly in it are read: "
-        "name these folders as well if they are of the same camera and board."
+        "add these folders as well if they are of the same camera and board."
     )
 
 

@@ -205,5 +205,6 @@ def test_folders_that_are_not_read_with_a_named_one_are_said(tmp_path: Path) -> 
     assert f"Not read: {a} (2 images), {b} (1 image). " in said
     assert f"Not read: {a} (2 images). " in describe_unread_folders([whole, b])
     assert describe_unread_folders([whole, a, f"{b}/*.png"]) == ""
+    assert f"Not read: {b} (1 image). " in describe_unread_folders([whole], [Path(a) / "1.png"])
     assert describe_unread_folders([b]) == ""
     assert describe_unread_folders([f"{whole}/*.png"]) == ""

@@ -188,6 +188,39 @@ def test_dropped_and_pasted_paths_become_images(
     assert "does not exist" in window.banner.text.text()
 
 
+def test_folders_below_a_dropped_one_are_said_not_to_be_read(
+    window: MainWindow, qtbot: QtBot, tmp_path: Path
+) -> None:
+    for name in ("1.png", "clip.mp4", "left/1.png", "left/2.png", "right/1.png"):
+        (tmp_path / name).parent.mkdir(exist_ok=True)
+        (tmp_path / name).write_bytes(b"no image")
+    window.session.edit("By hand", lambda project: replace(project, by_hand=True))
+    banner = window.banner
+
+    def drop(*names: str) -> None:
+        data = QMimeData()
+        data.setUrls([QUrl.fromLocalFile(str(tmp_path / name)) for name in names])
+        copy = Qt.DropAction.CopyAction
+        modifier = Qt.KeyboardModifier.NoModifier
+        window.dropEvent(QDropEvent(QPointF(200, 200), copy, data, LEFT, modifier))
+        qtbot.waitUntil(lambda: not window.session.jobs.running)
+
+    drop("right")
+    assert not banner.isVisible(), "nothing lies below it"
+    drop("", "clip.mp4")
+    assert [Path(v.image).parent.name for v in window.session.project.views] == [
+        "right",
+        tmp_path.name,
+    ]
+    refused, unread = banner.text.text().split("\n")
+    assert refused == "Not added, as no image can be read there: clip.mp4."
+    assert unread.startswith(f"Not read: {tmp_path / 'left'} (2 images). Of a folder only")
+    assert unread.endswith("add these folders as well if they are of the same camera and board.")
+    qtbot.mouseClick(banner.dismiss, LEFT)
+    drop("left")
+    assert not banner.isVisible() and len(window.session.project.views) == 4
+
+
 def test_a_selection_of_all_files_is_its_photographs_or_its_project(
     window: MainWindow, qtbot: QtBot, tmp_path: Path
 ) -> None:

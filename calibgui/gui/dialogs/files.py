@@ -13,7 +13,7 @@ from calibgui.app.autosave import get_discarded_folder
 from calibgui.app.document import Document
 from calibgui.app.moved_images import find_moved_images, list_missing_images
 from calibgui.app.output_folder import ForeignFilesError
-from calibgui.app.paths import NoImagesError, choose_images
+from calibgui.app.paths import NoImagesError, choose_images, describe_unread_folders
 from calibgui.app.project import (
     Project,
     add_images,
@@ -102,14 +102,22 @@ class Files(QObject):
         if len(names) == 1 and Path(names[0]).is_dir():
             folder, first = Path(names[0]), str(images[0])
             self._session.jobs.start("", lambda _: remember_project(folder, first))
+        known = [Path(view.image) for view in self._session.project.views]
         self._add(images)
+        refused = ""
         if others:
             listed = ", ".join(Path(name).name for name in others[:_MAX_LISTED])
-            self._session.notified.emit(
-                self.tr("Not added, as no image can be read there: {0}.").format(
-                    listed if len(others) <= _MAX_LISTED else f"{listed}, …"
-                )
+            refused = self.tr("Not added, as no image can be read there: {0}.").format(
+                listed if len(others) <= _MAX_LISTED else f"{listed}, …"
             )
+            self._session.notified.emit(refused)
+
+        def tell(unread: str) -> None:
+            if unread:
+                self._session.notified.emit(f"{refused}\n{unread}".strip())
+
+        taken = [name for name in names if name not in others]
+        self._session.jobs.start("", lambda _: describe_unread_folders(taken, known), tell)
 
     def paste(self) -> None:
         """Add the files or paths on the clipboard."""
