@@ -99,6 +99,21 @@ def test_a_camera_opens_as_a_project(
     assert all(Path(view.image).is_absolute() for view in window.session.project.views)
 
 
+def test_calibrating_what_was_opened_gives_the_same_camera(
+    dialog: FleetDialog, window: MainWindow, qtbot: QtBot
+) -> None:
+    qtbot.mouseClick(dialog.open_camera, Qt.MouseButton.LeftButton)
+    qtbot.waitUntil(lambda: bool(window.session.project.results), timeout=30_000)
+    qtbot.waitUntil(lambda: not window.session.jobs.running, timeout=30_000)
+    qtbot.mouseClick(window.calibrate, Qt.MouseButton.LeftButton)
+    qtbot.waitUntil(lambda: len(window.session.project.results) == 2, timeout=60_000)
+    before, again = (r.calibration for r in window.session.project.results.values())
+    assert again.camera.model == before.camera.model and again.fixed == before.fixed
+    np.testing.assert_allclose(again.camera.params, before.camera.params, rtol=1e-6)
+    assert all(map(window.session.project.is_current, window.session.project.results.values()))
+    qtbot.waitUntil(lambda: not window.session.jobs.running, timeout=60_000)
+
+
 def test_a_camera_whose_photographs_are_at_addresses_opens_and_is_saved(
     window: MainWindow, result: Result, tmp_path: Path, qtbot: QtBot
 ) -> None:
