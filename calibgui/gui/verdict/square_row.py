@@ -1,4 +1,4 @@
-"""The question how long the squares are, asked once when photographs first come in."""
+"""The question how long the squares are, asked once when a board was first found."""
 
 from __future__ import annotations
 
@@ -60,7 +60,8 @@ class SquareRow(QWidget):
             self._session.edit(self.tr("Confirm the size of squares"), confirm_lengths)
 
     def _show(self, project: Project) -> None:
-        self.setVisible(bool(project.views) and not project.lengths_confirmed)
+        is_found = any(view.status is ViewStatus.FOUND for view in project.views)
+        self.setVisible(is_found and not project.lengths_confirmed)
         if self.isHidden():
             return
         self.counted.setText(self._ask(project))
@@ -81,7 +82,6 @@ class SquareRow(QWidget):
                 "lengths hold if circles are {2:g} {3} apart."
             )
             counting = self.tr("How far apart are the circles? The board is being counted.")
-            unknown = self.tr("How far apart are the circles? No board has been found yet.")
             parts = self.tr(
                 "How far apart are the circles? Their number is not known: state it in the Set-up."
             )
@@ -91,7 +91,6 @@ class SquareRow(QWidget):
                 "lengths hold if tags are {2:g} {3}."
             )
             counting = self.tr("How long are the tags' sides? The board is being counted.")
-            unknown = self.tr("How long are the tags' sides? No board has been found yet.")
             parts = self.tr(
                 "How long are the tags' sides? Their number is not known: state it in the Set-up."
             )
@@ -101,7 +100,6 @@ class SquareRow(QWidget):
                 "lengths hold if squares are {2:g} {3}."
             )
             counting = self.tr("How long are the squares? The board is being counted.")
-            unknown = self.tr("How long are the squares? No board has been found yet.")
             parts = self.tr(
                 "How long are the squares? Their number is not known: state it in the Set-up."
             )
@@ -110,7 +108,7 @@ class SquareRow(QWidget):
             return known.format(board.rows, board.cols, length, project.unit)
         if any(view.status is ViewStatus.WAITING for view in project.views):
             return counting
-        return unknown if board is None else parts
+        return parts
 
     def _name_side(self, pattern: Pattern) -> str:
         if not pattern.has_squares:

@@ -18,7 +18,7 @@ from calibgui.app.calibration import calibrate_views
 from calibgui.app.document import Document
 from calibgui.app.project import Project, record_result
 from calibgui.app.settings import Settings
-from calibgui.dataset import CornerSet, View
+from calibgui.dataset import CornerSet, View, ViewStatus
 from calibgui.engine.assessment import Cause, Grade
 from calibgui.engine.boards import AprilGrid, Circles, Pattern
 from calibgui.engine.numbers import format_two_digits
@@ -267,6 +267,20 @@ def test_a_search_that_comes_first_asks_too(window: MainWindow, plain: Project) 
     window.session.begin(Document(project))
     assert window.verdict.headline.text() == "NOT CALIBRATED"
     assert window.verdict.square.isVisible()
+
+
+def test_nothing_is_asked_before_a_board_is_found(window: MainWindow, plain: Project) -> None:
+    project = replace(plain, results=MappingProxyType({}), lengths_confirmed=False)
+    found = project.views[0]
+    waiting = replace(found, status=ViewStatus.WAITING, corners=None)
+    blank = found.refuse(ViewStatus.NO_BOARD, "No checkerboard was found.")
+    # A number of rows and columns that the user states is no board that was found.
+    unseen = replace(project, views=(blank, waiting), grid_size=(6, 7))
+    window.session.begin(Document(unseen))
+    row = window.verdict.square
+    assert not row.isVisible()
+    window.session.document.learn(lambda p: replace(p, views=(blank, found)))
+    assert row.isVisible() and "6 × 7 inner corners" in row.counted.text()
 
 
 def test_changed_settings_make_a_result_old_and_undo_makes_it_new(
