@@ -12,7 +12,8 @@ camera's parameters c and the poses p: with the residuals
 in which the board's corners are displaced by B a in all views, or each view has an x of its own,
 the sum of squares is minimised by Levenberg and Marquardt's method. Its normal equations are an
 arrow, as those of bundle adjustment (``refinement/schur.py``), of which each view's block holds its
-pose and its x. X is linear in x, and follows the camera and the poses from step to step.
+pose and its x. X is linear in x, and follows the camera and the poses from step to step. Where
+noise would explain as much as the first step does, that one is enough.
 
 A cause with more unknowns follows any other better. Causes are compared by Akaike's criterion
 (1974), relative to a fit without any, for errors that are not independent (Lebreton et al. 1992):
@@ -57,6 +58,11 @@ _FIRST_DAMPING, _MORE_DAMPING, _LESS_DAMPING = 1e-4, 30.0, 0.1
 that does not lead down, and after one that does."""
 _MIN_EIGENVALUE = 1e-9
 """Eigenvalue of a view's normal equations of unit diagonal, below which a direction is open."""
+
+_MIN_CHANCE = 0.05
+"""Probability that noise explains as much as the first step, above which no other is taken: where
+little is explained the sum of squares is a parabola. It takes most of the time where nothing is
+wrong."""
 
 Columns = Callable[[LinearisedFit, Linearised, slice], Array]
 """Function that returns the whitened columns (k, N, 2, m) that some views have of their own, from a
@@ -146,19 +152,32 @@ def _minimise(trial: _Trial, columns: Columns | None, basis: Array | None) -> tu
         The sum of squares, and the first products (K, v, v) of the views' columns of length 1.
     """
     first = products = _multiply(trial, columns, basis)
+    unit = _find_units(np.diagonal(first.V, axis1=1, axis2=2))
+    of_length_1 = first.V * unit[:, :, None] * unit[:, None]
     damping = _FIRST_DAMPING
+    step = _solve(products, damping)
+    descent = -float(step[0] @ first.by_shared + np.sum(step[1] * first.by_view))
+    unknowns = len(trial.a) + trial.x.size
+    if unknowns and _is_chance(descent, unknowns, first.cost, trial.fit.degrees_of_freedom):
+        return first.cost - descent, of_length_1
     for _ in range(_MAX_STEPS):
-        following = _take_step(trial, *_solve(products, damping))
+        following = _take_step(trial, *step)
         found = _multiply(following, columns, basis) if following is not None else None
         if following is None or found is None or not found.cost < products.cost:
             damping *= _MORE_DAMPING
-            continue
-        is_end = products.cost - found.cost < _MIN_DESCENT * products.cost
-        trial, products, damping = following, found, _LESS_DAMPING * damping
-        if is_end:
-            break
-    unit = _find_units(np.diagonal(first.V, axis1=1, axis2=2))
-    return products.cost, first.V * unit[:, :, None] * unit[:, None]
+        else:
+            is_end = products.cost - found.cost < _MIN_DESCENT * products.cost
+            trial, products, damping = following, found, _LESS_DAMPING * damping
+            if is_end:
+                break
+        step = _solve(products, damping)
+    return products.cost, of_length_1
+
+
+def _is_chance(descent: float, unknowns: int, cost: float, freedom: int) -> bool:
+    """Return whether noise would let so many unknowns lower the sum of squares as much."""
+    found = judge_explanation(descent, unknowns, cost, freedom)
+    return bool(found.probability > _MIN_CHANCE)
 
 
 def _multiply(trial: _Trial, columns: Columns | None, basis: Array | None) -> _Products:
