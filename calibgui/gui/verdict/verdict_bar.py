@@ -179,8 +179,8 @@ class VerdictBar(QFrame):
             "The covered part is where corners were found, the edge the mean along the image's "
             "border. Where the remedy of a finding was tried, this is the distance to the camera "
             "that it gives, and the uncertainty of that one; otherwise it is the calibration's "
-            "own uncertainty, as in the panel Uncertainty, and how far another lens model goes "
-            "elsewhere that fits as well, which counts where there are no corners."
+            "own uncertainty, as in the panel Uncertainty. Where there are no corners, how far "
+            "another lens model that fits as well goes apart from this one counts, too."
         )
         self.figures.setToolTip("\n".join([*self._figures, meaning]))
 
