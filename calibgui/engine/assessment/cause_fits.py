@@ -1,4 +1,4 @@
-"""What a cause explains of the residuals, measured by a fit, and causes compared with each other.
+"""Causes are fitted to the residuals, and compared by what they explain and their unknowns.
 
 A score test (``calibration/score_tests.py``) takes one step from where a calibration stands. Where
 a cause is large, poses and camera have moved far to make up for it, and one step leads part of the

@@ -1,4 +1,4 @@
-"""How far another lens model, which fits as well, images the same directions elsewhere.
+"""The error of pixels beyond the corners, where the formula of a lens model is all that is known.
 
 Where there are corners they tell what a lens does; beyond them its formula does, and another one
 goes on otherwise. A standard deviation takes the formula for true and knows nothing of that. So a
@@ -21,11 +21,10 @@ import numpy as np
 from calibgui.engine.arrays import Array
 from calibgui.engine.assessment.comparison import compare_cameras
 from calibgui.engine.assessment.residual_statistics import summarise_residuals
-from calibgui.engine.calibration.calibrate import calibrate
+from calibgui.engine.assessment.rival_lens import calibrate_by_model
 from calibgui.engine.calibration.observations import Observation
-from calibgui.engine.calibration.problem import recover_image_arguments
 from calibgui.engine.calibration.result import Calibration, Cost
-from calibgui.engine.camera.models import PINHOLE, find_model
+from calibgui.engine.camera.models import find_model
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.uncertainty.projection_uncertainty import make_map_grid
 
@@ -58,14 +57,11 @@ def map_disagreement(calibration: Calibration, views: Sequence[Observation]) -> 
     none = np.zeros((len(v), len(u)))
     if calibration.cost is Cost.PAPER or find_model(camera.model).control_points is not None:
         return none
-    settings = recover_image_arguments(calibration)
-    settings["model"] = _OTHERS.get(camera.model, _BY_ANGLE)
-    settings["free"] = ()
-    settings["fix"] = {n: value for n, value in settings["fix"].items() if n in PINHOLE}
-    if calibration.board_shape is not None:
-        settings["board_shape"] = calibration.board_shape
+    model = _OTHERS.get(camera.model, _BY_ANGLE)
+    board = calibration.board_shape
+    held = {} if board is None else {"board_shape": board}
     try:
-        other = calibrate(views, camera.size, model_errors=False, **settings)
+        other = calibrate_by_model(calibration, views, model, **held)
         apart = compare_cameras(camera, other.camera, views=views)
     except CalibrationError:
         return none

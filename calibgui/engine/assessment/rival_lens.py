@@ -14,7 +14,7 @@ It does not tell which model is best: that is ``lens_choice.py``.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from calibgui.engine.assessment.comparison import compare_cameras
 from calibgui.engine.assessment.residual_statistics import summarise_residuals
@@ -51,14 +51,31 @@ def fit_rival(calibration: Calibration, views: Sequence[Observation]) -> Rival:
     model = calibration.camera.model
     if find_model(model).control_points is not None:
         return Rival(0.0, 0.0)
-    settings = recover_image_arguments(calibration)
-    settings["model"] = _BY_TANGENT if model == _BY_ANGLE else _BY_ANGLE
-    settings["free"] = ()
-    settings["fix"] = {n: v for n, v in settings["fix"].items() if n in PINHOLE}
     try:
-        rival = calibrate(views, calibration.camera.size, model_errors=False, **settings)
+        rival = calibrate_by_model(
+            calibration, views, _BY_TANGENT if model == _BY_ANGLE else _BY_ANGLE
+        )
         moved = compare_cameras(rival.camera, calibration.camera, views=views).rms
     except CalibrationError:
         return Rival(0.0, 0.0)
     left = summarise_residuals(rival.residuals).rms / summarise_residuals(calibration.residuals).rms
     return Rival(max(1 - left**2, 0.0), moved)
+
+
+def calibrate_by_model(
+    calibration: Calibration, views: Sequence[Observation], model: str, **changes: Any
+) -> Calibration:
+    """Repeat a calibration with another lens model, for its camera alone.
+
+    Args:
+        calibration: a calibration with any cost; of what was held the pinhole's values still are.
+        views: the views that it was made from.
+        model: the lens model.
+        changes: other arguments of `calibrate` that differ.
+
+    Raises:
+        CalibrationError: if the model does not follow the lens, or the views do not determine it.
+    """
+    settings = recover_image_arguments(calibration) | {"model": model, "free": ()} | changes
+    settings["fix"] = {n: v for n, v in settings["fix"].items() if n in PINHOLE}
+    return calibrate(views, calibration.camera.size, model_errors=False, **settings)

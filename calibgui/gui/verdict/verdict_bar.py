@@ -76,7 +76,7 @@ class VerdictBar(QFrame):
         self._session = session
         self._result: Result | None = None
         self._age = ""
-        """What says that the shown result is out of date; "" if it is not."""
+        """The sentence that says that the shown result is out of date; "" if it is not."""
         self._is_running = False
         self.verdict: Verdict | None = None
         self._work = Latest(session.jobs, self)
@@ -92,7 +92,7 @@ class VerdictBar(QFrame):
         font.setPointSizeF(_SIZE_OF_FIGURES * font.pointSizeF())
         self.figures.setFont(font)
         self._fit = ""
-        """How well the camera fits, of which the words are made once for each calibration."""
+        """The words on the residuals, which are made once for each calibration."""
         self._figures: list[str] = []
         self._is_low = False
         self.button = QPushButton(self.tr("Remedy"))

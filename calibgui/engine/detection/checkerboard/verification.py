@@ -47,7 +47,7 @@ from calibgui.engine.images.sampling import sample_image
 TOO_BLURRED = "its edges are too blurred, or too ragged, to be told from waves"
 """What speaks against a lattice of wide edges."""
 DRAWN_ASIDE = "drawn aside by what is seen there"
-"""What speaks against a corner that lies where the others do not expect it."""
+"""The reason to reject a corner that lies where the others do not expect it."""
 
 _INSIDE_SQUARES = np.array([[0.5, 0.3], [0.5, 0.7], [0.3, 0.5], [0.7, 0.5]])
 """Where whole squares beside a corner are sampled, apart from their edges, which blur, or what lies
