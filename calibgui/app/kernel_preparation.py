@@ -1,8 +1,8 @@
 """Kernels made ready before they are needed, so that nothing is compiled twice.
 
 A kernel is compiled at its first call for each type of image. If that is in several processes at
-once, each of them compiles it. ``python -m calibgui.app.kernel_preparation`` compiles the corner
-finder's for images of 8 and of 16 bits; set-up scripts call it.
+once, each of them compiles it. Set-up scripts call ``python -m calibgui.app.kernel_preparation``,
+which compiles the corner finder's for images of 8 and of 16 bits.
 """
 
 from __future__ import annotations

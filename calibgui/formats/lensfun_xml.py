@@ -14,10 +14,10 @@ Cannot hold: any other lens model, which is fitted to the camera's rays, standar
 corners.
 
 The centre is the mean of the cameras' centres. A rotation makes up for most of the differences
-(``engine/assessment/comparison.py``), so focal length, k1 and k2 are fitted with a rotation of the
-rays. A camera does not know the size of its sensor: a single one is written as if its shorter side
-were that of a sensor of 36 mm x 24 mm; for a zoom lens the nominal focal lengths say what size fits
-them best.
+(`compare_cameras` says why), so focal length, k1 and k2 are fitted with a rotation of the rays. A
+camera does not know the size of its sensor: a single one is written as if its shorter side were
+that of a sensor of 36 mm x 24 mm; for a zoom lens the nominal focal lengths say what size fits them
+best.
 """
 
 from __future__ import annotations

@@ -12,6 +12,7 @@ from calibgui.app.calibration import calibrate_views
 from calibgui.app.method_comparison import compare_methods, compare_methods_again
 from calibgui.app.settings import Settings
 from calibgui.dataset import CornerSet, View, ViewStatus
+from calibgui.engine import assessment
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.geometry.pose import Pose
 from tests.engine.scenes import VGA, barrel, scene
@@ -34,7 +35,7 @@ def asked(monkeypatch: pytest.MonkeyPatch) -> list[Any]:
     def note(views: Any, size: Any, chosen: Any = None, **settings: Any) -> None:
         noted[:] = [views, size, chosen, settings]
 
-    monkeypatch.setattr("calibgui.app.method_comparison.assessment.compare_methods", note)
+    monkeypatch.setattr(assessment, "compare_methods", note)
     return noted
 
 

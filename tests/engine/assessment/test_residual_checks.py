@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 from calibgui.engine.arrays import Array
+from calibgui.engine.assessment import residual_checks
 from calibgui.engine.assessment.residual_checks import check_residuals
 from calibgui.engine.assessment.view_weights import calibrate_weighted
 from calibgui.engine.calibration.calibrate import calibrate
@@ -120,7 +121,7 @@ def test_a_lens_that_is_not_followed_is_no_bent_board() -> None:
     # Judged as if the lens were sound, the board explains more than half.
     unblamed = replace(result, lens_error=0.0)
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("calibgui.engine.assessment.residual_checks.outdoes_board", lambda _: False)
+        patch.setattr(residual_checks, "outdoes_board", lambda _: False)
         report = check_residuals(unblamed, views)
     assert next(check.share for check in report.checks if check.name == "board") > 0.5
 
@@ -183,8 +184,8 @@ def test_what_does_no_harm_is_no_fault() -> None:
         assert report.passed
         with pytest.MonkeyPatch.context() as patch:
             # It is seen all the same, and fails where it does harm.
-            patch.setattr("calibgui.engine.assessment.residual_checks._MIN_GAIN_OF_WEIGHING", 1.0)
-            patch.setattr("calibgui.engine.assessment.residual_checks._MAX_LENGTH_IN_SIGMA", 2.0)
+            patch.setattr(residual_checks, "_MIN_GAIN_OF_WEIGHING", 1.0)
+            patch.setattr(residual_checks, "_MAX_LENGTH_IN_SIGMA", 2.0)
             report = check_residuals(result, views)
             assert name in [check.name for check in report.checks if not check.passed]
 
@@ -209,7 +210,7 @@ def test_covariances_count_in_the_weights() -> None:
 @pytest.mark.slow
 def test_the_level_is_the_one_stated(monkeypatch: pytest.MonkeyPatch) -> None:
     """At one in twenty, where it can be counted: no check alarms more often than that."""
-    monkeypatch.setattr("calibgui.engine.assessment.residual_checks._MAX_FALSE_ALARM_RATE", 0.05)
+    monkeypatch.setattr(residual_checks, "_MAX_FALSE_ALARM_RATE", 0.05)
     alarms: Counter[str] = Counter()
     for seed in range(60):
         true = scene(barrel(), (4, 8, 16)[seed % 3], seed)
