@@ -235,7 +235,8 @@ def _calibrate_whole(
     if lens is not None:
         sentences = (lens.reason, *sentences)
         calibration = replace(calibration, settings={**calibration.settings, _REASON: lens.reason})
-    return Result(_add_warnings(calibration, used, settings, sentences), views, corner_set.board)
+    calibration = _add_warnings(calibration, used, settings, sentences)
+    return _make_result(calibration, replace(corner_set, views=views))
 
 
 def _choose_board_shape(
@@ -292,8 +293,18 @@ def _calibrate_partially(
         if error.partial is not None:
             used = [view for view in corner_set.views if view.usable]
             calibration = _add_warnings(error.partial, used, plain)
-            return Result(calibration, corner_set.views, corner_set.board)
+            return _make_result(calibration, corner_set)
     return None
+
+
+def _make_result(calibration: Calibration, corner_set: CornerSet) -> Result:
+    """Return a calibration with the views and the board that it was made from."""
+    return Result(
+        calibration,
+        corner_set.views,
+        corner_set.board,
+        lengths_confirmed=corner_set.lengths_confirmed,
+    )
 
 
 def disable_unweighable_views(corner_set: CornerSet) -> CornerSet:

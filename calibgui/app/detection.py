@@ -22,7 +22,7 @@ from typing import Protocol
 from calibgui.app.kernel_preparation import prepare_finder
 from calibgui.app.sensor_frame import list_other_frames, share_frame
 from calibgui.app.workers import Crashed, map_in_processes
-from calibgui.dataset import CornerSet, View, ViewStatus
+from calibgui.dataset import DEFAULT_SQUARE, CornerSet, View, ViewStatus
 from calibgui.engine import detection
 from calibgui.engine.arrays import Array, GridSize, Size
 from calibgui.engine.boards import CHECKERBOARD, Board, Pattern
@@ -66,8 +66,10 @@ class Detection:
     remark: str = ""
     """A sentence on how the size was inferred, where the user should check it; mostly empty."""
 
-    def corner_set(self, square: float) -> CornerSet:
+    def corner_set(self, square: float | None) -> CornerSet:
         """Return the views for a calibration, on a board of squares of side `square` mm.
+
+        If it is None they are `DEFAULT_SQUARE`, and lengths not confirmed.
 
         Raises:
             CalibrationError: if no image could be read, or the size of the board that was found is
@@ -77,8 +79,9 @@ class Detection:
             raise refuse_unreadable(self.views)
         if self.grid_size is None and (error := explain_unknown_size(self.views, self.pattern)):
             raise error
-        board = None if self.grid_size is None else Board(*self.grid_size, square, self.pattern)
-        return CornerSet(self.size, self.views, board)
+        side = DEFAULT_SQUARE if square is None else square
+        board = None if self.grid_size is None else Board(*self.grid_size, side, self.pattern)
+        return CornerSet(self.size, self.views, board, lengths_confirmed=square is not None)
 
 
 def find_views(

@@ -19,14 +19,12 @@ from calibgui.app.detection import (
     measure_largest_part,
 )
 from calibgui.app.settings import Settings
-from calibgui.dataset import Result, View, ViewStatus
+from calibgui.dataset import DEFAULT_SQUARE, CornerSet, Result, View, ViewStatus
 from calibgui.engine.arrays import GridSize, Size
 from calibgui.engine.boards import CHECKERBOARD, KINDS, Board, Charuco, Circles, Pattern
 from calibgui.engine.detection import METHODS
 from calibgui.engine.errors import CalibrationError
 
-DEFAULT_SQUARE = 30.0
-"""Side of a square until the user states it, mm. Only lengths in the poses depend on it."""
 GRID_LINES = range(2, 201)
 """Numbers of rows, and of columns, that a board can be stated to have."""
 
@@ -83,6 +81,13 @@ class Project:
         grid_size = self.grid_size or infer_grid_size(self.views) or measure_largest_part(found)
         pattern = infer_pattern(self.views, self.pattern)
         return None if grid_size is None else Board(*grid_size, self.square, pattern)
+
+    @property
+    def corner_set(self) -> CornerSet | None:
+        """What is calibrated: the views on the board; None while no image's size is known."""
+        if self.size is None:
+            return None
+        return CornerSet(self.size, self.views, self.board, self.lengths_confirmed)
 
     @cached_property
     def size_doubt(self) -> CalibrationError | None:

@@ -31,7 +31,7 @@ from calibgui.cli.console import Advance, Console
 from calibgui.cli.corners import add_corner_options, check_corner_options, read_or_search
 from calibgui.cli.notices import explain_solve
 from calibgui.cli.outputs import add_overwrite_option, check_corner_outputs
-from calibgui.dataset import Result
+from calibgui.dataset import DEFAULT_SQUARE, Result
 from calibgui.engine.boards import BoardShape, BoardShapeModel, BoardShapePrior
 from calibgui.engine.calibration import DEFAULT_METHOD, METHODS, Cost, DegenerateError
 from calibgui.engine.camera import MODELS, PINHOLE, SplinedStereographic
@@ -46,7 +46,9 @@ from calibgui.report.summary import describe_lost_images
 
 def configure(parser: argparse.ArgumentParser) -> None:
     """Describe the arguments."""
-    add_corner_options(parser, "needed for photographs")
+    add_corner_options(
+        parser, f"only lengths depend on it ({DEFAULT_SQUARE:g} if left out, which is then said)"
+    )
     add_settings_options(parser)
     parser.add_argument(
         "--save-board-shape",
@@ -187,6 +189,8 @@ def _print_report(
             console.print_problem(unused)
         return
     console.print_text(tables.format_report(result, verbose=options.verbose))
+    if result.condition:
+        messages = [f"Lengths hold {result.condition}. --square MM states it.", *messages]
     if messages:
         console.print_text("\n" + "\n".join(map(tables.format_bullet, messages)))
     if not options.verbose:
@@ -265,11 +269,9 @@ def _check_usage(options: argparse.Namespace) -> None:
     if options.prior and options.board_shape in (BoardShapeModel.AFFINE, BoardShapeModel.BOW):
         options.usage_error("--prior is for a board as drawn or of free shape: leave it out")
     check_corner_options(options)
-    if options.square is None and not is_corners_file(options.paths):
-        options.usage_error(
-            "--square MM is needed: measure ten squares (or distances of circles) with a ruler. "
-            "The camera's values do not depend on it, only lengths do"
-        )
+    in_mm = "--prior" if options.prior else "--save-board-shape" if options.save_board_shape else ""
+    if in_mm and options.square is None and not is_corners_file(options.paths):
+        options.usage_error(f"{in_mm} is in mm: add --square MM")
 
 
 def _parse_model(text: str) -> str | None:

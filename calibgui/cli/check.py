@@ -11,12 +11,12 @@ from pathlib import Path
 from typing import Any
 
 from calibgui.app.calibration import shorten_names
-from calibgui.app.project import DEFAULT_SQUARE
 from calibgui.cli.arguments import parse_positive
 from calibgui.cli.camera import add_camera_options, read_camera_and_warn
 from calibgui.cli.console import Console
 from calibgui.cli.corners import add_corner_options, check_corner_options, read_or_search
 from calibgui.cli.result import read_result_file
+from calibgui.dataset import DEFAULT_SQUARE
 from calibgui.engine.assessment import (
     DEFAULT_LIMIT,
     CalibrationCheck,
@@ -71,7 +71,7 @@ def run(options: argparse.Namespace, console: Console) -> int:
             options.usage_error("name the calibration, and then pictures of the board")
     check_corner_options(options)
     stored = read_camera_and_warn(options.calibration, console, options.camera, options.size)
-    corner_set = read_or_search(options, console, DEFAULT_SQUARE)
+    corner_set = read_or_search(options, console)
     views = [view for view in corner_set.views if view.usable]
     unused = tables.list_unused_views(corner_set.views)
     if not views:

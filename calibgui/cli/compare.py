@@ -14,12 +14,12 @@ from typing import Any
 
 from calibgui.app.method_comparison import compare_methods
 from calibgui.app.outputs import check_figure_name, save_figure
-from calibgui.app.project import DEFAULT_SQUARE
 from calibgui.cli.arguments import is_corners_file
 from calibgui.cli.console import Console
 from calibgui.cli.corners import add_corner_options, check_corner_options, read_or_search
 from calibgui.cli.notices import explain_solve
 from calibgui.cli.outputs import add_overwrite_option, check_corner_outputs
+from calibgui.dataset import DEFAULT_SQUARE
 from calibgui.engine.assessment import MethodComparison
 from calibgui.formats.board_poses_json import read_board_poses
 from calibgui.formats.json_document import write_json
@@ -67,7 +67,7 @@ def run(options: argparse.Namespace, console: Console) -> None:
         outputs.append((options.figure, FIGURE))
     check_corner_outputs(options, outputs, filter(None, [options.board_poses]))
     poses = read_board_poses(options.board_poses) if options.board_poses else None
-    corner_set = read_or_search(options, console, DEFAULT_SQUARE)
+    corner_set = read_or_search(options, console)
     with (
         explain_solve(console, corner_set),
         console.show_progress("comparing methods", "method") as advance,

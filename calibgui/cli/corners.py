@@ -31,7 +31,7 @@ def add_corner_options(parser: argparse.ArgumentParser, need: str) -> None:
 
     Args:
         parser: the parser to add them to.
-        need: what the help says of the side of a square, such as "needed for photographs".
+        need: what the help says of the side of a square: what depends on it.
     """
     add_image_paths(parser)
     add_search_options(parser)
@@ -62,38 +62,30 @@ def check_corner_options(options: argparse.Namespace) -> None:
         options.usage_error("a corners file is calibrated by itself")
 
 
-def read_or_search(
-    options: argparse.Namespace, console: Console, square: float | None = None
-) -> CornerSet:
+def read_or_search(options: argparse.Namespace, console: Console) -> CornerSet:
     """Return the views that the options of `add_corner_options` name.
 
     Args:
         options: the options; --square replaces the side of the squares in a corners.json.
         console: shows progress, and what is recognised of the board.
-        square: side of a square, mm, of photographs for which --square is left out.
 
     Raises:
         CalibrationError: if the corners or photographs cannot be read.
     """
     if is_corners_file(options.paths):
         return _exclude_images(_read_corners_file(options), options.exclude)
-    side = square if options.square is None else options.square
-    assert side is not None, "a command that has no side of its own checks that one is given"
-    corner_set, remarks = search_board(options, console, side)
+    corner_set, remarks = search_board(options, console)
     for remark in remarks:
         console.print_text(fill_lines(remark, "", "  ") + "\n")
     return _exclude_images(corner_set, options.exclude)
 
 
-def search_board(
-    options: argparse.Namespace, console: Console, square: float
-) -> tuple[CornerSet, list[str]]:
+def search_board(options: argparse.Namespace, console: Console) -> tuple[CornerSet, list[str]]:
     """Search photographs for the board that the options describe.
 
     Args:
         options: paths, and the options of `add_search_options` and `add_board_options`.
         console: shows progress, and what is wrong with the images if none shows the board.
-        square: side of a square, mm.
 
     Returns:
         The views, and sentences on what is recognised of the board, and on what was not searched.
@@ -112,7 +104,7 @@ def search_board(
         None if is_open else pattern,
     )
     require_board(detection, options.board, console, is_open)
-    corner_set = detection.corner_set(square)
+    corner_set = detection.corner_set(options.square)
     remarks = (
         describe_recognised_board(pattern, corner_set),
         detection.remark,
@@ -158,4 +150,5 @@ def _read_corners_file(options: argparse.Namespace) -> CornerSet:
             f"{options.paths[0]} already gives the corners' places on the board in millimetres.",
             "Leave out --square.",
         )
-    return replace(corner_set, board=replace(corner_set.board, square=options.square))
+    board = replace(corner_set.board, square=options.square)
+    return replace(corner_set, board=board, lengths_confirmed=True)

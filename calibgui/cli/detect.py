@@ -10,6 +10,7 @@ from calibgui.cli.boards import add_board_options
 from calibgui.cli.console import Console
 from calibgui.cli.corners import search_board
 from calibgui.cli.outputs import add_overwrite_option, check_corner_outputs
+from calibgui.dataset import DEFAULT_SQUARE
 from calibgui.formats.corners_json import encode_corners, write_corners
 from calibgui.formats.origin import CORNERS
 from calibgui.report import tables
@@ -24,8 +25,8 @@ def configure(parser: argparse.ArgumentParser) -> None:
         "--square",
         type=parse_length,
         metavar="MM",
-        help="side of a square, or distance of circles, mm, or with a unit as 0.025m; 1 if left "
-        "out: then give it to 'calibgui calibrate'",
+        help="side of a square, or distance of circles, mm, or with a unit as 0.025m; may be "
+        "given to 'calibgui calibrate' instead",
     )
     parser.add_argument(
         "-o",
@@ -42,7 +43,7 @@ def run(options: argparse.Namespace, console: Console) -> None:
     options.output = console.take_output(options.output)
     if options.output:
         check_corner_outputs(options, [(options.output, CORNERS)])
-    corner_set, remarks = search_board(options, console, options.square or 1.0)
+    corner_set, remarks = search_board(options, console)
     console.print_json(encode_corners(corner_set))
     console.print_line(tables.count_boards(corner_set.views))
     console.print_text(
@@ -54,7 +55,8 @@ def run(options: argparse.Namespace, console: Console) -> None:
     if options.output:
         write_corners(corner_set, options.output)
         console.print_text(f"\nWrote {options.output}.")
-        if options.square is None:
+        if not corner_set.lengths_confirmed:
             console.print_text(
-                "Squares count as 1 mm: give --square when calibrating from this file."
+                f"Squares count as {DEFAULT_SQUARE:g} mm until --square states their side, here or "
+                "when calibrating from this file."
             )

@@ -12,11 +12,11 @@ from pathlib import Path
 from typing import Any
 
 from calibgui.app.lens_comparison import compare_lenses
-from calibgui.app.project import DEFAULT_SQUARE
 from calibgui.cli.console import Console
 from calibgui.cli.corners import add_corner_options, check_corner_options, read_or_search
 from calibgui.cli.notices import explain_solve
 from calibgui.cli.outputs import add_overwrite_option, check_corner_outputs
+from calibgui.dataset import DEFAULT_SQUARE
 from calibgui.engine.assessment import LensChoice
 from calibgui.formats.json_document import write_json
 from calibgui.formats.origin import LENS_COMPARISON, make_mark
@@ -43,7 +43,7 @@ def run(options: argparse.Namespace, console: Console) -> None:
     check_corner_options(options)
     if options.output:
         check_corner_outputs(options, [(options.output, LENS_COMPARISON)])
-    corner_set = read_or_search(options, console, DEFAULT_SQUARE)
+    corner_set = read_or_search(options, console)
     with (
         explain_solve(console, corner_set),
         console.show_progress("comparing lens models", "model") as advance,

@@ -8,12 +8,13 @@ a series of them cannot use. The records know no file format (``calibgui.formats
 
 from __future__ import annotations
 
-from calibgui.dataset.corner_set import CornerSet
+from calibgui.dataset.corner_set import DEFAULT_SQUARE, CornerSet
 from calibgui.dataset.left_out_result import LeftOut
 from calibgui.dataset.result import Result, list_installed_versions
 from calibgui.dataset.view import View, ViewStatus, find_orientation
 
 __all__ = [
+    "DEFAULT_SQUARE",
     "CornerSet",
     "LeftOut",
     "Result",

@@ -8,6 +8,9 @@ from calibgui.dataset.view import View
 from calibgui.engine.arrays import Size
 from calibgui.engine.boards import Board
 
+DEFAULT_SQUARE = 30.0
+"""Side of a square until somebody states it, mm; only lengths depend on it."""
+
 
 @dataclass(frozen=True, eq=False, slots=True)
 class CornerSet:
@@ -19,3 +22,5 @@ class CornerSet:
     """All photographs, those without corners included."""
     board: Board | None = None
     """The board of known layout; None where the corners came with their board points."""
+    lengths_confirmed: bool = True
+    """False if nobody has stated the side of a square: all lengths then hold if it is that."""

@@ -5,8 +5,9 @@
 Reader: `read_corners`, and any JSON reader. Positions are pixels in the array frame (0-based,
 integer at pixel centres, v down), `board` millimetres on the board, `cov` (optional) 2 x 2
 covariances in px^2. This program adds a sentence on where the file comes from as `origin`
-(``origin.py``), the board as `target` (``pattern_json.py``), and to each view the members that
-``views_json.py`` lists; a reader may ignore these. Views without corners have empty lists.
+(``origin.py``), the board as `target` (``pattern_json.py``), `lengths_confirmed`, which is false if
+nobody has stated the side of a square, and to each view the members that ``views_json.py`` lists; a
+reader may ignore these. Views without corners have empty lists.
 Cannot hold: a calibration (see ``result_json.py``).
 """
 
@@ -20,7 +21,7 @@ from calibgui.dataset import CornerSet, Result
 from calibgui.engine.arrays import Size
 from calibgui.engine.camera import MODELS
 from calibgui.engine.errors import CalibrationError
-from calibgui.formats.exporter import Exporter, ExportReport
+from calibgui.formats.exporter import Exporter, ExportReport, describe_condition
 from calibgui.formats.json_document import Node, read_json, write_json
 from calibgui.formats.origin import CORNERS, make_mark
 from calibgui.formats.pattern_json import decode_board, encode_board
@@ -44,6 +45,8 @@ def encode_corners(corner_set: CornerSet) -> dict[str, Any]:
     record: dict[str, Any] = {"origin": make_mark(CORNERS), "size": corner_set.size}
     if corner_set.board is not None:
         record["target"] = encode_board(corner_set.board)
+    if not corner_set.lengths_confirmed:
+        record["lengths_confirmed"] = False
     return record | {"views": [encode_view(view, corner_set.board) for view in corner_set.views]}
 
 
@@ -61,7 +64,13 @@ def read_corners(path: str | os.PathLike[str]) -> CornerSet:
             "Name the corners: `calibgui detect -o` writes them, and `--export corners=`.",
         )
     board = decode_board(node.get("target"))
-    return CornerSet(decode_size(node["size"]), decode_views(node["views"], board), board)
+    confirmed = node.get("lengths_confirmed")
+    return CornerSet(
+        decode_size(node["size"]),
+        decode_views(node["views"], board),
+        board,
+        lengths_confirmed=True if confirmed is None else confirmed.flag(),
+    )
 
 
 def decode_size(node: Node) -> Size:
@@ -74,8 +83,8 @@ def decode_size(node: Node) -> Size:
 
 def _export(result: Result, path: Path) -> ExportReport:
     size = result.calibration.camera.size
-    write_corners(CornerSet(size, result.views, result.board), path)
-    return ExportReport(path, EXPORTER.limits)
+    write_corners(CornerSet(size, result.views, result.board, result.lengths_confirmed), path)
+    return ExportReport(path, f"{EXPORTER.limits} {describe_condition(result)}".rstrip())
 
 
 EXPORTER = Exporter(

@@ -26,7 +26,6 @@ from hypothesis.stateful import (
 
 from calibgui.app.document import Document
 from calibgui.app.project import (
-    DEFAULT_SQUARE,
     Project,
     Unit,
     add_images,
@@ -39,7 +38,7 @@ from calibgui.app.project import (
 )
 from calibgui.app.project_file import encode_project, read_project, write_project
 from calibgui.app.settings import MODEL_CHOICES, Settings
-from calibgui.dataset import View, ViewStatus
+from calibgui.dataset import DEFAULT_SQUARE, View, ViewStatus
 from calibgui.engine.boards.shape import BoardShapeModel, BoardShapePrior
 from calibgui.engine.calibration.result import Cost
 from tests.app import examples

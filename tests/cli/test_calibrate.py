@@ -48,6 +48,27 @@ def test_photographs_give_the_camera_that_took_them(
     assert all(len(line) <= 80 or str(file) in line for line in printed.splitlines())
 
 
+def test_without_a_square_lengths_are_conditional(
+    photographs: Path, tmp_path: Path, capsys: Capture
+) -> None:
+    """The camera is the same, and each length says what it rests on; stating the side ends that."""
+    corners, result = tmp_path / "corners.json", tmp_path / "result.json"
+    camera = tmp_path / "camera.yaml"
+    exports = ["--export", f"corners={corners}", "--export", f"kalibr={camera}"]
+    assert main(["calibrate", str(photographs), "-o", str(result), *exports]) == 0
+    printed = " ".join(capsys.readouterr().out.split())
+    assert printed.startswith("GOOD.")
+    assert "Lengths hold if squares are 30 mm. --square MM states it." in printed
+    assert not read_result(result).lengths_confirmed
+    assert "Lengths hold if squares are 30 mm." in camera.read_text(encoding="utf-8")
+
+    assert main(["calibrate", str(corners), "-o", str(result)]) == 0
+    assert "if squares are 30 mm" in capsys.readouterr().out
+    assert main(["calibrate", str(corners), "--square", "25", "-o", str(result)]) == 0
+    assert "if squares" not in capsys.readouterr().out
+    assert read_result(result).lengths_confirmed
+
+
 def test_every_setting_has_its_option(corners_file: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """The window offers the same record: see tests/gui/test_settings_panel.py."""
     asked: list[Settings] = []
@@ -386,7 +407,8 @@ def test_outputs_are_checked_before_the_work(
     "wrong",
     [
         [],
-        ["a.png"],  # no --square
+        ["a.png", "--prior", "0.1,0.3"],  # in mm, and no --square
+        ["a.png", "--save-board-shape", "b.json", "--board-shape", "free"],
         ["a.png", "--square", "0"],
         ["a.png", "--square", "nan"],
         ["a.png", "--square", "30", "--board", "12"],

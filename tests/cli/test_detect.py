@@ -42,7 +42,8 @@ def test_without_a_square_it_says_what_to_do(
 ) -> None:
     file = tmp_path / "corners.json"
     assert main(["detect", str(photographs), "-o", str(file)]) == 0
-    assert "give --square when calibrating" in capsys.readouterr().out
+    assert "Squares count as 30 mm until --square states" in capsys.readouterr().out
+    assert not read_corners(file).lengths_confirmed
 
 
 @pytest.mark.parametrize("command", ["detect", "calibrate"])

@@ -77,8 +77,8 @@ class Calibrator(QObject):
             self._session.failed.emit(error)
             self.ended.emit()
             return
-        assert project.size is not None
-        corner_set = CornerSet(project.size, project.views, project.board)
+        corner_set = project.corner_set
+        assert corner_set is not None, "without images nothing can be calibrated"
         # Images that the user has not marked are not searched with the calibrated camera either.
         settings = replace(project.settings, once=project.settings.once or project.by_hand)
 

@@ -8,7 +8,7 @@ from PySide6.QtCore import QObject
 
 from calibgui.app.calibration import calibrate_views, recall_lens_choice
 from calibgui.app.project import record_result
-from calibgui.dataset import CornerSet, Result
+from calibgui.dataset import Result
 from calibgui.gui.jobs.job import Job
 from calibgui.gui.jobs.jobs import PICTURE
 from calibgui.gui.session.calibrator import Calibrator
@@ -38,7 +38,8 @@ class Follower(QObject):
         project, result, name = session.project, session.result, session.result_name
         if self._job is not None:
             self._job.cancel()
-        if result is None or project.size is None or not project.usable:
+        corner_set = project.corner_set
+        if result is None or corner_set is None or not project.usable:
             return
         if self._detector.running or self._calibrator.running or project.is_current(result):
             return
@@ -46,7 +47,6 @@ class Follower(QObject):
         lens = recall_lens_choice(result) if settings.model is None else None
         if settings.board_shape is None or (settings.model is None and lens is None):
             return
-        corner_set = CornerSet(project.size, project.views, project.board)
 
         def done(new: Result) -> None:
             session.edit(

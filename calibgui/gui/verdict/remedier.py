@@ -10,7 +10,7 @@ from PySide6.QtCore import QObject, Signal
 from calibgui.app.project import Project, find_free_name, record_result
 from calibgui.app.redetection import calibrate_twice
 from calibgui.app.remedies import apply_action
-from calibgui.dataset import CornerSet, Result, View
+from calibgui.dataset import Result, View
 from calibgui.dataset.judging import judge_result
 from calibgui.engine.assessment import Action, Verdict
 from calibgui.gui.jobs.job import Job
@@ -54,9 +54,9 @@ class Remedier(QObject):
         if self.running:
             return
         project = apply_action(self._session.project, result, action)
-        if project.size is None:
+        corner_set = project.corner_set
+        if corner_set is None:
             return
-        corner_set = CornerSet(project.size, project.views, project.board)
 
         def work(job: Job) -> tuple[Result, Verdict, Verdict]:
             found = calibrate_twice(corner_set, project.settings, job.send, job.cancelling)
