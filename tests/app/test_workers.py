@@ -108,7 +108,7 @@ def test_what_is_prepared_is_prepared_once_before_the_work(
     """Where workers are forked, this process prepares, and they have what it left."""
     monkeypatch.setattr(workers, "_prepared", set())
     prepared_in.clear()
-    asked = ["__import__('tests.app.test_workers').app.test_workers.prepared_in"] * 4
+    asked = [f"__import__({__name__!r}, fromlist=['prepared_in']).prepared_in"] * 4
     found = [here for _, here in map_in_processes(eval, asked, prepare=_note_process)]
     if workers._can_fork():
         assert found == [[os.getpid()]] * 4
