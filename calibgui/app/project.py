@@ -90,7 +90,7 @@ class Project:
         return CornerSet(self.size, self.views, self.board, self.lengths_confirmed)
 
     @cached_property
-    def size_doubt(self) -> CalibrationError | None:
+    def grid_size_doubt(self) -> CalibrationError | None:
         """Why it is not known how many rows and columns the board has, of which parts are seen;
         None if it is stated or seen, or no board is found. The board counts as its largest part
         for what is shown, and nothing is calibrated."""
@@ -99,8 +99,8 @@ class Project:
         return explain_unknown_size(self.views, self.pattern)
 
     @property
-    def size_of_boards(self) -> Size | None:
-        """Width and height of the images that show the board, px; None while none does, so that
+    def confirmed_image_size(self) -> Size | None:
+        """Width and height of the images, px, once one of them shows the board; None before, as
         images of another size may turn out to be those that are meant."""
         is_seen = any(view.status is ViewStatus.FOUND for view in self.views)
         return self.size if is_seen else None

@@ -183,7 +183,7 @@ class Marker(QObject):
         corners, points = tool.preview, np.array(tool.points)
         image = self._session.images.read(self._image)
         size = image.size
-        others = self._session.project.size_of_boards
+        others = self._session.project.confirmed_image_size
         if others is not None and others != size:
             self._session.failed.emit(
                 CalibrationError(

@@ -127,7 +127,7 @@ class Calibrator(QObject):
                 self.tr("There is no image to calibrate from."),
                 self.tr("Add photographs of a board."),
             )
-        return project.size_doubt
+        return project.grid_size_doubt
 
     def _done(self, asked: CornerSet, result: Result) -> None:
         name = find_free_name(self._session.project, self.tr("Calibration"))

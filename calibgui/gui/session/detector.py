@@ -92,7 +92,7 @@ class Detector(QObject):
                 rois,
                 progress,
                 job.cancelling,
-                project.size_of_boards,
+                project.confirmed_image_size,
                 orientation=find_orientation(project.views),
                 method=project.method,
                 pattern=pattern,

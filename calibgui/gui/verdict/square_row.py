@@ -103,7 +103,7 @@ class SquareRow(QWidget):
             parts = self.tr(
                 "How long are the squares? Their number is not known: state it in the Set-up."
             )
-        if board is not None and project.size_doubt is None:
+        if board is not None and project.grid_size_doubt is None:
             length = project.square / project.unit.mm
             return known.format(board.rows, board.cols, length, project.unit)
         if any(view.status is ViewStatus.WAITING for view in project.views):
