@@ -72,6 +72,7 @@ class BoardShapePanel(Panel):
         layout.addWidget(self.words)
         layout.addWidget(self.plot, 1)
         layout.addLayout(below)
+        layout.addStretch()
 
     @property
     def board_shape(self) -> BoardShape:

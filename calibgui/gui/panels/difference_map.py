@@ -71,6 +71,7 @@ class DifferenceMap(QWidget):
         layout.setContentsMargins(0, 0, 0, 0)
         layout.addWidget(self.plot, 1)
         layout.addWidget(self.under_cursor)
+        layout.addStretch()
         self._stack = QStackedWidget()
         self._stack.addWidget(drawn)
         self._stack.addWidget(self.reason)

@@ -67,6 +67,7 @@ class DistortionPanel(Panel):
         layout.addWidget(self.plot, 1)
         layout.addWidget(self.under_cursor)
         layout.addWidget(legend)
+        layout.addStretch()
 
     def displacement(self, uv: Array) -> Displacement:
         """The chosen part of the displacement at pixels (..., 2)."""

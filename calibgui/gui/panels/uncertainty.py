@@ -86,6 +86,7 @@ class UncertaintyPanel(Panel):
         layout.addWidget(self.words)
         layout.addWidget(self.plot, 1)
         layout.addWidget(self.under_cursor)
+        layout.addStretch()
 
     def _refresh(self, result: Result) -> None:
         self.found = None

@@ -21,6 +21,7 @@ from PySide6.QtGui import (
     QLinearGradient,
     QMouseEvent,
     QPainter,
+    QResizeEvent,
 )
 from PySide6.QtSvg import QSvgGenerator
 from PySide6.QtWidgets import QMenu, QSizePolicy, QWidget
@@ -56,6 +57,10 @@ class Plot(pg.GraphicsView):  # type: ignore[misc]  # pyqtgraph is not typed
         counts: whether the lower axis counts something, as views.
     """
 
+    _enclosed: QRectF | None = None
+    _wanted_height = 0
+    """Height that the enclosed area takes at the plot's width, px."""
+
     def __init__(
         self,
         x: str,
@@ -76,7 +81,6 @@ class Plot(pg.GraphicsView):  # type: ignore[misc]  # pyqtgraph is not typed
         self._labels = _labels(x, y, x_unit, y_unit)
         self.colour_bar: ColourBar | None = None
         """What the colours mean, if they mean anything."""
-        self._enclosed: QRectF | None = None
         self.box.sigResized.connect(self._make_room)
         self.box.setAspectLocked(square)
         self._is_logarithmic = logarithmic
@@ -128,6 +132,11 @@ class Plot(pg.GraphicsView):  # type: ignore[misc]  # pyqtgraph is not typed
         needed = self._find_upright_length() + self.area.bottom.minimumHeight() + 2 * MARGIN
         return QSize(super().minimumSizeHint().width(), max(_LEAST_HEIGHT, math.ceil(needed)))
 
+    def sizeHint(self) -> QSize:  # noqa: N802 - Qt's name
+        """Ask for the height that the enclosed area takes."""
+        hint = super().sizeHint()
+        return hint if self._enclosed is None else QSize(hint.width(), self._wanted_height)
+
     def _find_upright_length(self) -> float:
         """Return the length of the longest text along an upright axis, px."""
         upright = [self.area.left] + ([self.colour_bar.axis] if self.colour_bar else [])
@@ -148,8 +157,12 @@ class Plot(pg.GraphicsView):  # type: ignore[misc]  # pyqtgraph is not typed
         axis.update()
 
     def enclose(self, area: QRectF) -> None:
-        """Show all of `area` of a square plot, with axes that end where it ends."""
+        """Show all of `area` of a square plot, with axes that end where it ends.
+
+        The plot becomes no higher than that takes at its width: what stands below it stays close.
+        """
         self._enclosed = area
+        self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Maximum)
         self._make_room()
         self.box.setRange(area, padding=0)
 
@@ -182,6 +195,17 @@ class Plot(pg.GraphicsView):  # type: ignore[misc]  # pyqtgraph is not typed
         below = MARGIN + max(height + _RIM - above - shown, 0.0)
         if max(abs(across - left), abs(above - top), abs(below - bottom)) > 1:
             grid.setContentsMargins(across, above, across, below)
+        full = width / self._enclosed.width() * self._enclosed.height() + above - _RIM
+        wanted = math.ceil(self.height() - height + full)
+        if wanted != self._wanted_height:
+            self._wanted_height = wanted
+            self.updateGeometry()
+
+    def resizeEvent(self, event: QResizeEvent | None) -> None:  # noqa: N802 - Qt's name
+        if self._enclosed is not None and not self.closed:
+            # The margins of a wider plot would leave no room.
+            self.area.grid.setContentsMargins(MARGIN, _RIM, MARGIN, MARGIN)
+        super().resizeEvent(event)
 
     def set_title(self, text: str) -> None:
         """Say above the plot what it shows at present."""

@@ -7,7 +7,7 @@ import pyqtgraph as pg
 import pytest
 from PySide6.QtCore import QRect, QRectF, Qt
 from PySide6.QtGui import QImage
-from PySide6.QtWidgets import QApplication, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QApplication, QLabel, QVBoxLayout, QWidget
 from pytestqt.qtbot import QtBot
 
 from calibgui.gui.widgets import theme
@@ -168,3 +168,23 @@ def test_the_numbers_of_axes_and_colour_bar_follow_what_is_shown(qtbot: QtBot) -
     bar.set_levels(0, 60)
     for axis, painted in zip(axes, before, strict=True):
         assert paint_axis(plot, axis) != painted
+
+
+@pytest.mark.parametrize("area", [QRectF(0, 0, 640, 480), QRectF(0, 0, 480, 640)])
+def test_a_plot_of_an_area_takes_no_more_height_than_it_fills(qtbot: QtBot, area: QRectF) -> None:
+    """What stands below it, as the reading under the cursor, stays close to it."""
+    panel, below = QWidget(), QLabel("below")
+    qtbot.addWidget(panel)
+    plot = Plot("u", "v", "px", "px", square=True)
+    layout = QVBoxLayout(panel)
+    layout.addWidget(plot, 1)
+    layout.addWidget(below)
+    layout.addStretch()
+    plot.enclose(area)
+    panel.show()
+    for width in (360, 1200, 360):  # narrow again: the margins of the wide plot are gone
+        panel.resize(width, 700)
+        QApplication.processEvents()
+        assert plot.area.size().width() <= plot.width()
+        shown = plot.area.bottom.mapRectToScene(plot.area.bottom.boundingRect()).bottom()
+        assert plot.y() + shown == pytest.approx(below.y(), abs=20)
