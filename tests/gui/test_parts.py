@@ -91,9 +91,10 @@ def test_views_that_do_not_determine_the_camera_say_what_to_photograph(
     qtbot.waitUntil(lambda: len(session.project.results) == 3, timeout=30_000)
     assert session.result is not None
     assert session.result.calibration.status is Status.PARTIAL
-    assert full.banner.isVisible()
-    assert "is partial. One view does not" in full.banner.text.text()
-    assert "Add at least two more views" in full.banner.text.text()
+    qtbot.waitUntil(lambda: full.verdict.verdict is not None)
+    assert "One view does not determine a camera" in full.verdict.reason.text()
+    assert "Add at least two more views" in full.verdict.reason.text()
+    assert full.banner.isHidden(), "nothing is said twice"
     panel = full.analysis.findChild(ResultPanel)
     assert panel is not None
     qtbot.waitUntil(lambda: not session.jobs.running)

@@ -159,6 +159,11 @@ class Verdict:
         """
         return self.findings[0].times_better if self.findings else 1.0
 
+    @property
+    def is_known_well(self) -> bool:
+        """Return whether the calibration is good, and for every pixel of the image."""
+        return self.grade is Grade.GOOD and self.error.worst <= MAX_GOOD_PX
+
 
 class Trial(NamedTuple):
     """An action that has been carried out for a trial."""

@@ -18,7 +18,6 @@ from calibgui.engine.kernels import SOLVER_SECONDS, when_compiling
 from calibgui.gui.jobs.job import Job
 from calibgui.gui.session.detector import Detector
 from calibgui.gui.session.session import Session
-from calibgui.report.summary import describe_lost_images
 
 
 class Calibrator(QObject):
@@ -138,14 +137,6 @@ class Calibrator(QObject):
         if result.calibration.status is Status.STOPPED:
             self._session.notified.emit(
                 self.tr("Stopped: “{0}” is the best so far, not the optimum.").format(name)
-            )
-
-        if (diagnosis := result.calibration.diagnosis) is not None:
-            self._session.failed.emit(
-                CalibrationError(
-                    self.tr("“{0}” is partial. {1}").format(name, diagnosis.message),
-                    describe_lost_images(result) or diagnosis.hint,
-                )
             )
 
     def _end(self) -> None:

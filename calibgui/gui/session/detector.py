@@ -75,9 +75,7 @@ class Detector(QObject):
         rois = {Path(image): roi for image, roi in self._batch.items() if roi is not None}
 
         searching = self.tr("Finding corners")
-        preparing = self.tr(
-            "Preparing the corner finder for its first use (once, about {0} s)…"
-        ).format(FINDER_SECONDS)
+        preparing = self.tr("Preparing the search (once, about {0} s)…").format(FINDER_SECONDS)
 
         def work(job: Job) -> Detection:
             def progress(done: int, total: int, view: View) -> None:

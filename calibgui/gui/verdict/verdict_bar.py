@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import PurePath
 
-from PySide6.QtCore import QEvent, Qt, Signal
+from PySide6.QtCore import QCoreApplication, QEvent, Qt, Signal
 from PySide6.QtGui import QColor, QPainter, QPaintEvent, QResizeEvent
 from PySide6.QtWidgets import (
     QBoxLayout,
@@ -17,9 +17,16 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from calibgui.dataset import Result
+from calibgui.dataset import Result, ViewStatus
 from calibgui.dataset.judging import judge_result
-from calibgui.engine.assessment import Action, ActionKind, Cause, Finding, Verdict
+from calibgui.engine.assessment import (
+    Action,
+    ActionKind,
+    Cause,
+    Finding,
+    Verdict,
+)
+from calibgui.engine.calibration import Status
 from calibgui.gui.panels.latest import Latest
 from calibgui.gui.session.session import Session
 from calibgui.gui.verdict.findings_list import FindingsList
@@ -35,6 +42,7 @@ from calibgui.gui.verdict.texts import (
 from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.lengths import state_condition
 from calibgui.gui.widgets.wrapped_label import WrappedLabel
+from calibgui.report.summary import describe_lost_images
 from calibgui.report.verdict import describe_reason
 
 _PROOFS = {
@@ -217,7 +225,8 @@ class VerdictBar(QFrame):
         A result that is about to take its place is shown then.
         """
         is_shown = self._session.result is self._result
-        if is_shown and self._age != self._session.describe_age(self._result):
+        is_of_other_age = self._age != self._session.describe_age(self._result)
+        if is_shown and (self._result is None or is_of_other_age):
             self._show_reason()
 
     def _show(self) -> None:
@@ -241,17 +250,22 @@ class VerdictBar(QFrame):
         verdict, result = self.verdict, self._result
         self._age = self._session.describe_age(result)
         if result is None:
-            hint = self.tr("How far the camera can be trusted is said here once it is calibrated.")
-            self.reason.setText(hint)
+            self.reason.setText(self._describe_start())
         elif verdict is None:
             self.reason.setText(self.tr("What makes it better is being tried."))
         else:
-            diagnosis = result.calibration.diagnosis
-            reason = diagnosis.message if diagnosis else describe_reason(verdict, result)
-            self.reason.setText(f"{self._age} {reason}".lstrip())
+            self.reason.setText(f"{self._age} {_describe_reason(verdict, result)}".lstrip())
         theme.set_text_colour(
             self.reason, theme.current().warning if self._age else theme.current().text
         )
+
+    def _describe_start(self) -> str:
+        """Say what is missing for a first result."""
+        project = self._session.project
+        is_searched = all(view.status is not ViewStatus.WAITING for view in project.views)
+        if project.views and is_searched and not project.usable:
+            return self.tr("No photograph can be used: click one to see why.")
+        return self.tr("How far the camera can be trusted is said here once it is calibrated.")
 
     def _show_buttons(self) -> None:
         busy = self.remedier.running
@@ -270,11 +284,15 @@ class VerdictBar(QFrame):
 
     @property
     def _action(self) -> Action | None:
-        """What is to be done first: about the most harmful finding, or to determine the camera."""
-        if self.verdict is not None and self.verdict.findings:
-            return self.verdict.findings[0].action
-        is_partial = self._result is not None and self._result.calibration.diagnosis is not None
-        return Action(ActionKind.PHOTOGRAPH_MORE) if is_partial else None
+        """What is to be done first: about the most harmful finding, or to add views."""
+        verdict, result = self.verdict, self._result
+        if verdict is None or result is None:
+            return None
+        if verdict.findings:
+            return verdict.findings[0].action
+        is_finished = result.calibration.status in (Status.CONVERGED, Status.PARTIAL)
+        is_open = is_finished and not verdict.is_known_well
+        return Action(ActionKind.PHOTOGRAPH_MORE) if is_open else None
 
     def _list_names(self) -> list[str]:
         used = () if self._result is None else self._result.used
@@ -344,3 +362,17 @@ class VerdictBar(QFrame):
         grade = None if self.verdict is None else self.verdict.grade
         painter.fillRect(0, 0, _STRIPE, self.height(), QColor(get_colour(grade)))
         painter.fillRect(_STRIPE, self.height() - 1, self.width(), 1, QColor(colours.line))
+
+
+def _describe_reason(verdict: Verdict, result: Result) -> str:
+    """Say why a result has its grade, and which photographs it lacks."""
+    if (diagnosis := result.calibration.diagnosis) is not None:
+        return f"{diagnosis.message} {describe_lost_images(result) or diagnosis.hint}"
+    reason = describe_reason(verdict, result)
+    lost = sum(view.enabled and not view.usable for view in result.views)
+    if not lost:
+        return reason
+    text = QCoreApplication.translate(
+        "VerdictBar", "{0} of {1} photographs could not be used: click one to see why."
+    )
+    return f"{reason} {text.format(lost, len(result.views))}"

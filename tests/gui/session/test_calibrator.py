@@ -59,20 +59,6 @@ def test_a_calibration_with_a_named_lens_model_compares_none(
     assert "Calibrating" in labels and "Comparing lens models" not in labels
 
 
-def test_a_lack_of_views_is_put_down_to_the_images_that_cannot_be_used(
-    qtbot: QtBot, session: Session, tmp_path: Path
-) -> None:
-    project = examples.calibrated(tmp_path)
-    first, *others = project.views
-    lost = [view.refuse(ViewStatus.WRONG_SIZE, "Another size.") for view in others]
-    session.begin(Document(replace(project, views=(first, *lost))))
-    with qtbot.waitSignal(session.failed, timeout=60_000) as failed:
-        Calibrator(session, Detector(session)).calibrate()
-    (error,) = failed.args
-    assert f"{len(lost)} of {len(project.views)} images cannot be used" in error.hint
-    qtbot.waitUntil(lambda: not session.jobs.running)
-
-
 def test_images_whose_search_died_are_not_put_down_to_the_photographs(
     qtbot: QtBot, session: Session, tmp_path: Path
 ) -> None:

@@ -132,7 +132,7 @@ def test_the_wait_for_the_first_use_is_explained(
     qtbot.waitUntil(lambda: bool(search.asked))
     search.preparing()
     job = session.jobs.running[0]
-    qtbot.waitUntil(lambda: job.label.startswith("Preparing the corner finder"))
+    qtbot.waitUntil(lambda: job.label.startswith("Preparing the search"))
     search.findings.put(found[0])
     qtbot.waitUntil(lambda: job.label == "Finding corners")
     for view in (*found[1:], None):

@@ -93,7 +93,9 @@ def act(bar: VerdictBar, button: QPushButton, window: MainWindow, qtbot: QtBot) 
     return bar.comparison
 
 
-def test_a_sound_result_has_its_figures_and_no_button(plain: Project, open_project: Open) -> None:
+def test_a_sound_result_has_its_figures_and_no_findings(
+    plain: Project, open_project: Open, window: MainWindow, qtbot: QtBot
+) -> None:
     bar = open_project(calibrated(plain))
     verdict = bar.verdict
     assert verdict is not None and bar.mark.grade is verdict.grade
@@ -102,8 +104,37 @@ def test_a_sound_result_has_its_figures_and_no_button(plain: Project, open_proje
     assert f"edge {edge}, worst {worst} px" in bar.figures.text()
     assert "RMS 0.0" in bar.figures.text() and "of 252 corners" in bar.figures.text()
     assert "if squares" not in bar.figures.text()
-    assert not bar.button.isVisible() and not bar.unfold.isVisible()
-    assert not bar.square.isVisible()
+    assert not bar.unfold.isVisible() and not bar.square.isVisible()
+    # What can be done about pixels that are not known well is to add views.
+    assert not verdict.is_known_well and bar.button.text() == "Show where to hold the board"
+    qtbot.mouseClick(bar.button, LEFT)
+    assert isinstance(window.need_analysis().shown, CoveragePanel)
+
+
+def test_photographs_that_are_not_used_are_counted(plain: Project, open_project: Open) -> None:
+    bar = open_project(calibrated(plain))
+    lost = "1 of 7 photographs could not be used: click one to see why."
+    assert bar.reason.text().endswith(lost)
+    bar = open_project(calibrated(replace(plain, views=plain.views[:-1])))
+    assert "could not be used" not in bar.reason.text()
+
+
+def test_no_photograph_that_can_be_used_is_said(plain: Project, window: MainWindow) -> None:
+    reason = window.verdict.reason
+    window.session.begin(Document(replace(plain, views=plain.views[-1:], results={})))
+    assert reason.text() == "No photograph can be used: click one to see why."
+    window.session.edit("Add", lambda p: replace(p, views=plain.views))
+    assert reason.text().startswith("How far the camera can be trusted")
+
+
+def test_a_lack_of_views_is_put_down_to_the_images_that_cannot_be_used(
+    plain: Project, open_project: Open
+) -> None:
+    first, *others = plain.views
+    lost = [view.refuse(ViewStatus.WRONG_SIZE, "Another size.") for view in others]
+    bar = open_project(calibrated(replace(plain, views=(first, *lost))))
+    assert bar.reason.text().startswith("One view does not determine a camera")
+    assert f"{len(lost)} of {len(plain.views)} images cannot be used" in bar.reason.text()
 
 
 def test_one_click_remedies_and_one_takes_it_back(
