@@ -30,13 +30,15 @@ from PySide6.QtWidgets import (
 
 from calibgui.app.project import change_views, remove_views
 from calibgui.dataset import Result, View
-from calibgui.gui.images.film_view import FilmView
+from calibgui.gui.images.film_view import Cell, FilmView
 from calibgui.gui.images.image_model import Criterion, ImageModel, Role
 from calibgui.gui.session.session import Session
 from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.actions import enable_action, make_action
 from calibgui.gui.widgets.number_box import fit_width
 
+_LEAST_IMAGES = 3
+"""Number of images below which a strip has no room for its controls."""
 Index = QModelIndex | QPersistentModelIndex
 
 
@@ -141,7 +143,8 @@ class FilmStrip(QWidget):
             )
         )
         self.threshold.valueChanged.connect(self._threshold_typed)
-        self.exclude_above = QPushButton()
+        self.exclude_above = QPushButton(self._describe_exclusion(100))
+        self.exclude_above.setMinimumWidth(self.exclude_above.sizeHint().width())
         self.exclude_above.clicked.connect(lambda: self.exclude(self.above))
         sort_by = QLabel(self.tr("Sort b&y"))
         sort_by.setBuddy(self.sorting)
@@ -159,7 +162,8 @@ class FilmStrip(QWidget):
     def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name
         """Leave a strip that is too narrow for both to the images."""
         super().resizeEvent(event)
-        self.controls.setVisible(event.size().width() >= 2 * self.controls.sizeHint().width())
+        room = event.size().width() - self.controls.sizeHint().width()
+        self.controls.setVisible(room >= _LEAST_IMAGES * Cell.SIZE.width())
 
     @property
     def chosen(self) -> list[str]:
@@ -252,9 +256,10 @@ class FilmStrip(QWidget):
         count = len(self.above)
         usable = sum(view.usable for view in self._session.project.views)
         self.exclude_above.setEnabled(0 < count < usable)
-        self.exclude_above.setText(
-            self.tr("E&xclude above: {0}").format(count) if count else self.tr("None above")
-        )
+        self.exclude_above.setText(self._describe_exclusion(count))
+
+    def _describe_exclusion(self, count: int) -> str:
+        return self.tr("E&xclude above: {0}").format(count) if count else self.tr("None above")
 
     def _threshold_typed(self, error: float) -> None:
         self.list.set_threshold(error)

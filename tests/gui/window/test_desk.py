@@ -239,6 +239,17 @@ def test_a_narrow_strip_is_left_to_the_images(full: MainWindow, qtbot: QtBot) ->
     qtbot.waitUntil(full.images.controls.isVisible)
 
 
+def test_a_threshold_leaves_the_controls_where_they_are(full: MainWindow, qtbot: QtBot) -> None:
+    resize(full, qtbot, 960, 1000)
+    images = full.images
+    before = images.exclude_above.geometry()
+    images.threshold.setValue(0.5 * images.list.top)
+    assert images.exclude_above.text().startswith("E&xclude above: ")
+    resize(full, qtbot, 1000, 1000)
+    resize(full, qtbot, 960, 1000)
+    assert images.controls.isVisible() and images.exclude_above.geometry() == before
+
+
 def test_a_message_lies_over_the_picture(full: MainWindow) -> None:
     places = full.page.canvas.geometry(), full.calibrate.geometry()
     full.show_failure(CalibrationError("It cannot be.", "Do otherwise."))
