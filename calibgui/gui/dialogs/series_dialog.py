@@ -235,7 +235,7 @@ class SeriesDialog(QDialog):
                 lambda name: str(PurePath(name).with_suffix("")),  # all are .json
             ),
             Column(
-                self.scalar.currentText(),
+                self.scalar.currentText().capitalize(),
                 [*(one.value for one in used), *(one.value for one in analysed.left_out)],
                 lambda value: format_value(value, analysed.scalar),
             ),

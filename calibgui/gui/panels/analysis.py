@@ -188,7 +188,8 @@ class Analysis(QWidget):
 
     def show_beginning(self) -> None:
         """A calibration starts: its progress is shown where one looks at it."""
-        self.panel(ConvergencePanel).start()  # before it would draw the last one
+        cost = self._session.project.settings.cost
+        self.panel(ConvergencePanel).start(cost)  # before it would draw the last one
 
     def show_iteration(self, iteration: Iteration) -> None:
         """A calibration has come one iteration further."""

@@ -44,7 +44,7 @@ class BoardShapePanel(Panel):
         self.save.setToolTip(
             self.tr(
                 "Write the board's shape to a file, for later calibrations with the same board: "
-                "Settings, Board is: as in a file."
+                "Set-up, Board is: as in a file."
             )
         )
         self.save.clicked.connect(self._ask_and_save)

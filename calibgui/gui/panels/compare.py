@@ -18,6 +18,7 @@ from calibgui.engine.arrays import Array
 from calibgui.engine.assessment import CameraDifference, compare_cameras
 from calibgui.engine.geometry import rotation_from_vector
 from calibgui.engine.images import Image, make_ideal_image
+from calibgui.engine.numbers import format_two_digits
 from calibgui.gui.panels.difference_map import DifferenceMap
 from calibgui.gui.panels.divided_images import DividedImages, Grey
 from calibgui.gui.panels.estimates import estimate_columns
@@ -188,9 +189,8 @@ class ComparePanel(Panel):
         corners = np.concatenate([view.uv for view in b.observations()])
         self.map.show_difference(difference, difference.size, corners)
         words = self.tr(
-            "Where corners were seen the two image the same point up to {0:.3f} px apart, "
-            "{1:.3f} px RMS."
-        ).format(difference.worst, difference.rms)
+            "Where corners were seen the two image the same point up to {0} px apart, {1} px RMS."
+        ).format(*map(format_two_digits, (difference.worst, difference.rms)))
         comparable = [row for row in rows if np.isfinite(row.sigmas)]
         if comparable:
             most = max(comparable, key=lambda row: abs(row.sigmas))

@@ -13,6 +13,7 @@ from calibgui.gui.panels.panel import Panel
 from calibgui.gui.panels.services import Services
 from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.plots import Plot
+from calibgui.gui.widgets.tables import format_seconds
 from calibgui.gui.widgets.wrapped_label import WrappedLabel
 
 
@@ -30,13 +31,15 @@ class ConvergencePanel(Panel):
         )
         self._curve = self.plot.plot(symbol="o", symbolSize=7)
         self._iterations: list[Iteration] = []
+        self._unit = ""
         layout = QVBoxLayout(self.body)
         layout.addWidget(self.words)
         layout.addWidget(self.plot, 1)
 
-    def start(self) -> None:
-        """A calibration begins: forget the last one's iterations."""
+    def start(self, cost: Cost) -> None:
+        """A calibration that minimises `cost` begins: forget the last one's iterations."""
         self._iterations = []
+        self._state_unit(cost)
         self._result = None
         self._draw()
         self.words.setText(self.tr("Calibrating…"))
@@ -49,8 +52,8 @@ class ConvergencePanel(Panel):
         self._iterations.append(iteration)
         self._draw()
         self.words.setText(
-            self.tr("Calibrating: iteration {0}, RMS {1:.4f}").format(
-                iteration.index, iteration.rms
+            self.tr("Calibrating: iteration {0}, RMS residual {1:.4f} {2}").format(
+                iteration.index, iteration.rms, self._unit
             )
         )
 
@@ -59,13 +62,19 @@ class ConvergencePanel(Panel):
         self._iterations = [*calibration.history]
         self._draw()
         last = calibration.history[-1]
-        unit = self.tr("px") if calibration.cost is Cost.IMAGE else self.tr("reference px")
-        self.plot.set_labels(self.tr("iteration"), self.tr("cost c"), y_unit=f"{unit}²")
+        self._state_unit(calibration.cost)
         self.words.setText(
             self._ending(calibration.status).format(last.index)
             + " "
-            + self.tr("RMS residual {0:.4f} {1}; {2:.2f} s.").format(last.rms, unit, last.seconds)
+            + self.tr("RMS residual {0:.4f} {1}; {2}.").format(
+                last.rms, self._unit, format_seconds(last.seconds)
+            )
         )
+
+    def _state_unit(self, cost: Cost) -> None:
+        """Say in which unit residuals are."""
+        self._unit = self.tr("px") if cost is Cost.IMAGE else self.tr("reference px")
+        self.plot.set_labels(self.tr("iteration"), self.tr("cost c"), y_unit=f"{self._unit}²")
 
     def _ending(self, status: Status) -> str:
         return {

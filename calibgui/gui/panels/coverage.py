@@ -43,6 +43,7 @@ class CoveragePanel(Panel):
         super().__init__(services)
         self._work = Latest(services.jobs, self)
         self.density = HeatMap(self.tr("corners in a cell"))
+        self.density.bar.axis.is_count = True
         self.density.setMinimumHeight(_MAP_HEIGHT)
         self.density.setToolTip(
             self.tr("Where corners were seen. The lens correction is extrapolated beyond them.")

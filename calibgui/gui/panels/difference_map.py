@@ -10,6 +10,7 @@ from PySide6.QtCore import QPointF, Qt
 from PySide6.QtWidgets import QStackedWidget, QVBoxLayout, QWidget
 
 from calibgui.engine.arrays import Array, BoolArray, Size
+from calibgui.engine.numbers import format_two_digits
 from calibgui.gui.panels.contours import Contours
 from calibgui.gui.panels.heat import CORNERS, HeatMap, surround_places
 from calibgui.gui.widgets import theme
@@ -111,8 +112,8 @@ class DifferenceMap(QWidget):
         uv = self.plot.pixel_at(position, self._size)
         if uv is None:
             self.under_cursor.setText(
-                self.tr("At most {0:.3f} px near corners: point to read it").format(
-                    float(np.nanmax(found.length[found.region], initial=0.0))
+                self.tr("At most {0} px near corners: point to read it").format(
+                    format_two_digits(float(np.nanmax(found.length[found.region], initial=0.0)))
                 )
             )
             return

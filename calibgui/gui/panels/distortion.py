@@ -13,6 +13,7 @@ from calibgui.engine.arrays import Array, BoolArray, Size
 from calibgui.engine.camera import Displacement, DisplacementPart, compute_displacement
 from calibgui.engine.geometry import centre_of_array
 from calibgui.engine.images import make_mesh
+from calibgui.engine.numbers import format_two_digits
 from calibgui.gui.panels.arrows import trace_arrows
 from calibgui.gui.panels.contours import Contours
 from calibgui.gui.panels.heat import HeatMap, image_rectangle
@@ -117,8 +118,8 @@ class DistortionPanel(Panel):
             return
         values = self.plot.image.image
         self.under_cursor.setText(
-            self.tr("d is at most {0:.2f} px: point to read it").format(
-                float(np.nanmax(values, initial=0.0))
+            self.tr("d is at most {0} px: point to read it").format(
+                format_two_digits(float(np.nanmax(values, initial=0.0)))
             )
         )
 

@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable, Sequence
 
 from calibgui.gui.panels.linked_tables import LinkedTables
-from calibgui.gui.widgets.tables import Column, with_decimals
+from calibgui.gui.widgets.tables import Column, format_seconds, with_decimals
 from calibgui.report.lens_choice import format_px
 from calibgui.report.methods import MethodRow
 
@@ -75,7 +75,7 @@ class MethodTables(LinkedTables):
             Column(
                 self.tr("Time [s]"),
                 [row.seconds for row in rows],
-                _format_seconds,
+                format_seconds,
                 self.tr("Time of initialisation and refinement from all views"),
                 heading=self.tr("Time"),
             ),
@@ -160,12 +160,3 @@ class MethodTables(LinkedTables):
 def _format_length(length: float) -> str:
     """Format a length in px; a dash where it is not known."""
     return format_px(length) if math.isfinite(length) else "–"
-
-
-def _format_seconds(seconds: float) -> str:
-    """Format a time with its unit; a dash where it is not known."""
-    if not math.isfinite(seconds):
-        return "–"
-    if seconds < 1:
-        return f"{1000 * seconds:.0f} ms"
-    return f"{seconds:.1f} s" if seconds < 10 else f"{seconds:.0f} s"

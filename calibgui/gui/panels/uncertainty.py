@@ -10,6 +10,7 @@ from PySide6.QtCore import QT_TRANSLATE_NOOP, QPointF
 from PySide6.QtWidgets import QDoubleSpinBox, QHBoxLayout, QLabel, QVBoxLayout
 
 from calibgui.dataset import Result
+from calibgui.engine.numbers import format_two_digits
 from calibgui.engine.uncertainty import ProjectionUncertainty, estimate_projection_uncertainty
 from calibgui.gui.panels.contours import Contours
 from calibgui.gui.panels.heat import CORNERS, HeatMap, surround_places
@@ -121,21 +122,21 @@ class UncertaintyPanel(Panel):
         share = found.fraction(limit)
         inside = self.tr(" (inside the red line)") if 0 < share < 1 else ""
         text = self.tr(
-            "Points {0} are imaged to {1:.3f} px at the centre, {2:.3f} px in the median, "
-            "{3:.3f} px at worst (1σ). {4:.0f} % of the image is known to {5:g} px or "
+            "Points {0} are imaged to {1} px at the centre, {2} px in the median, "
+            "{3} px at worst (1σ). {4:.0f} % of the image is known to {5:g} px or "
             "better{6}."
         ).format(
             describe_distance(found.distance)
             + (describe_condition(self._result) if math.isfinite(found.distance) else ""),
-            found.centre,
-            found.median,
-            found.worst,
+            *map(format_two_digits, (found.centre, found.median, found.worst)),
             100 * share,
             limit,
             inside,
         )
         if (top := self._find_top(found)) < found.worst:
-            text += self.tr(" The brightest colour is {0:.3f} px or more.").format(top)
+            text += self.tr(" The brightest colour is {0} px or more.").format(
+                format_two_digits(top)
+            )
         self.words.setText(text)
 
     def _hover(self, position: QPointF | None) -> None:

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 from PySide6.QtCore import QSize, Signal, SignalInstance
 from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import QHBoxLayout, QPushButton, QVBoxLayout, QWidget
 
 from calibgui.engine.assessment import CameraDifference, Verdict, compare_cameras
+from calibgui.engine.numbers import format_two_digits
 from calibgui.gui.panels.difference_map import DifferenceMap
 from calibgui.gui.panels.estimates import estimate_columns
 from calibgui.gui.panels.latest import Latest
@@ -16,7 +19,7 @@ from calibgui.gui.verdict.drop_down import DropDown
 from calibgui.gui.verdict.remedier import Remedied
 from calibgui.gui.verdict.texts import describe_grade
 from calibgui.gui.widgets import theme
-from calibgui.gui.widgets.tables import Column, Table, with_decimals, with_digits
+from calibgui.gui.widgets.tables import Column, Table, with_decimals
 from calibgui.gui.widgets.wrapped_label import WrappedLabel
 from calibgui.report.comparison import compare_parameters
 from calibgui.report.verdict import format_times
@@ -166,8 +169,8 @@ class BeforeAndAfter(DropDown):
         self.errors.show_columns(
             [
                 Column(self.tr("Verdict"), [name for name, *_ in pairs]),
-                Column(grades[0], [a for _, a, _ in pairs], with_digits(2)),
-                Column(grades[1], [b for *_, b in pairs], with_digits(2)),
+                Column(grades[0], [a for _, a, _ in pairs], _format_error),
+                Column(grades[1], [b for *_, b in pairs], _format_error),
             ]
         )
         rows = self.errors.verticalHeader().length() + self.errors.horizontalHeader().height()
@@ -183,3 +186,8 @@ class BeforeAndAfter(DropDown):
         if self._remedied is not None and project is not self._remedied.project:
             self._remedied = None
             self.hide()
+
+
+def _format_error(px: float) -> str:
+    """Format an error in px; a dash where it is not known."""
+    return format_two_digits(px) if math.isfinite(px) else "–"

@@ -98,6 +98,15 @@ def with_decimals(decimals: int) -> Callable[[float], str]:
     return text
 
 
+def format_seconds(seconds: float) -> str:
+    """Format a time with its unit; a dash where it is not known."""
+    if not math.isfinite(seconds):
+        return "–"
+    if seconds < 1:
+        return f"{1000 * seconds:.0f} ms"
+    return f"{seconds:.1f} s" if seconds < 10 else f"{seconds:.0f} s"
+
+
 class _Model(QStandardItemModel):
     """Holds what a table shows of each value, and what it is sorted by.
 

@@ -126,6 +126,7 @@ class Commands(QObject):
                 None,
                 Command(
                     text=self.tr("&Print results…"),
+                    shortcut="Ctrl+P",
                     tip=self.tr("Sentences, tables and plots of the result on paper or as PDF"),
                     run=self._printer.preview,
                     is_enabled=lambda: self._session.result is not None,
@@ -249,7 +250,6 @@ class Commands(QObject):
                 None,
                 Command(
                     text=self.tr("&Print a board…"),
-                    shortcut="Ctrl+P",
                     tip=self.tr("Make a board of any size"),
                     run=files.print_board,
                 ),

@@ -14,6 +14,7 @@ from calibgui.engine.assessment.comparison import compare_cameras
 from calibgui.engine.camera.camera import Camera
 from calibgui.engine.images.reading import Image
 from calibgui.engine.images.rendering import render_view
+from calibgui.engine.numbers import format_two_digits
 from calibgui.gui.jobs.jobs import Jobs
 from calibgui.gui.panels.compare import ComparePanel, undistort_alike
 from calibgui.gui.panels.services import Services
@@ -61,8 +62,8 @@ def test_the_map_is_the_cameras_difference_in_px(
         result.calibration.camera, other.calibration.camera, views=other.observations()
     )
     np.testing.assert_array_equal(panel.map.plot.image.image, expected.length)
-    assert f"{expected.worst:.3f} px apart" in panel.words.text()
-    assert f"{expected.rms:.3f} px RMS" in panel.words.text()
+    assert f"{format_two_digits(expected.worst)} px apart" in panel.words.text()
+    assert f"{format_two_digits(expected.rms)} px RMS" in panel.words.text()
 
 
 def test_any_two_results_can_be_chosen(

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from calibgui.dataset import Result
+from calibgui.engine.calibration import Cost
 from calibgui.engine.calibration.result import Status
 from calibgui.gui.panels.convergence import ConvergencePanel
 from tests.gui.panels.conftest import Shown
@@ -25,22 +26,23 @@ def test_plot_holds_the_history(shown: Shown[ConvergencePanel], result: Result) 
 
 def test_grows_while_it_runs(shown: Shown[ConvergencePanel], result: Result) -> None:
     panel = shown(ConvergencePanel, None)
-    panel.start()
+    panel.start(Cost.IMAGE)
     assert panel.plot.isVisible() and "Calibrating" in panel.words.text()
     for n, iteration in enumerate(result.calibration.history, start=1):
         panel.add(iteration)
         assert len(panel._curve.getData()[0]) == n
-    assert f"iteration {iteration.index}" in panel.words.text()
+    words = f"iteration {iteration.index}, RMS residual {iteration.rms:.4f} px"
+    assert words in panel.words.text()
     panel.show_result(result)
     assert panel.words.text().startswith("Converged after")
-    panel.start()
+    panel.start(Cost.IMAGE)
     assert panel._curve.getOriginalDataset()[0] is None
 
 
 def test_another_solve_begins_anew(shown: Shown[ConvergencePanel], result: Result) -> None:
     """A calibration that searches the images again solves twice."""
     panel = shown(ConvergencePanel, None)
-    panel.start()
+    panel.start(Cost.IMAGE)
     history = result.calibration.history
     for iteration in (*history, *history[:2]):
         panel.add(iteration)

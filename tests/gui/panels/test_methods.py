@@ -22,6 +22,7 @@ from calibgui.engine.boards.shape import BoardShapeModel
 from calibgui.engine.calibration.methods import BOUGUET
 from calibgui.engine.calibration.result import Cost
 from calibgui.engine.errors import CalibrationError, Progress
+from calibgui.engine.numbers import format_two_digits
 from calibgui.formats import EXPORTERS
 from calibgui.gui.dialogs.export_dialog import ExportDialog
 from calibgui.gui.panels.methods import MethodsPanel
@@ -161,7 +162,7 @@ def test_the_selected_methods_map_and_words_are_shown(
     assert found is not None
     np.testing.assert_array_equal(panel.map.plot.image.image, found.length)
     assert panel.map.plot.image.levels[1] == pytest.approx(found.worst)
-    assert panel.map.under_cursor.text().startswith(f"At most {found.worst:.3f} px")
+    assert panel.map.under_cursor.text().startswith(f"At most {format_two_digits(found.worst)} px")
     u, v = found.u[10], found.v[8]
     where = panel.map.plot.mapToScene(place(panel.map.plot, u, v))
     panel.map.plot.scene().sigMouseMoved.emit(where)

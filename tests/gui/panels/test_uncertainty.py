@@ -10,6 +10,7 @@ from PySide6.QtCore import QPointF, Qt
 from pytestqt.qtbot import QtBot
 
 from calibgui.dataset import Result
+from calibgui.engine.numbers import format_two_digits
 from calibgui.engine.uncertainty.projection_uncertainty import (
     ProjectionUncertainty,
     estimate_projection_uncertainty,
@@ -41,7 +42,7 @@ def test_map_and_words_are_the_engines(panel: UncertaintyPanel, far: ProjectionU
     assert box.bottom() - dv / 2 == pytest.approx(far.v[-1])
     words = panel.words.text()
     for value in (far.centre, far.median, far.worst):
-        assert f"{value:.3f} px" in words
+        assert f"{format_two_digits(value)} px" in words
     assert f"{100 * far.fraction(0.1):.0f} % of the image" in words
 
 
@@ -54,7 +55,7 @@ def test_it_is_said_where_the_colours_end_below_the_worst(
     panel._show(replace(far, covariance=covariance))
     top = panel.plot.bar.levels[1]
     assert top < 10 * far.worst
-    assert f"The brightest colour is {top:.3f} px or more." in panel.words.text()
+    assert f"The brightest colour is {format_two_digits(top)} px or more." in panel.words.text()
 
 
 def test_the_limit_is_a_line_around_its_region(

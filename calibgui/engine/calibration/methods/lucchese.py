@@ -52,7 +52,7 @@ def _refine(
 LUCCHESE = Method(
     name="lucchese",
     label="Lucchese",
-    title="Lucchese: views registered one by one, then all together",
+    title="Lucchese: each view, then all together",
     source="L. Lucchese, Geometric calibration of digital cameras through multi-view "
     "rectification, Image and Vision Computing 23 (2005) 517-539",
     limits="It estimates every lens model, from corners weighted by their covariances.",
