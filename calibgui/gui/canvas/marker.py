@@ -115,9 +115,9 @@ class Marker(QObject):
             return
         self._forget_preview(tool)
         self.roi_bar.words.setText(
-            self.tr("Click the board's outermost inner corners, in order: {0} of 4.").format(
-                len(tool.points)
-            )
+            self.tr(
+                "Click the four outermost inner corners, going round the board: {0} of 4."
+            ).format(len(tool.points))
             + (self.tr(" Backspace takes one back.") if tool.points else "")
         )
 

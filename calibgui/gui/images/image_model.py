@@ -52,7 +52,7 @@ def status_text(view: View) -> str:
     """The state of an image in a few words."""
     translate = QCoreApplication.translate
     words = {
-        ViewStatus.WAITING: translate("status_text", "waiting"),
+        ViewStatus.WAITING: translate("status_text", "not searched"),
         ViewStatus.NO_BOARD: translate("status_text", "no board"),
         ViewStatus.UNREADABLE: translate("status_text", "unreadable"),
         ViewStatus.WRONG_SIZE: translate("status_text", "wrong size"),

@@ -369,7 +369,8 @@ def _describe_reason(verdict: Verdict, result: Result) -> str:
     if (diagnosis := result.calibration.diagnosis) is not None:
         return f"{diagnosis.message} {describe_lost_images(result) or diagnosis.hint}"
     reason = describe_reason(verdict, result)
-    lost = sum(view.enabled and not view.usable for view in result.views)
+    searched = [view for view in result.views if view.status is not ViewStatus.WAITING]
+    lost = sum(view.enabled and not view.usable for view in searched)
     if not lost:
         return reason
     text = QCoreApplication.translate(

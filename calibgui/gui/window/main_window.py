@@ -342,8 +342,9 @@ class MainWindow(QMainWindow):
         self.resizeDocks([self.inspector_dock], [width], Qt.Orientation.Horizontal)
 
     def _follow_tool(self, taken: bool) -> None:
-        if taken:  # what the tool says stands there
-            self.inspector_dock.show()
+        if taken:
+            self.inspector_dock.show()  # what the tool says stands there
+            self.banner.hide_failure()  # it would cover corners
 
     def _show_calibrate(self) -> None:
         running, stopping = self.calibrator.running, self.calibrator.stopping

@@ -14,6 +14,7 @@ from calibgui.app.project import Project
 from calibgui.app.resources import find_resource
 from calibgui.dataset import View, ViewStatus
 from calibgui.engine.detection.find_corners import find_corners
+from calibgui.engine.errors import CalibrationError
 from calibgui.engine.images.reading import read_image
 from calibgui.gui.window.main_window import MainWindow
 from tests.gui.hand import Hand, outermost
@@ -73,7 +74,9 @@ def test_all_boards_by_hand_from_the_first_click_to_the_camera(
     qtbot.waitUntil(lambda: not session.jobs.running)
     assert {view.status for view in session.project.views} == {ViewStatus.WAITING}
     hand.choose_image(paths[0].name)
+    window.show_failure(CalibrationError("No board is marked.", "Mark it."))
     page.tools[0].trigger()
+    assert window.banner.isHidden(), "it would cover corners"
     for path, corners in zip(paths[:4], found, strict=False):
         hand.wait(lambda path=path: page.shown_path == str(path))
         hand.wait(lambda: page.canvas.tool is not None)
