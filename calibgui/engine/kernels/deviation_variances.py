@@ -12,7 +12,7 @@ import numpy as np
 from calibgui.engine.arrays import Array, IntArray
 from calibgui.engine.kernels.common import (
     compiled,
-    compiled_part,
+    compiled_allocating_part,
     factor,
     find_least_eigenvector,
     substitute,
@@ -52,7 +52,7 @@ class Noise(Protocol):
     def otherwise(self) -> float: ...
 
 
-@compiled_part
+@compiled_allocating_part
 def _follow_others(diagonal: Array, below: Array, stiffness: float, X: Array) -> float:
     """Turn X (m, c) into M^-1 X, M the stiffened tridiagonal matrix; return the trace of M^-1."""
     m, c = X.shape
@@ -76,7 +76,7 @@ def _follow_others(diagonal: Array, below: Array, stiffness: float, X: Array) ->
     return trace
 
 
-@compiled_part
+@compiled_allocating_part
 def _solve_stiffened(
     kind: IntArray,
     N: Array,
@@ -128,7 +128,7 @@ def _solve_stiffened(
     return gained
 
 
-@compiled_part
+@compiled_allocating_part
 def _mix_last_steps(points: Array, changes: Array, last: int, min_ratio: float, out: Array) -> None:
     """Fill out (3,) with what Anderson's mixing takes off the point after step `last`.
 

@@ -7,6 +7,7 @@ import numpy as np
 from calibgui.engine.arrays import Array
 from calibgui.engine.kernels.common import (
     compiled,
+    compiled_allocating_part,
     compiled_part,
     factor,
     find_least_eigenvector,
@@ -49,7 +50,7 @@ def _fill_rows(x: Array, u: Array, A: Array, centre: Array, bend: Array, J: Arra
             J[14, row] = p * (c0 - x[i, 0]) + q * (c1 - x[i, 1])
 
 
-@compiled_part
+@compiled_allocating_part
 def _refine_lens(
     x: Array, u: Array, A: Array, centre: Array, bend: Array, steps: int, damping: float
 ) -> None:
@@ -167,7 +168,7 @@ def _differentiate_map(
             second[i, axis, 1] = (a * q1 - b * q0) / det
 
 
-@compiled_part
+@compiled_allocating_part
 def _solve_ratios(s: Array, t: Array, damping: float, M: Array) -> None:
     """Fill M (3, k) such that the places t (n, 2) are (M s)[:2] / (M s)[2], by least squares, for
     the rows s (n, k)."""
@@ -259,7 +260,7 @@ def _invert(A: Array, out: Array) -> None:
             out[i, j] /= det
 
 
-@compiled_part
+@compiled_allocating_part
 def _solve_homography(x: Array, u: Array, H: Array) -> None:
     """Fill H (3, 3), which takes x (n, 2) to u (n, 2)."""
     s = np.empty((len(x), 3))
@@ -268,7 +269,7 @@ def _solve_homography(x: Array, u: Array, H: Array) -> None:
     _solve_ratios(s, u, _HOMOGRAPHY_DAMPING, H)
 
 
-@compiled_part
+@compiled_allocating_part
 def _solve_division_model(x: Array, u: Array, damping: float, A: Array, centre: Array) -> float:
     """Fill A and centre of ``_solve_division_model`` of the reference, and return its l1."""
     n = len(u)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from calibgui.engine.arrays import Array
-from calibgui.engine.kernels.common import compiled, compiled_part
+from calibgui.engine.kernels.common import compiled, compiled_allocating_part, compiled_part
 
 
 @compiled_part
@@ -50,7 +50,7 @@ def _estimate_steps_along(uv: Array, dr: int, dc: int, reach: int, out: Array) -
             _spread_steps(out)
 
 
-@compiled_part
+@compiled_allocating_part
 def _spread_steps(steps: Array) -> None:
     """Fill unknown steps from those that were known around them."""
     rows, cols, _ = steps.shape

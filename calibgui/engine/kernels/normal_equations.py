@@ -28,6 +28,7 @@ from calibgui.engine.kernels.cameras import (
 from calibgui.engine.kernels.common import (
     VIEWS_PER_BLOCK,
     compiled,
+    compiled_allocating_part,
     compiled_part,
     gram,
     make_contiguous,
@@ -127,7 +128,7 @@ def _whiten(weight: Array, J: Array) -> None:
             Jv[i] = w2[i] * u + w3[i] * v
 
 
-@compiled_part
+@compiled_allocating_part
 def _make_workspace(N: int) -> Workspace:
     """Return the arrays of one view that later calls fill: R X, 1 / depth, n, d, M, lead, F,
     X_cam and dd/dX_cam."""

@@ -7,6 +7,7 @@ import numpy as np
 from calibgui.engine.arrays import Array, IntArray, compute_median
 from calibgui.engine.kernels.common import (
     compiled,
+    compiled_allocating_part,
     compiled_part,
     factor,
     make_contiguous,
@@ -17,7 +18,7 @@ _NEGLIGIBLE = 1e-24
 """Square of a column's part perpendicular to the other, over the other's, that rounding makes."""
 
 
-@compiled_part
+@compiled_allocating_part
 def _fill_blur_difference(x: Array, out: Array) -> None:
     """Fill out (n,) with ``estimate_blur_difference`` at the unknowns x (n, 9).
 

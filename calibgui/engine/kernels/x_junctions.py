@@ -18,7 +18,12 @@ from calibgui.engine.arrays import (
     Int32Array,
     IntArray,
 )
-from calibgui.engine.kernels.common import bilinear, compiled, compiled_part
+from calibgui.engine.kernels.common import (
+    bilinear,
+    compiled,
+    compiled_allocating_part,
+    compiled_part,
+)
 
 _F = np.float32
 _QUARTER, _TWO = _F(0.25), _F(2)
@@ -188,7 +193,7 @@ def refine_stationary(
     return uv, is_near
 
 
-@compiled_part
+@compiled_allocating_part
 def _check_circle(
     g: GreyImage,
     u: float,
