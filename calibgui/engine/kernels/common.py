@@ -43,6 +43,7 @@ _MAX_SWEEPS = 30
 """Number of sweeps of rotations that an eigenvector may take; five are usual."""
 _NEGLIGIBLE = 1e-36
 """Sum of squares aside the diagonal, over that on it, at which a matrix counts as diagonal."""
+_NEXT = np.uintp(1)
 _MIN_BLOCKS_FOR_THREADS = 4
 """Number of blocks below which starting threads costs more than they save."""
 
@@ -156,17 +157,25 @@ def gram(J: Array, out: Array) -> None:
 
 
 @compiled_part
+def interpolate(g: GreyImage, i: int, j: int, a: float, b: float) -> float:
+    """Interpolate g bilinearly at (i + a, j + b), with a and b from 0 to 1."""
+    # Numbers without a sign are not asked whether they count from the end.
+    left, above = np.uintp(i), np.uintp(j)
+    right, below = left + _NEXT, above + _NEXT
+    value: float = (1 - b) * ((1 - a) * g[above, left] + a * g[above, right]) + b * (
+        (1 - a) * g[below, left] + a * g[below, right]
+    )
+    return value
+
+
+@compiled_part
 def bilinear(g: GreyImage, u: float, v: float) -> float:
     """Interpolate g bilinearly at (u, v), the border replicated; NaN where u or v is NaN."""
     height, width = g.shape
     u, v = min(max(u, 0.0), width - 1.0), min(max(v, 0.0), height - 1.0)
     i = min(int(u), width - 2) if u > 0 else 0
     j = min(int(v), height - 2) if v > 0 else 0
-    a, b = u - i, v - j
-    value: float = (1 - b) * ((1 - a) * g[j, i] + a * g[j, i + 1]) + b * (
-        (1 - a) * g[j + 1, i] + a * g[j + 1, i + 1]
-    )
-    return value
+    return interpolate(g, i, j, u - i, v - j)
 
 
 @compiled_part

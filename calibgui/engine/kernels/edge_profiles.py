@@ -9,6 +9,7 @@ from calibgui.engine.kernels.common import (
     bilinear,
     compiled,
     compiled_part,
+    interpolate,
     make_contiguous,
     make_read_only,
 )
@@ -38,10 +39,7 @@ def _sample_profile(
         for j in range(n):
             p, q = u + j * du, v + j * dv
             c, r = int(p), int(q)
-            a, b = p - c, q - r
-            above = (1 - a) * image[r, c] + a * image[r, c + 1]
-            below = (1 - a) * image[r + 1, c] + a * image[r + 1, c + 1]
-            grey[j] = (1 - b) * above + b * below
+            grey[j] = interpolate(image, c, r, p - c, q - r)
     else:
         for j in range(n):
             grey[j] = bilinear(image, u + j * du, v + j * dv)
