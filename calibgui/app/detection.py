@@ -286,14 +286,21 @@ def infer_grid_size(views: Iterable[View]) -> GridSize | None:
     """Return the most frequent grid size of completely seen boards; of equals, the largest.
 
     If the corners identify themselves, the largest part seen is taken. A grid of circles that may
-    go on outside of its image is a part. None if there is no board.
+    go on outside of its image is a part. None if there is no board, or if more photographs share a
+    part that is larger: a board of which a shadow hides a whole column looks complete.
     """
+    views = tuple(views)
     found = [view.corners for view in views if view.corners is not None]
     if found and all(corners.pattern.identifies_points for corners in found):
         return measure_largest_part(found)
     whole = (corners for corners in found if corners.complete and not corners.relative)
     seen = Counter(corners.shape for corners in whole)
-    return max(seen, key=lambda shape: (seen[shape], shape[0] * shape[1]), default=None)
+    usual = max(seen, key=lambda shape: (seen[shape], shape[0] * shape[1]), default=None)
+    shared = _find_shared_part(views)
+    if usual is None or shared is None or shared == usual:
+        return usual
+    count = sum(corners.shape == shared for corners in found)
+    return usual if seen[usual] >= count else None
 
 
 def measure_largest_part(found: Sequence[Corners]) -> GridSize | None:

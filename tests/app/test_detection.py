@@ -174,6 +174,14 @@ def test_the_usual_board_is_the_most_frequent_complete_one() -> None:
     assert infer_grid_size([part, View("blank.png", ViewStatus.NO_BOARD)]) is None
 
 
+def test_a_part_in_more_pictures_belies_a_smaller_board() -> None:
+    """The image's dark edge hides the last column of one board, and a corner of the others."""
+    whole, part = corners((6, 7), 42), corners((6, 8), 47)
+    assert infer_grid_size([whole, part, part, part]) is None
+    assert infer_grid_size([whole, part, part]) == (6, 7)
+    assert infer_grid_size([whole, whole, whole, part, part, part]) == (6, 7)
+
+
 def test_a_partly_seen_board_is_counted_on_the_usual_one(photographs: Path, tmp_path: Path) -> None:
     shutil.copytree(photographs, tmp_path, dirs_exist_ok=True)
     # The right-most column of the first view is outside the image.
