@@ -15,7 +15,7 @@ from dataclasses import asdict, dataclass
 
 import numpy as np
 
-from calibgui.engine.arrays import GridSize
+from calibgui.engine.arrays import GridSize, IntArray
 from calibgui.engine.boards.april_grid import (
     MAX_BORDER,
     TagLayout,
@@ -67,6 +67,14 @@ class TaggedCheckerboard(CodedPattern):
         """Return whether the square above and left of inner corner (0, 0) is dark."""
         return bool(self.from_top) or grid_size[0] % 2 == 0
 
+    def locate_tags(self, grid_size: GridSize) -> IntArray:
+        """Locate the tags, whose step is known: row and column (n, 2) of the inner corner that is
+        the upper left one of each tag's square."""
+        step = self.step or 2
+        rows, cols = count_tagged_squares(grid_size, step)
+        squares = step * TagLayout(cols, bool(self.from_top)).locate_squares(np.arange(rows * cols))
+        return squares + np.array([0 if self.from_top else grid_size[0] - 2, 0])
+
     def draw(self, grid_size: GridSize) -> PrintedPattern:
         """See ``Pattern``.
 
@@ -83,12 +91,8 @@ class TaggedCheckerboard(CodedPattern):
         n = load_family(self.family).side + 2 * border
         squares = draw_squares(grid_size, first_dark=self.is_first_square_dark(grid_size))
         dark = np.repeat(np.repeat(squares.dark, n, axis=0), n, axis=1)
-        layout = TagLayout(cols, bool(self.from_top))
-        numbers = np.arange(rows * cols)
-        for number, (row, col) in enumerate((self.step * layout.locate_squares(numbers)).tolist()):
-            # The squares of the print begin one before corner (0, 0).
-            top = (row + 1 if self.from_top else row + grid_size[0] - 1) * n
-            left = (col + 1) * n
+        # The squares of the print begin one before corner (0, 0).
+        for number, (top, left) in enumerate((n * (self.locate_tags(grid_size) + 1)).tolist()):
             dark[top : top + n, left : left + n] = draw_tag(self.family, number, border)
         x, y = (np.linspace(-1.0, count, (count + 1) * n + 1) for count in grid_size[::-1])
         return PrintedRectangles(x, y, dark)

@@ -224,6 +224,6 @@ def _locate_corners(
     lattice, rejected = refine_tagged_corners(grey, board, plain)
     fit = None
     if method == "edges":
-        lattice, fit, failing = fit_tagged_corners(grey, lattice, plain)
+        lattice, fit, failing = fit_tagged_corners(grey, lattice, pattern, plain)
         rejected += failing
     return assemble_corners(grey, lattice, fit, outline, rejected, pattern)

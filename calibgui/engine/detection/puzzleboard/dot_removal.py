@@ -5,10 +5,7 @@ the bright square; its other half has the square's colour. Place, size, colour a
 disc are known once the corners are, so that it can be computed and subtracted: blurred dots then do
 not draw the corners of small squares aside.
 
-The half disc is summed over the cells k that it is divided into. A cell is a Gaussian g as wide as
-the blur of the board's edges, which contains the pixel, and its own spread together:
-
-    change(u, v) = sum over k of contrast area_k g(u - u_k) g(v - v_k).
+The half disc is summed over the cells that it is divided into (`blurred_print`).
 """
 
 from __future__ import annotations
@@ -20,6 +17,7 @@ import numpy as np
 from calibgui.engine.arrays import Array, GreyImage
 from calibgui.engine.boards.puzzleboard import DOT_DIAMETER
 from calibgui.engine.detection import grid_map
+from calibgui.engine.detection.blurred_print import add_blurred_cells, subtract_change
 from calibgui.engine.detection.checkerboard.corner_template import orient_corners
 from calibgui.engine.detection.checkerboard.edge_profiles import measure_edge_profiles
 from calibgui.engine.detection.checkerboard.x_corner_fit import fit_x_corners
@@ -46,16 +44,14 @@ _ROUNDS = 2
 8 px is then known to 2 %."""
 _RINGS = 8
 """Number of rings of points in a half disc."""
-_REACH = 3.0
-"""Distance from a half disc up to which its blur is computed, standard deviations."""
 
 
-def _divide_half_disc() -> tuple[Array, Array, float]:
+def _divide_half_disc() -> tuple[Array, Array]:
     """Divide a half disc of a dot's radius into cells that are nearly square.
 
     Returns:
         The middles (k, 2) of the cells along and across the diameter and their areas (k,), in units
-        of a square's side, and the side of a cell.
+        of a square's side.
     """
     side = DOT_DIAMETER / 2 / _RINGS
     points, areas = [], []
@@ -64,10 +60,10 @@ def _divide_half_disc() -> tuple[Array, Array, float]:
         angle = np.pi * (np.arange(count) + 0.5) / count
         points.append(ring * np.column_stack([np.cos(angle), np.sin(angle)]))
         areas.append(np.full(count, side * np.pi * ring / count))
-    return np.concatenate(points), np.concatenate(areas), side
+    return np.concatenate(points), np.concatenate(areas)
 
 
-_POINTS, _AREAS, _CELL_SIDE = _divide_half_disc()
+_POINTS, _AREAS = _divide_half_disc()
 
 
 def remove_blurred_dots(
@@ -147,10 +143,7 @@ def _subtract_dots(
             (np.sign(levels) * height)[seen],
             blur,
         )
-    cleaned = image - change
-    if image.dtype in (np.uint8, np.uint16):
-        cleaned = np.clip(np.rint(cleaned), 0, np.iinfo(image.dtype).max)
-    return cleaned.astype(image.dtype)
+    return subtract_change(image, change)
 
 
 def _add_half_discs(
@@ -180,20 +173,4 @@ def _add_half_discs(
     ends = [locate(middle + sign * step) for step in (along, across) for sign in (1, -1)]
     step, other = ends[0] - ends[1], ends[2] - ends[3]
     area = abs(step[:, 0] * other[:, 1] - step[:, 1] * other[:, 0])
-    # A point stands for a cell, which has a spread of its own.
-    spread = np.sqrt(blur**2 + _CELL_SIDE**2 / 12 * area)[:, None, None]
-    centre = at.mean(axis=1)
-    half = int(np.ceil(np.abs(at - centre[:, None]).max() + _REACH * blur))
-    first = np.rint(centre).astype(np.int64) - half
-    pixel = np.arange(2 * half + 1)
-    columns, rows = (
-        np.exp(-0.5 * ((first[:, i, None, None] + pixel - at[..., i, None]) / spread) ** 2)
-        for i in (0, 1)
-    )
-    weight = (height * area)[:, None] * _AREAS / (2 * np.pi * spread[:, 0] ** 2)
-    tiles = np.swapaxes(rows, 1, 2) @ (weight[..., None] * columns)
-    h, w = change.shape
-    for (u, v), tile in zip(first.tolist(), tiles, strict=True):
-        top, left = max(-v, 0), max(-u, 0)
-        part = tile[top : max(h - v, 0), left : max(w - u, 0)]
-        change[v + top : v + top + part.shape[0], u + left : u + left + part.shape[1]] += part
+    add_blurred_cells(change, at, area[:, None] * _AREAS, height, np.full(len(at), blur))
