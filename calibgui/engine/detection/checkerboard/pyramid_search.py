@@ -81,7 +81,7 @@ class _LevelContent:
     junctions: Junctions
     """The saddles that are X-junctions."""
     lattices: list[Lattice]
-    """The junctions' lattices that could be boards, largest first."""
+    """The junctions' lattices, largest first."""
     plain: float
     """How far from the corners nothing is printed, squares: see `find_candidates`."""
     on_refusal: OnRefusal
@@ -126,6 +126,8 @@ def find_candidates(
             levels[depth], depth, min_contrast, outlines[depth], plain, on_refusal
         )
         shown = shown or (len(content.junctions), [each.uv for each in content.lattices])
+        if any(map(_is_resolved, content.lattices)) or not depth:
+            content = _drop_refused(content)
         if depth and content.lattices and not _is_resolved(content.lattices[0]):
             # The finer levels may show all of its small squares: until then it is of no use.
             waiting.append((depth, content))
@@ -136,7 +138,8 @@ def find_candidates(
         is_sure = bool(found) and all(_is_surely_complete(new.lattice) for new in found)
         if is_sure or not depth:
             for k, content in waiting:
-                if missed := _select_missed(content.lattices, k, candidates):
+                content = replace(content, lattices=_select_missed(content.lattices, k, candidates))
+                if missed := _drop_refused(content).lattices:
                     found = _grow_lattices(content, missed, sparse, is_sufficient, is_other)
                     candidates = _drop_parts(
                         candidates + _carry_down(found, candidates, levels[:k])
@@ -156,7 +159,7 @@ def find_candidates(
             on_refusal,
             THRESHOLDS.junctions.parted,
         )
-        seeds = _select_new(content, *shown)
+        seeds = _select_new(_drop_refused(content), *shown)
         if found := _grow_lattices(content, seeds, sparse, is_sufficient, is_other):
             candidates = _drop_parts(_carry_down(found, candidates, levels[:depth]) + candidates)
             yield candidates
@@ -213,8 +216,13 @@ def _analyse_level(
     _, junctions = classify_saddles(saddles, tolerance)
     most = THRESHOLDS.search.max_grown_lattices
     lattices = find_lattices(saddles, junctions, most, tolerance, plain)
-    content = _LevelContent(image, depth, saddles, junctions, lattices, plain, on_refusal)
-    return replace(content, lattices=[each for each in lattices if not _refuse(each, content)])
+    return _LevelContent(image, depth, saddles, junctions, lattices, plain, on_refusal)
+
+
+def _drop_refused(content: _LevelContent) -> _LevelContent:
+    """Drop the lattices of a level that are refused by what is seen at once."""
+    kept = [each for each in content.lattices if not _refuse(each, content)]
+    return replace(content, lattices=kept)
 
 
 def _refuse(lattice: Lattice, content: _LevelContent) -> bool:
@@ -329,16 +337,20 @@ def _select_missed(
     lattices: list[Lattice], depth: int, candidates: list[Candidate]
 ) -> list[Lattice]:
     """Select the lattices of a level that are no part of a candidate without gaps, or of one that
-    is another board."""
+    is another board. What they have beyond it are strays unless they would do for a line of it."""
     full = [
         Lattice(np.asarray(_scale_to_level(known.lattice.uv, depth)), known.lattice.dark)
         for known in candidates
         if known.is_other or known.lattice.found.all()
     ]
+    least = THRESHOLDS.verification.min_border_corners
     return [
         lattice
         for lattice in lattices
-        if not any(len(known) >= len(lattice) and is_part(lattice, known) for known in full)
+        if not any(
+            len(lattice) - len(known) < least * min(known.shape) and is_part(lattice, known)
+            for known in full
+        )
     ]
 
 

@@ -12,6 +12,7 @@ from calibgui.engine.detection.checkerboard.lattice_growth import grow_lattice
 from calibgui.engine.detection.checkerboard.pyramid_search import Candidate
 from calibgui.engine.detection.checkerboard.x_junctions import Junctions
 from calibgui.engine.detection.lattice import Lattice, compute_filled_share
+from tests.engine.detection.checkerboard.conftest import Draw
 from tests.scenes.perspective import photograph_board
 from tests.scenes.without_board import draw_without_board
 
@@ -110,3 +111,27 @@ def test_a_large_lattice_of_another_board_is_not_grown(monkeypatch: pytest.Monke
     assert len(found[0].lattice) > 0.9 * 21 * 29
     assert asked
     assert all(abs(spacing - 14) < 1.5 for spacing, _ in asked)
+
+
+def test_a_lattice_that_exceeds_a_known_one_by_strays_is_not_grown_again() -> None:
+    """A line of the board that a finer level did not show would have more corners."""
+    places = np.stack(np.meshgrid(np.arange(7.0), np.arange(6.0)), axis=-1)
+    known = Candidate(Lattice(40.0 * places[:, :6] + 60.0, dark=True), others=0)
+    uv = (40.0 * places + 60.5) / 2 - 0.5
+    for beyond, is_missed in ((1, False), (2, True), (6, True)):
+        uv[beyond:, 6] = np.nan
+        lattice = Lattice(uv.copy(), dark=True)
+        uv[:, 6] = (40.0 * places[:, 6] + 60.5) / 2 - 0.5
+        assert bool(pyramid_search._select_missed([lattice], 1, [known])) == is_missed
+
+
+def test_squares_that_are_too_small_in_a_level_are_not_judged_there(
+    monkeypatch: pytest.MonkeyPatch, draw: Draw
+) -> None:
+    """The finer level shows all of them: no profiles are read in the coarser one."""
+    judged: list[tuple[int, ...]] = []
+    monkeypatch.setattr(
+        pyramid_search, "_refuse", lambda _, content: bool(judged.append(content.image.shape))
+    )
+    assert len(next(iter(pyramid_search.find_candidates(draw(step=20.0).image)))) == 1
+    assert judged == [(240, 320)]
