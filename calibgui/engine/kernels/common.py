@@ -197,10 +197,11 @@ def substitute(L: Array, b: Array) -> None:
     for i in range(n):
         for k in range(i):
             b[i] -= L[i, k] * b[k]
-    for i in range(n - 1, -1, -1):
+    for i in range(n):
         b[i] /= L[i, i]
-        for k in range(i + 1, n):
-            b[i] -= L[k, i] * b[k]
+    for i in range(n - 1, -1, -1):
+        for k in range(i):  # along a row, whose entries lie side by side
+            b[k] -= L[i, k] * b[i]
 
 
 @compiled_part

@@ -163,14 +163,18 @@ def estimate_template(lattice: Lattice, image: GreyImage, plain: float = 0.5) ->
 
 def estimate_template_of(corners: OrientedCorners, image: GreyImage) -> CornerTemplate:
     """Estimate the typical one of `corners`, half of whose steps squares are of one colour over."""
+    contrast = estimate_contrast(corners, image)
     corners = corners.subsample(_THRESHOLDS.max_template_corners)
-    _, contrast = compare_sectors(image, *corners)
     patches = _compute_patches(image, *corners, PATCH_POSITIONS, _LINEAR_LIGHT)
     patch = _compute_median_patch(patches)
     dissimilarity = 1 - np.mean(patches * patch, axis=1)
-    return CornerTemplate(
-        float(compute_median(contrast)), patch, float(compute_median(dissimilarity))
-    )
+    return CornerTemplate(contrast, patch, float(compute_median(dissimilarity)))
+
+
+def estimate_contrast(corners: OrientedCorners, image: GreyImage) -> float:
+    """Estimate the median contrast of `corners`, grey levels."""
+    corners = corners.subsample(_THRESHOLDS.max_template_corners)
+    return float(compute_median(compare_sectors(image, *corners)[1]))
 
 
 def _compute_median_patch(patches: Array) -> Array:

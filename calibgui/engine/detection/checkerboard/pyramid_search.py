@@ -159,8 +159,8 @@ def find_candidates(
             on_refusal,
             THRESHOLDS.junctions.parted,
         )
-        seeds = _select_new(_drop_refused(content), *shown)
-        if found := _grow_lattices(content, seeds, sparse, is_sufficient, is_other):
+        content = _drop_refused(replace(content, lattices=_select_new(content, *shown)))
+        if found := _grow_lattices(content, content.lattices, sparse, is_sufficient, is_other):
             candidates = _drop_parts(_carry_down(found, candidates, levels[:depth]) + candidates)
             yield candidates
         levels.append(opencv.halve_image(levels[depth]))

@@ -25,7 +25,11 @@ import numpy as np
 
 from calibgui.engine.arrays import Array, BoolArray, GreyImage, compute_lengths, compute_median
 from calibgui.engine.detection import grid_map
-from calibgui.engine.detection.checkerboard.corner_template import estimate_template, orient_corners
+from calibgui.engine.detection.checkerboard.corner_template import (
+    estimate_contrast,
+    estimate_template,
+    orient_corners,
+)
 from calibgui.engine.detection.checkerboard.fit_thresholds import FIT_THRESHOLDS
 from calibgui.engine.detection.checkerboard.numbering import Sides, turn_lattice
 from calibgui.engine.detection.checkerboard.thresholds import THRESHOLDS
@@ -410,7 +414,7 @@ def _does_alternate_above(lattice: Lattice, image: GreyImage, min_difference: fl
 
 def _compute_square_difference(lattice: Lattice, image: GreyImage) -> float:
     """Compute the least difference between two squares that are seen, grey levels."""
-    contrast = estimate_template(lattice, image).contrast
+    contrast = estimate_contrast(orient_corners(lattice), image)
     return THRESHOLDS.verification.min_square_difference * contrast
 
 
