@@ -67,7 +67,8 @@ def compiled_part(function: Callable[_P, _T]) -> Callable[_P, _T]:
 
     It lacks the code by which Python calls it, which takes as long to compile as a short function,
     and is kept as a part of those that call it. It does not count references to arrays, each of
-    which would take as long as twenty products; so it must neither allocate nor return any.
+    which would take as long as twenty products; so it cannot allocate any, which numba sees to, and
+    must not return one.
     """
     part: Callable[_P, _T] = njit(no_cpython_wrapper=True, _nrt=False, **_OPTIONS)(function)
     return part

@@ -39,8 +39,9 @@ def estimate_corners(image: GreyImage, uv: Array, spacing: Array) -> Array:
     half = _REACH + _MARGIN
     tried = np.arange(-_REACH, _REACH + 1)
     # (n, k, side) weights around each of the k positions tried along an axis.
-    width = np.clip(spacing / 6, 1, _MARGIN / 3)[:, None, None]
-    w = np.exp(-0.5 * ((np.arange(-half, half + 1) - tried[:, None]) / width) ** 2)
+    width = np.clip(spacing / 6, 1, _MARGIN / 3)[:, None]
+    by_distance = np.exp(-0.5 * (np.arange(half + _REACH + 1) / width) ** 2)
+    w = by_distance[:, abs(np.arange(-half, half + 1) - tried[:, None])]
     score = _score_positions(image, uv, w, _SENSITIVITY)
     within = abs(tried) <= np.maximum(spacing / 4, 1)[:, None]
     score = np.where(within[:, :, None] & within[:, None, :], score, -np.inf)
