@@ -342,12 +342,15 @@ def _measure_odd_part(
         square[offset[1, p] + reach, offset[0, p] + reach] = residual[p]
     for p in pixels:
         u, v = offset[0, p], offset[1, p]
-        if max(abs(mu - u), abs(mv - v)) > reach or (2 * u == mu and 2 * v == mv):
+        # Of a pair the upper pixel is passed over, or the left one.
+        if 2 * v < mv or (2 * v == mv and 2 * u <= mu):
+            continue
+        if max(abs(mu - u), abs(mv - v)) > reach:
             continue
         opposite = square[mv - v + reach, mu - u + reach]
         if not np.isnan(opposite):
-            out[0] += (residual[p] - opposite) ** 2 / 4
-            out[1] += 0.5
+            out[0] += (residual[p] - opposite) ** 2 / 2
+            out[1] += 1
     for p in pixels:
         square[offset[1, p] + reach, offset[0, p] + reach] = np.nan
 

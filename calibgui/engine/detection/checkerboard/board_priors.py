@@ -56,6 +56,8 @@ class _Terms(NamedTuple):
     neighbours: IntArray
     """(5, n, 2) numbers of the corners from two places before to two after, by column and by row;
     n where there is none."""
+    triples: IntArray
+    """(3, m) numbers of corners that follow each other in a row or a column."""
     counts: IntArray
     """(degrees,) numbers of the terms that make up the polynomials of one degree after another."""
 
@@ -88,7 +90,10 @@ def _compute_terms(shape: GridSize, found: bytes) -> _Terms:
     derivatives = [
         grid_map.compute_polynomial_terms(table, powers, half, order) @ inverse for order in _ORDERS
     ]
-    return _Terms(Q, np.stack(derivatives), _list_neighbours(shape, at), counts)
+    neighbours = _list_neighbours(shape, at)
+    triples = neighbours[1:4].reshape(3, -1)
+    triples = triples[:, (triples < len(at)).all(axis=0)]
+    return _Terms(Q, np.stack(derivatives), neighbours, triples, counts)
 
 
 def _list_neighbours(shape: GridSize, at: IntArray) -> IntArray:
@@ -127,8 +132,8 @@ class BoardPriors:
         """
         flat = grid_map.fit_radial_homography(self._cells, uv)
         first, second = flat.differentiate(self._cells)
-        residual, _ = self._differentiate(uv - flat.locate(self._cells))
-        by_col, by_row, by_col2, by_row2 = residual
+        weights, _ = self._fit_polynomials(uv - flat.locate(self._cells))
+        by_col, by_row, by_col2, by_row2 = self._terms.derivatives @ weights
         steps = first + np.stack([by_col, by_row], axis=1)
         return steps, compute_curvatures(steps, second + np.stack([by_col2, by_row2], axis=1))
 
@@ -144,7 +149,7 @@ class BoardPriors:
         if edges.middle.any() and len(edges.uv) < _THRESHOLDS.many_cut_corners:
             followed, misfit = fit_edge_map(self._found, edges)
             flat = grid_map.fit_radial_homography(self._cells, edges.uv)
-            _, misses = self._differentiate(edges.uv - flat.locate(self._cells))
+            _, misses = self._fit_polynomials(edges.uv - flat.locate(self._cells))
             if misfit**2 < np.mean(misses**2):
                 return followed
         return self._bend_edges(edges)
@@ -160,11 +165,11 @@ class BoardPriors:
         Args:
             steps: (n, 2, 2) to the next column and row, px.
         """
-        derivatives, misfit = self._differentiate(values)
-        slopes = derivatives[:2].transpose(1, 0, 2)
-        before, after, second = self._take_differences(values)
-        is_broken = find_broken(misfit, estimate_noise(second))
+        weights, misfit = self._fit_polynomials(values)
+        slopes = (self._terms.derivatives[:2] @ weights).transpose(1, 0, 2)
+        is_broken = find_broken(misfit, self._estimate_noise(values))
         if is_broken.any():
+            before, after = self._take_differences(values)
             lesser = np.where(abs(before) < abs(after), before, after)
             slopes = np.where(is_broken, np.nan_to_num(lesser), slopes)
         return _solve_steps(steps, slopes).transpose(0, 2, 1)
@@ -180,7 +185,7 @@ class BoardPriors:
         Q, derivatives = self._terms.orthonormal, self._terms.derivatives
         weights = Q.T @ values
         counts, misfit = self._choose_counts(values[:, None], weights[:, None])
-        noise = estimate_noise(self._take_differences(values[:, None])[2])
+        noise = self._estimate_noise(values[:, None])
         if find_broken(misfit, noise).any():
             slopes = np.linalg.inv(steps)
             return np.asarray(2 * noise**2 * slopes @ slopes.transpose(0, 2, 1))
@@ -190,32 +195,32 @@ class BoardPriors:
         slopes = _solve_steps(steps, derivatives[:2, :, :count].transpose(1, 0, 2))
         return np.asarray(variance * slopes @ slopes.transpose(0, 2, 1))
 
-    def _take_differences(self, values: Array) -> tuple[Array, Array, Array]:
-        """Take differences of `values` (n, k) along the lines.
+    def _estimate_noise(self, values: Array) -> Array:
+        """Estimate the noise (k,) of `values` (n, k) from their differences along the lines."""
+        before, here, after = values[self._terms.triples]
+        return estimate_noise((after - here) - (here - before))
 
-        Returns:
-            (n, 2, k) differences by column and by row from the neighbours before and to the
-            neighbours after, at the ends of lines the next ones instead, and second differences;
-            NaN where there is none.
-        """
+    def _take_differences(self, values: Array) -> tuple[Array, Array]:
+        """Take differences (n, 2, k) of `values` (n, k), by column and by row, from the neighbours
+        before and to the neighbours after, at the ends of lines the next ones instead; NaN where
+        there is none."""
         nothing = np.full((1, values.shape[1]), np.nan)
         around = np.concatenate([values, nothing])[self._terms.neighbours]
         earlier, before, after, later = around[1:] - around[:-1]
         start, end = np.isnan(before), np.isnan(after)
-        return np.where(start, later, before), np.where(end, earlier, after), after - before
+        return np.where(start, later, before), np.where(end, earlier, after)
 
-    def _differentiate(self, values: Array) -> tuple[Array, Array]:
-        """Differentiate the polynomials fitted to `values` (n, k).
+    def _fit_polynomials(self, values: Array) -> tuple[Array, Array]:
+        """Fit polynomials to `values` (n, k).
 
         Returns:
-            (4, n, k) the derivatives `_ORDERS`, and (k,) the rms by which the polynomials would
-            miss a value left out.
+            (terms, k) the weights of their terms, and (k,) the rms by which they would miss a value
+            left out.
         """
-        Q, derivatives = self._terms.orthonormal, self._terms.derivatives
-        weights = Q.T @ values
+        weights = self._terms.orthonormal.T @ values
         best, misfit = self._choose_counts(values, weights)
         weights[np.arange(len(weights))[:, None] >= best] = 0.0
-        return derivatives @ weights, misfit
+        return weights, misfit
 
     def _choose_counts(self, values: Array, weights: Array) -> tuple[IntArray, Array]:
         """Choose how many terms, of `weights` (terms, k), the polynomials of `values` (n, k) have.
@@ -238,7 +243,7 @@ def find_broken(misfit: Array, noise: Array) -> BoolArray:
 
 
 def estimate_noise(second: Array) -> Array:
-    """Estimate the noise (k,) of values from their `second` differences (n, 2, k), NaN where there
+    """Estimate the noise (k,) of values from their `second` differences (..., k), NaN where there
     are none; it is endless where there are none at all."""
     known = second[np.isfinite(second[..., 0])]
     if not len(known):
@@ -285,12 +290,11 @@ class PredictedBoardPriors(BoardPriors):
 def compute_curvatures(first: Array, second: Array) -> Array:
     """Compute kappa (n, 2), 1/px, of lines from the first and second derivatives (n, 2, 2) of
     positions by column and by row, px."""
-    normal = _compute_normal(first, first[:, ::-1])
-    return np.asarray(np.sum(second * normal, axis=2) / np.sum(first * first, axis=2))
+    turn = np.sign(_cross(first, first[:, ::-1]))
+    return np.asarray(turn * _cross(first, second) / compute_lengths(first) ** 3)
 
 
-def _compute_normal(along: Array, across: Array) -> Array:
-    """Compute the unit normal of `along` on the side of `across`."""
-    normal = np.stack([-along[..., 1], along[..., 0]], axis=-1)
-    side = np.sign(np.sum(normal * across, axis=-1, keepdims=True))
-    return np.asarray(side * normal / compute_lengths(normal)[..., None])
+def _cross(one: Array, other: Array) -> Array:
+    """Compute the areas (...,) that vectors (..., 2) span, positive where the second turns from u
+    towards v."""
+    return np.asarray(one[..., 0] * other[..., 1] - one[..., 1] * other[..., 0])
