@@ -62,8 +62,9 @@ def _fill_ends(
     """Add to first, last and total (n, k)."""
     grey = np.empty(samples)
     for i in range(uv.shape[0]):
+        place, right, down = uv[i], along[i], across[i]
         for k in range(s.shape[0]):
-            _sample_profile(image, uv[i], along[i], across[i], s[k], 0.0, reach, grey)
+            _sample_profile(image, place, right, down, s[k], 0.0, reach, grey)
             total[i, k] = -(grey[0] + grey[samples - 1]) / 2
             for j in range(samples):
                 total[i, k] += grey[j]
@@ -106,6 +107,7 @@ def _describe_profiles(
     grey, k = np.empty(samples), len(s)
     growth, counts, low, high = np.empty(k), np.empty(k), np.empty(k), np.empty(k)
     for i in range(len(uv)):
+        place, right, down = uv[i], along[i], across[i]
         close = min(reach, blur_reach / size[i])
         is_clear = True
         for j in range(k):
@@ -118,7 +120,7 @@ def _describe_profiles(
             integral = (total / (samples - 1) - first) / rise * 2 * reach
             growth[j] = (reach - integral) * turn
             middle = min(max(reach - integral, close - reach), reach - close)
-            _sample_profile(image, uv[i], along[i], across[i], s[j], middle, close, grey)
+            _sample_profile(image, place, right, down, s[j], middle, close, grey)
             counts[j] = 0.0
             for g in grey:
                 counts[j] += 0.25 < (g - first) / rise < 0.75

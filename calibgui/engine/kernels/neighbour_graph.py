@@ -157,22 +157,24 @@ def _choose_neighbours(
     min_along, min_parallel, min_edge_step = limits
     near, away = np.empty(max_neighbours, dtype=np.int64), np.empty(max_neighbours)
     for i in range(uv.shape[0]):
+        here, mine = uv[i], along[i]
         count = _find_nearest(uv, i, lowest, side, start, member, near, away)
         for m in range(count):
             j, distance = near[m], np.sqrt(away[m])
             if distance == 0:
                 continue
-            du, dv = (uv[j, 0] - uv[i, 0]) / distance, (uv[j, 1] - uv[i, 1]) / distance
-            k, cosine = _choose_slot(along[i], du, dv)
+            du, dv = (uv[j, 0] - here[0]) / distance, (uv[j, 1] - here[1]) / distance
+            k, cosine = _choose_slot(mine, du, dv)
             if ends[i, k] >= 0 or cosine <= min_along:
                 continue
-            k_back, cosine = _choose_slot(along[j], -du, -dv)
+            other = along[j]
+            k_back, cosine = _choose_slot(other, -du, -dv)
             if cosine <= min_along or (k + k_back) % 2 == 0:
                 continue
-            if _compute_cosine(along[i], (k + 1) % 4, along[j], (k_back + 3) % 4) <= min_parallel:
+            if _compute_cosine(mine, (k + 1) % 4, other, (k_back + 3) % 4) <= min_parallel:
                 continue
             sign = 1.0 if k % 2 == 1 else -1.0
-            step = _measure_edge_step(g, uv[i], du, dv, distance, places, sign)
+            step = _measure_edge_step(g, here, du, dv, distance, places, sign)
             if step > min_edge_step * min(contrast[i], contrast[j]):
                 ends[i, k] = 4 * j + k_back
 

@@ -71,18 +71,25 @@ def test_a_change_to_what_a_kernel_calls_in_another_file_is_noticed(tmp_path: Pa
         assert done.stdout.strip() == answer
 
 
-def test_no_kernel_calls_another() -> None:
-    """What is kept of a kernel is machine code, which others cannot be compiled with."""
-    functions = [
+def _list_functions() -> list[ast.FunctionDef]:
+    """List the functions of all kernels' files."""
+    return [
         function
         for file in sorted(Path(kernels.__file__).parent.glob("*.py"))
         for function in ast.parse(file.read_text(encoding="utf-8")).body
         if isinstance(function, ast.FunctionDef)
     ]
-    marks = {
-        function.name: {ast.unparse(mark) for mark in function.decorator_list}
-        for function in functions
-    }
+
+
+def _list_marks(function: ast.FunctionDef) -> set[str]:
+    """List the decorators of a function."""
+    return {ast.unparse(mark) for mark in function.decorator_list}
+
+
+def test_no_kernel_calls_another() -> None:
+    """What is kept of a kernel is machine code, which others cannot be compiled with."""
+    functions = _list_functions()
+    marks = {function.name: _list_marks(function) for function in functions}
     calls = {
         (function.name, call.func.id)
         for function in functions
@@ -96,7 +103,7 @@ def test_no_kernel_calls_another() -> None:
 
 def test_parts_that_count_no_references_return_no_array() -> None:
     """It would be freed too early; that they allocate none numba sees to."""
-    parts = [function for function, marks in _list_functions() if "compiled_part" in marks]
+    parts = [each for each in _list_functions() if "compiled_part" in _list_marks(each)]
     assert len(parts) > 50
     assert not [part.name for part in parts if "Array" in ast.unparse(part.returns or part.args)]
 
