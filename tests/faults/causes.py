@@ -49,6 +49,9 @@ FAULTS = {
     "stabilisation": Fault(cameras.stabilise, ("moving-centre",), ("stabilis",)),
     "zoom-change": Fault(cameras.zoom, ("mixed-views", "focus", "views-disagree"), ("zoom",)),
     "mixed-cameras": Fault(cameras.mix_cameras, ("mixed-views", "views-disagree"), ("camera",)),
+    "corrected-views": Fault(
+        cameras.correct_some, ("mixed-views", "views-disagree"), ("distortion", "camera")
+    ),
     "blur": Fault(corners.blur_views, ("blur",), ("blur", "sharp")),
     "wrong-frame": Fault(corners.move_frame, ("wrong-frame",), ("upper left", "outside")),
     "wrong-size": Fault(corners.misstate_size, ("wrong-frame",), ("size",)),

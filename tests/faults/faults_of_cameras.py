@@ -114,6 +114,19 @@ def mix_cameras(rng: Rng) -> FaultySet:
     return state_fault(photographed, views, story)
 
 
+def correct_some(rng: Rng) -> FaultySet:
+    """Take away the distortion, or part of it, from some views, as phones and programs do."""
+    photographed = draw_set(rng)
+    camera, part = photographed.camera, rng.uniform(0.3, 1.0)
+    factors = np.where(np.arange(len(camera.params)) < 4, 1.0, 1 - part)
+    other = Camera(camera.size, camera.params * factors, camera.model)
+    count = len(photographed.poses)
+    odd = rng.choice(count, int(rng.integers(2, count // 2 + 1)), replace=False)
+    views = photograph(photographed, [other if k in odd else camera for k in range(count)])
+    story = f"{len(odd)} of {count} views without {part:.0%} of the distortion"
+    return state_fault(photographed, views, story)
+
+
 def hold_value(rng: Rng) -> FaultySet:
     """Hold fx or k1 at a wrong value."""
     photographed = draw_set(rng)

@@ -37,7 +37,7 @@ from calibgui.engine.assessment.finding import (
     describe_harm,
 )
 from calibgui.engine.assessment.harm import Case, prepare_case
-from calibgui.engine.assessment.mixed_views import Split, find_two_kinds
+from calibgui.engine.assessment.mixed_views import DISTORTION, Split, find_two_kinds
 from calibgui.engine.assessment.residual_checks import NoiseCheck, check_residuals
 from calibgui.engine.assessment.residual_statistics import summarise_residuals
 from calibgui.engine.assessment.rival_lens import fit_rival
@@ -76,7 +76,14 @@ bowed board moves pixels by several. It was 0.01 in rendered photographs of such
 a lens model did not follow the lens (``tests/faults``)."""
 _MAX_RMS_IF_TURNED = 1.2
 """RMS residual with the odd views turned by 180 degrees, over what a camera of their own would
-leave to the first order, up to which they were upside down: with no unknowns more."""
+leave to the first order, up to which they were upside down: with no unknowns more. They leave half
+of the squares at most that such a camera explains."""
+_SOUGHT = {
+    DISTORTION: "photographs that the camera or a program has corrected, or another lens, among "
+    "these"
+}
+_SOUGHT_AT_LARGE = "another camera, zoom, focus or board in these photographs"
+"""What to look for where views are of two kinds, by what differs between these."""
 _CHECKS_OF_BOARD = ("squares", "bow", "board")
 """Tests of a board that is the same in all views."""
 _CHECKS_OF_VIEWS = ("focus", "centre", "bending", "rows")
@@ -286,7 +293,9 @@ def _describe_two_kinds(case: Case, split: Split) -> Finding:
     harm = case.measure_harm(split.share)
     listed = list_names([case.names[k] for k in odd])
     turned = _measure_rms_if_turned(case, split.is_odd)
-    if turned < _MAX_RMS_IF_TURNED * left:
+    # Where little is to be explained, nearly all would be left of it if nothing were wrong.
+    half = float(np.sqrt((left**2 + case.rms**2) / 2))
+    if turned < min(_MAX_RMS_IF_TURNED * left, half):
         return Finding(
             Cause.MIXED_VIEWS,
             f"{listed} {'stand' if len(odd) > 1 else 'stands'} upside down against the others, "
@@ -304,8 +313,7 @@ def _describe_two_kinds(case: Case, split: Split) -> Finding:
         f"{'disagree' if len(odd) > 1 else 'disagrees'} with the others about the {split.what}.",
         f"If each kind had its own, {left:.2g} px would be left of {case.rms:.2g} px RMS; "
         f"{describe_harm(harm)}.",
-        "Look for another camera, zoom, focus or board in these photographs, and calibrate each "
-        "kind by itself.",
+        f"Look for {_SOUGHT.get(split.what, _SOUGHT_AT_LARGE)}, and calibrate each kind by itself.",
         harm,
         views,
         Action(ActionKind.LEAVE_OUT_VIEWS, views),

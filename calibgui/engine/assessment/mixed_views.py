@@ -1,9 +1,9 @@
 """Views of two kinds: photographs of two cameras, of two zoom settings, or of two boards.
 
 The views of each kind agree among themselves. Let every view k have a camera of its own, apart from
-the common one by c_k (fx, fy, cx, cy), or a board of its own, apart by c_k (unequal sides, shear),
-beside a step dc that the common camera takes. One Gauss-Newton step then lowers the squared
-residuals by
+the common one by c_k (fx, fy, cx, cy, radial distortion), or a board of its own, apart by c_k
+(unequal sides, shear), beside a step dc that the common camera takes. One Gauss-Newton step then
+lowers the squared residuals by
 
     T_K = max 2 b^T x - x^T N x,      x = (dc, c_1 .. c_K),
 
@@ -13,7 +13,8 @@ is the most that two kinds with one c each explain. The way to part the views is
 method of k-means (Lloyd 1982): every view goes to the kind whose c explains it better. Two kinds
 make T_2 - T_1 most of T_K - T_1. Causes that differ from view to view, such as a rolling shutter or
 a board that bends, do not. Nor does a focus that changes all the time: where focal lengths explain
-nearly as much as cameras do, these alone are parted.
+nearly as much as cameras do, these alone are parted. So are distortions, if they are certain: some
+photographs may have been corrected by a phone or a program.
 
 Of K numbers of one normal distribution two kinds make 2 / pi on average of many, and more of few:
 in 99 of 100 cases less than 2 / pi + 0.86 / sqrt(K) (simulated for 6 to 100 numbers). Beyond that
@@ -34,10 +35,13 @@ from calibgui.engine.assessment.systematic_errors import (
     ViewProducts,
     multiply_by_board,
     multiply_by_camera,
+    multiply_by_distortion,
     multiply_by_focus,
 )
 from calibgui.engine.calibration.score_tests import LinearisedFit
 
+DISTORTION = "lens distortion"
+"""What differs between two kinds of which one was corrected by the camera or a program."""
 _MAX_FALSE_ALARM_RATE = 1e-3
 """Probability under noise that any way to part the views explains as much."""
 _MIN_EIGENVALUE = 1e-9
@@ -49,8 +53,8 @@ _MIN_PART = 0.65
 """Part of what a camera or board of each view's own explains, from which there may be two kinds."""
 _SPREAD_OF_PART = 0.86
 """Excess of the part that two kinds explain by chance, times the root of the number of views."""
-_MIN_FOCUS = 0.85
-"""Part of what cameras explain, from which focal lengths alone are parted."""
+_MIN_PART_OF_CAMERA = 0.85
+"""Part of what cameras explain, from which focal lengths or distortions alone are parted."""
 _MIN_PART_OF_MOTION = 0.6
 """Part of what motions and bending of the views' own explain, with their many unknowns, from which
 two kinds are the cause."""
@@ -79,10 +83,14 @@ class Split(NamedTuple):
 def find_two_kinds(fit: LinearisedFit) -> Split | None:
     """Find out whether the views may be of two kinds; return None if not."""
     focus = split_views(multiply_by_focus(fit))._replace(what="focal length")
+    distortion = split_views(multiply_by_distortion(fit))._replace(what=DISTORTION)
     camera = split_views(multiply_by_camera(fit))._replace(what="camera")
     board = split_views(multiply_by_board(fit))._replace(what="board")
-    if focus.share_of_all >= _MIN_FOCUS * camera.share_of_all:
+    if focus.share_of_all >= _MIN_PART_OF_CAMERA * camera.share_of_all:
         return focus if focus.share > 0 and focus.is_certain else None
+    least = _MIN_PART_OF_CAMERA * camera.share_of_all
+    if distortion.is_certain and distortion.share_of_all >= least:
+        camera = distortion
     split = max(camera, board, key=lambda split: (split.is_certain, split.share))
     if camera.is_certain == board.is_certain:
         split = split._replace(what="camera or board")

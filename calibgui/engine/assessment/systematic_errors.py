@@ -121,6 +121,14 @@ def _make_focus_columns(fit: LinearisedFit, _: Linearised, views: slice) -> Arra
     return np.asarray(fit.get_weight(views) @ from_centre[..., None])
 
 
+def _make_distortion_columns(fit: LinearisedFit, _: Linearised, views: slice) -> Array:
+    """Make the columns of displacements along the radius, as its third and its fifth power."""
+    from_centre = fit.predict_corners(views) - fit.camera.centre
+    r2 = np.sum(from_centre**2, axis=-1, keepdims=True) / max(fit.camera.size) ** 2
+    columns = np.stack([r2 * from_centre, r2 * r2 * from_centre], axis=-1)
+    return np.asarray(fit.get_weight(views) @ columns)
+
+
 def _make_centre_columns(_: LinearisedFit, linear: Linearised, __: slice) -> Array:
     """Make the columns of a principal point of each view's own.
 
@@ -170,9 +178,19 @@ def multiply_by_focus(fit: LinearisedFit) -> ViewProducts:
     return _multiply_own_columns(fit, _make_focus_columns)
 
 
+def multiply_by_distortion(fit: LinearisedFit) -> ViewProducts:
+    """Multiply the columns of a radial distortion of each view's own."""
+    return _multiply_own_columns(fit, _make_distortion_columns)
+
+
 def multiply_by_camera(fit: LinearisedFit) -> ViewProducts:
-    """Multiply the columns of a camera (fx, fy, cx, cy) of each view's own."""
-    return _multiply_own_columns(fit, lambda _, linear, __: linear.by_params[..., :4])
+    """Multiply the columns of a camera (fx, fy, cx, cy, distortion) of each view's own."""
+
+    def make_columns(fit: LinearisedFit, linear: Linearised, views: slice) -> Array:
+        distortion = _make_distortion_columns(fit, linear, views)
+        return np.concatenate([linear.by_params[..., :4], distortion], axis=-1)
+
+    return _multiply_own_columns(fit, make_columns)
 
 
 def multiply_by_board(fit: LinearisedFit) -> ViewProducts:

@@ -67,6 +67,34 @@ def test_two_cameras_are_named_with_their_views() -> None:
     assert "View 10, View 11, View 12 disagree with the others about the" in finding.message
 
 
+@pytest.mark.parametrize("odd", [(2, 7, 9), (1, 3, 5, 7, 9, 11)])
+def test_photographs_that_were_corrected_are_named(odd: tuple[int, ...]) -> None:
+    """A phone has taken the distortion away from some."""
+    camera = barrel()
+    straight = Camera(VGA, [*camera.params[:4], *np.zeros(len(camera.params) - 4)])
+    rng = np.random.default_rng(5)
+    views = scene(camera, 12, seed=4).noisy(0.1, rng)
+    corrected = scene(straight, 12, seed=4).noisy(0.1, rng)
+    for k in odd:
+        views[k] = corrected[k]
+    finding = list_findings(calibrate(views, VGA), views)[0]
+    assert (finding.cause, finding.views) == (Cause.MIXED_VIEWS, odd)
+    assert "with the others about the lens distortion" in finding.message
+    assert "photographs that the camera or a program has corrected" in finding.remedy
+
+
+def test_views_that_hardly_differ_are_not_said_to_stand_upside_down() -> None:
+    """Turned by 180 degrees they would leave more than as they are."""
+    camera = barrel()
+    other = Camera(VGA, camera.params * np.where(np.arange(len(camera.params)) < 4, 1.0, 0.8))
+    rng = np.random.default_rng(5)
+    views = scene(camera, 20, seed=4).noisy(0.3, rng)
+    views[15:17] = scene(other, 20, seed=4).noisy(0.3, rng)[15:17]
+    finding = list_findings(calibrate(views, VGA), views)[0]
+    assert (finding.cause, finding.views) == (Cause.MIXED_VIEWS, (15, 16))
+    assert "disagree with the others about the lens distortion" in finding.message
+
+
 def test_views_keep_their_numbers_where_others_are_left_out() -> None:
     """View 1 is wholly misplaced, and the last three are of another camera."""
     camera, rng = barrel(), np.random.default_rng(5)
