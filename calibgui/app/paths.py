@@ -21,6 +21,13 @@ _MAX_LISTED = 5
 """Number of folders that a message names at most."""
 
 
+_UNREAD_FORMATS = (
+    *(".heic", ".heif", ".hif", ".avif"),
+    *(".dng", ".cr2", ".cr3", ".nef", ".arw", ".raf", ".orf", ".rw2", ".pef", ".gpr"),
+)
+"""Suffixes of photographs in formats that are not read: of phones, and cameras' raw images."""
+
+
 class NoImagesError(CalibrationError):
     """An error: a folder holds no images itself.
 
@@ -120,6 +127,28 @@ def describe_unread_folders(names: Sequence[str], known: Iterable[Path] = ()) ->
     return (
         f"Not read: {_list_counts(unread)}. Of a folder only the images directly in it are read: "
         "add these folders as well if they are of the same camera and board."
+    )
+
+
+def describe_unread_photographs(names: Sequence[str]) -> str:
+    """Say which photographs in the folders among `names` are of a format that is not read; empty if
+    there are none. Those that lie beside an image of the same name are copies of it."""
+    folders = [Path(name) for name in names if Path(name).is_dir()]
+    read = {path.with_suffix("").name.casefold() for path in find_images(names)}
+    suffixes = Counter(
+        path.suffix.lower()
+        for folder in folders
+        for path in folder.iterdir()
+        if path.suffix.lower() in _UNREAD_FORMATS
+        and not path.name.startswith(".")
+        and path.stem.casefold() not in read
+    )
+    if not suffixes:
+        return ""
+    listed = ", ".join(f"{count} of {suffix}" for suffix, count in suffixes.most_common())
+    return (
+        f"Not read: photographs in other formats, {listed}. Save them as JPEG or PNG in full size, "
+        "without correcting the lens."
     )
 
 

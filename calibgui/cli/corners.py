@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
-from calibgui.app.paths import describe_unread_folders
+from calibgui.app.paths import describe_unread_folders, describe_unread_photographs
 from calibgui.cli.arguments import (
     add_image_paths,
     add_search_options,
@@ -109,6 +109,7 @@ def search_board(options: argparse.Namespace, console: Console) -> tuple[CornerS
         describe_recognised_board(pattern, corner_set),
         detection.remark,
         describe_unread_folders(options.paths),
+        describe_unread_photographs(options.paths),
     )
     return corner_set, [remark for remark in remarks if remark]
 

@@ -14,6 +14,7 @@ from calibgui.app.paths import (
     choose_images,
     count_images_below,
     describe_unread_folders,
+    describe_unread_photographs,
     find_images,
     make_natural_key,
 )
@@ -208,3 +209,14 @@ def test_folders_that_are_not_read_with_a_named_one_are_said(tmp_path: Path) -> 
     assert f"Not read: {b} (1 image). " in describe_unread_folders([whole], [Path(a) / "1.png"])
     assert describe_unread_folders([b]) == ""
     assert describe_unread_folders([f"{whole}/*.png"]) == ""
+
+
+def test_photographs_of_formats_that_are_not_read_are_said(tmp_path: Path) -> None:
+    """A phone writes HEIC; a camera writes a raw image beside each JPEG, which is the same."""
+    for name in ("1.jpg", "1.DNG", "2.HEIC", "3.heic", "4.nef", ".5.heic", "notes.txt"):
+        (tmp_path / name).touch()
+    said = describe_unread_photographs([str(tmp_path)])
+    assert "Not read: photographs in other formats, 2 of .heic, 1 of .nef. Save them" in said
+    assert describe_unread_photographs([str(tmp_path / "1.jpg")]) == ""
+    (tmp_path / "2.jpg").touch()
+    assert "1 of .heic" in describe_unread_photographs([str(tmp_path)])

@@ -21,8 +21,9 @@ from typing import Any
 from calibgui.engine.arrays import Size
 
 _SUBFILE_TYPE, _WIDTH, _HEIGHT = 254, 256, 257
-_NO_PAGE = 0b101
-"""Bits of the subfile type of a smaller copy of a page, and of a mask."""
+_SMALLER_COPY, _NO_PAGE = 0b001, 0b101
+"""Bits of the subfile type of a smaller copy of a page, and of that and of a mask."""
+_DNG_VERSION = 50706
 _MAKE, _MODEL, _ORIENTATION, _DATE_OF_CHANGE = 271, 272, 274, 306
 _EXIF_DIRECTORY = 34665
 _DATE_OF_EXPOSURE, _FOCAL_LENGTH, _FOCAL_LENGTH_35MM, _LENS_MODEL = 36867, 37386, 41989, 42036
@@ -92,6 +93,17 @@ def read_tiff(data: bytes | mmap) -> tuple[Size, Exif, int]:
     if not (isinstance(width, int) and isinstance(height, int)):
         raise ValueError("no size")
     return (width, height), exif, 1 + _count_further_pages(data, tags)
+
+
+def is_raw_tiff(data: bytes | mmap) -> bool:
+    """Return whether a TIFF is a camera's raw image: its first directory, which decoders read, is
+    that of a preview, or it is a DNG."""
+    try:
+        first = _load_directory(data)
+        is_preview = bool(first.get(_SUBFILE_TYPE, 0) & _SMALLER_COPY)
+    except _DAMAGE:
+        return False
+    return is_preview or _DNG_VERSION in first or data[8:10] == b"CR"
 
 
 def _count_further_pages(data: bytes | mmap, first: Any) -> int:

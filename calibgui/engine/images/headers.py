@@ -20,7 +20,7 @@ from enum import Enum
 from mmap import mmap
 
 from calibgui.engine.arrays import Size
-from calibgui.engine.images.exif import Exif, read_exif, read_tiff
+from calibgui.engine.images.exif import Exif, is_raw_tiff, read_exif, read_tiff
 
 Data = bytes | mmap
 
@@ -34,16 +34,29 @@ class ForeignKind(Enum):
 
     VIDEO = "a video"
     HEIF = "a HEIC or AVIF image, which is not read"
+    RAW = "a camera's raw image, which is not read"
+
+
+_TIFF = (b"II*\0", b"MM\0*", b"II+\0", b"MM\0+")
+_RAW = (b"FUJIFILMCCD-RAW", b"IIRO", b"IIRS", b"MMOR", b"IIU\0")
+"""First bytes of TIFF, and of raw images of Fujifilm, Olympus and Panasonic."""
 
 
 def find_foreign_kind(data: Data) -> ForeignKind | None:
     """Find out what a file is that is no image; None if that is not known."""
     start = bytes(data[:16])
+    if start.startswith(_RAW) or start[4:12] == b"ftypcrx " or _is_raw(data):
+        return ForeignKind.RAW
     if start[4:8] == b"ftyp":
         is_image = start[8:12] in (b"heic", b"heix", b"mif1", b"msf1", b"avif")
         return ForeignKind.HEIF if is_image else ForeignKind.VIDEO
     is_video = start[8:12] == b"AVI " or start.startswith((b"\x1aE\xdf\xa3", b"\0\0\1\xba"))
     return ForeignKind.VIDEO if is_video else None
+
+
+def _is_raw(data: Data) -> bool:
+    """Return whether a file is a TIFF that holds a camera's raw image."""
+    return bytes(data[:4]) in _TIFF and is_raw_tiff(data)
 
 
 @dataclass(frozen=True, slots=True)
@@ -155,6 +168,8 @@ def _parse_pnm(data: Data) -> Header:
 
 
 def _parse_tiff(data: Data) -> Header:
+    if is_raw_tiff(data):
+        raise ValueError("a preview, not the photograph")
     stored, exif, pages = read_tiff(data)
     return Header("TIFF", stored, exif, pages=pages)
 

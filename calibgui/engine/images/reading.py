@@ -49,6 +49,7 @@ _HINTS = {
     ForeignKind.VIDEO: "Save single frames of it as PNG first, some 20 in which the board stands "
     "still in different positions.",
     ForeignKind.HEIF: "Save it as JPEG or PNG first, and set the phone to the compatible format.",
+    ForeignKind.RAW: "Save it as JPEG or TIFF in full size first, without correcting the lens.",
 }
 
 

@@ -13,7 +13,12 @@ from calibgui.app.autosave import get_discarded_folder
 from calibgui.app.document import Document
 from calibgui.app.moved_images import find_moved_images, list_missing_images
 from calibgui.app.output_folder import ForeignFilesError
-from calibgui.app.paths import NoImagesError, choose_images, describe_unread_folders
+from calibgui.app.paths import (
+    NoImagesError,
+    choose_images,
+    describe_unread_folders,
+    describe_unread_photographs,
+)
 from calibgui.app.project import (
     Project,
     add_images,
@@ -116,8 +121,12 @@ class Files(QObject):
             if unread:
                 self._session.notified.emit(f"{refused}\n{unread}".strip())
 
+        def describe_unread(_: object) -> str:
+            said = describe_unread_folders(taken, known), describe_unread_photographs(taken)
+            return "\n".join(filter(None, said))
+
         taken = [name for name in names if name not in others]
-        self._session.jobs.start("", lambda _: describe_unread_folders(taken, known), tell)
+        self._session.jobs.start("", describe_unread, tell)
 
     def paste(self) -> None:
         """Add the files or paths on the clipboard."""

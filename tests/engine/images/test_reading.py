@@ -183,6 +183,8 @@ def test_a_preallocated_download_is_refused(tmp_path: Path) -> None:
         (b"RIFF\x8c\x16\0\0AVI LIST", "is a video"),
         (b"\x1aE\xdf\xa3\x9fB\x86\x81\x01B\xf7\x81", "is a video"),
         (b"\0\0\0\x18ftypheic\0\0\0\0mif1heic", "HEIC"),
+        (b"\0\0\0\x18ftypcrx \0\0\0\1crx isom", "raw image"),
+        (b"FUJIFILMCCD-RAW 0201FF393103", "raw image"),
         (b"P5 0 7 255\n", "0 x 7"),
         (b"P5 60000 60000 255\n", "60000 x 60000"),
     ],
@@ -195,6 +197,17 @@ def test_what_is_no_photograph_is_named(tmp_path: Path, content: bytes, message:
             read(path)
         assert str(path) in caught.value.message
         assert caught.value.hint
+
+
+def test_the_preview_in_a_raw_image_is_not_taken_for_the_photograph(tmp_path: Path) -> None:
+    """Nikon's, Sony's and Adobe's raw images are TIFF, with a small copy as their first page."""
+    path = tmp_path / "view.tif"
+    pixels = np.zeros((5, 7), np.uint8)
+    Pillow.fromarray(pixels).save(path, tiffinfo={254: 1})
+    with pytest.raises(CalibrationError, match="a camera's raw image"):
+        read_image(path)
+    Pillow.fromarray(pixels).save(path, tiffinfo={254: 0})
+    assert read_image(path).size == (7, 5)
 
 
 def test_missing_files_and_folders_are_named(tmp_path: Path) -> None:
