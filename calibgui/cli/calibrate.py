@@ -30,7 +30,7 @@ from calibgui.cli.arguments import (
 from calibgui.cli.console import Advance, Console
 from calibgui.cli.corners import add_corner_options, check_corner_options, read_or_search
 from calibgui.cli.notices import explain_solve
-from calibgui.cli.outputs import add_overwrite_option, check_corner_outputs
+from calibgui.cli.outputs import add_overwrite_option, check_corner_outputs, refuse_other_format
 from calibgui.dataset import DEFAULT_SQUARE, Result
 from calibgui.engine.boards import BoardShape, BoardShapeModel, BoardShapePrior
 from calibgui.engine.calibration import DEFAULT_METHOD, METHODS, Cost, DegenerateError
@@ -157,6 +157,8 @@ def run(options: argparse.Namespace, console: Console) -> None:
     settings = read_settings(options)
     _check_usage(options)
     options.output = console.take_output(options.output)
+    if options.output:
+        refuse_other_format(options.output)
     outputs = [(options.output, RESULT), (options.save_board_shape, BOARD_SHAPE)]
     exported = [(path, name) for name, path in options.export]
     check_corner_outputs(options, [*(pair for pair in outputs if pair[0]), *exported])

@@ -9,7 +9,7 @@ from calibgui.cli.arguments import add_image_paths, add_search_options, parse_le
 from calibgui.cli.boards import add_board_options
 from calibgui.cli.console import Console
 from calibgui.cli.corners import search_board
-from calibgui.cli.outputs import add_overwrite_option, check_corner_outputs
+from calibgui.cli.outputs import add_overwrite_option, check_corner_outputs, refuse_other_format
 from calibgui.dataset import DEFAULT_SQUARE
 from calibgui.formats.corners_json import encode_corners, write_corners
 from calibgui.formats.origin import CORNERS
@@ -42,6 +42,7 @@ def run(options: argparse.Namespace, console: Console) -> None:
     """Search, write and print."""
     options.output = console.take_output(options.output)
     if options.output:
+        refuse_other_format(options.output)
         check_corner_outputs(options, [(options.output, CORNERS)])
     corner_set, remarks = search_board(options, console)
     console.print_json(encode_corners(corner_set))

@@ -8,6 +8,8 @@ from pathlib import Path
 
 from calibgui.app.outputs import check_outputs
 from calibgui.cli.arguments import list_input_files
+from calibgui.engine.errors import CalibrationError
+from calibgui.formats import EXPORTERS
 
 
 def add_overwrite_option(parser: argparse.ArgumentParser) -> None:
@@ -18,6 +20,22 @@ def add_overwrite_option(parser: argparse.ArgumentParser) -> None:
         help="replace files that calibgui did not write, or wrote as something else; never files "
         "that are read",
     )
+
+
+def refuse_other_format(path: Path) -> None:
+    """Refuse an output in JSON that is named as a file of another format.
+
+    Raises:
+        CalibrationError: with the formats that have such files.
+    """
+    suffix = path.suffix.lower()
+    formats = [name for name, exporter in EXPORTERS.items() if suffix in exporter.suffixes]
+    if formats and suffix != ".json":
+        raise CalibrationError(
+            f"{path} is not named as JSON, which -o writes.",
+            "Give it the suffix .json. Other formats are written by calibgui calibrate with "
+            f"{' or '.join(f'--export {name}={path}' for name in formats)}.",
+        )
 
 
 def check_corner_outputs(

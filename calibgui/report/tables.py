@@ -113,11 +113,16 @@ def _format_verdict(result: Result, verdict: Verdict) -> Iterator[str]:
     yield fill_lines("; ".join(filter(None, [describe_error(verdict), in_scene])) + ".", "", "  ")
     for finding in verdict.findings:
         yield format_bullet(f"{finding.message} {finding.evidence}")
-        options = describe_options(finding.action, result) if finding.action is not None else ""
-        advice = options[:1].upper() + options[1:] or finding.remedy
-        if options and finding.cause is Cause.MIXED_VIEWS:  # those left out have a camera, too
-            advice = f"{finding.remedy} Or {options}"
-        yield fill_lines(f"{advice}{_describe_gain(finding)}", "  > ", "    ")
+        advice = _describe_advice(finding, result) + _describe_gain(finding)
+        yield fill_lines(advice[:1].upper() + advice[1:], "  > ", "    ")
+
+
+def _describe_advice(finding: Finding, result: Result) -> str:
+    """Describe what to do about a finding: the options to add, or else its remedy."""
+    options = describe_options(finding.action, result) if finding.action is not None else ""
+    if options and finding.cause is Cause.MIXED_VIEWS:  # those left out have a camera, too
+        return f"{finding.remedy} Or {options}"
+    return options or finding.remedy
 
 
 def _describe_gain(finding: Finding) -> str:
@@ -133,9 +138,9 @@ def summarise_in_a_line(result: Result) -> str:
         f"{format_headline(verdict)}. {describe_reason(verdict, result)}",
         f"{describe_error(verdict)}; {describe_fit(result)}, {_count_used(result)}.",
     ]
-    if verdict.findings and (action := verdict.findings[0].action) is not None:
-        words.append(f"Do: {options}." if (options := describe_options(action, result)) else "")
-    return " ".join(filter(None, words))
+    if verdict.findings:
+        words.append(f"Do: {_describe_advice(verdict.findings[0], result).removesuffix('.')}.")
+    return " ".join(words)
 
 
 def tabulate_stage_one(result: Result) -> str:

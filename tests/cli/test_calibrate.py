@@ -185,6 +185,21 @@ def test_quiet_says_what_is_wrong(corners_file: Path, capsys: Capture) -> None:
     assert "fx" in printed.split(". ")[1] and "Do: leave fx out of --fix." in printed
 
 
+def test_quiet_says_what_to_do_where_no_option_helps(
+    corners_file: Path, tmp_path: Path, capsys: Capture
+) -> None:
+    corners = json.loads(corners_file.read_text())
+    corners["views"] = corners["views"][:2]
+    rng = np.random.default_rng(1)
+    for view in corners["views"]:
+        view["uv"] = (view["uv"] + rng.normal(0, 0.5, np.shape(view["uv"]))).tolist()
+    (tmp_path / "few.json").write_text(json.dumps(corners))
+    assert main(["calibrate", str(tmp_path / "few.json"), "--quiet"]) == 0
+    printed = capsys.readouterr().out
+    assert printed.startswith("NOT USABLE. 2 views are too few.") and printed.count("\n") == 1
+    assert ". Do: Add views with the board tilted by" in printed and printed.endswith("enough.\n")
+
+
 def test_the_verdict_and_the_camera_come_first(corners_file: Path, capsys: Capture) -> None:
     assert main(["calibrate", str(corners_file), "--fix", "fx=300"]) == 0
     told = capsys.readouterr().out

@@ -109,3 +109,27 @@ def test_pipes_and_devices_are_refused_as_inputs(tmp_path: Path, capsys: Capture
     ):
         assert main(words) == 1
         assert "a device or a pipe" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("words", "remedy"),
+    [
+        ("calibrate CORNERS -o camera.yaml", "--export opencv=camera.yaml or --export ros="),
+        ("detect PHOTOGRAPHS -o corners.csv", "--export corners-csv=corners.csv"),
+    ],
+)
+def test_json_is_not_written_as_a_file_of_another_format(
+    words: str,
+    remedy: str,
+    corners_file: Path,
+    photographs: Path,
+    tmp_path: Path,
+    capsys: Capture,
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    paths = {"CORNERS": str(corners_file), "PHOTOGRAPHS": str(photographs)}
+    assert main([paths.get(word, word) for word in words.split()]) == 1
+    said = capsys.readouterr().err
+    assert "is not named as JSON" in said and remedy in said
+    assert not list(tmp_path.iterdir())
