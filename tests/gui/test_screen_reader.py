@@ -6,8 +6,9 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+from PySide6.QtCore import Qt
 from PySide6.QtGui import QAccessible, QAccessibleInterface, QAction
-from PySide6.QtWidgets import QApplication, QWidget
+from PySide6.QtWidgets import QAbstractScrollArea, QApplication, QWidget
 from pytestqt.qtbot import QtBot
 
 from calibgui.gui.dialogs.bug_dialog import BugDialog
@@ -66,6 +67,21 @@ def list_nameless(widget: QWidget) -> list[str]:
     return [place for place, name in found if not name.strip()]
 
 
+def list_nameless_stops(window: QWidget) -> list[str]:
+    """List what the Tab key stops at without a name that a screen reader says."""
+    stops = [
+        widget
+        for widget in window.findChildren(QWidget)
+        if widget.isVisible()
+        and widget.focusPolicy() & Qt.FocusPolicy.TabFocus
+        and widget.focusProxy() is None
+        and not isinstance(widget.parent(), QAbstractScrollArea)  # its viewport
+    ]
+    assert stops
+    names = {w: QAccessible.queryAccessibleInterface(w).text(QAccessible.Text.Name) for w in stops}
+    return [type(widget).__name__ for widget, name in names.items() if not name.strip()]
+
+
 def test_the_empty_window(window: MainWindow) -> None:
     assert list_nameless(window) == []
 
@@ -75,6 +91,7 @@ def test_the_window_with_each_panel(full: MainWindow, qtbot: QtBot, kind: type[P
     full.need_analysis().show_panel(kind)
     qtbot.waitUntil(lambda: not full.session.jobs.running, timeout=60_000)
     assert list_nameless(full) == []
+    assert list_nameless_stops(full) == []
 
 
 def test_the_bars_of_marking(full: MainWindow) -> None:

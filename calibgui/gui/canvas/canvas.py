@@ -95,6 +95,7 @@ class Canvas(QGraphicsView):
         scene = QGraphicsScene(self)
         scene.addItem(self._picture)
         self.setScene(scene)
+        self.setAccessibleName(self.tr("Photograph"))
         self.setFrameShape(QFrame.Shape.NoFrame)
         self.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         self.setVerticalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)

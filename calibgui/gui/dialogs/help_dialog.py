@@ -18,6 +18,7 @@ class HelpDialog(QDialog):
         super().__init__(parent)
         self.setWindowTitle(self.tr("Help"))
         self.text = QTextBrowser()
+        self.text.setAccessibleName(self.tr("How it works"))
         self.text.setOpenExternalLinks(True)
         self.text.setHtml(self._page())
         buttons = add_close_button(self)

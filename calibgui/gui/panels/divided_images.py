@@ -48,6 +48,7 @@ class DividedImages(QWidget):
         """Point of the image at the widget's centre, in widths and heights of the image."""
         self._pan_from: QPointF | None = None
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
+        self.setAccessibleName(self.tr("Image {0} and {1}").format(before, after))
         self.setMinimumSize(160, 120)
         offer_picture(self)
         self.setToolTip(

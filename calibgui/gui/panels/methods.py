@@ -54,6 +54,7 @@ class MethodsPanel(OnDemandPanel[MethodComparison]):
         self.tables.picked.connect(self._show_row)
         self.map = DifferenceMap()
         self.about = QTextBrowser()
+        self.about.setAccessibleName(self.tr("About the method"))
         self.about.setFrameShape(QFrame.Shape.NoFrame)
         chosen = QSplitter(Qt.Orientation.Vertical)
         chosen.setChildrenCollapsible(False)

@@ -53,6 +53,7 @@ class OnDemandPanel(Panel, Generic[Found]):
         self.run.setMinimumWidth(self.run.sizeHint().width())  # also while it says Cancel
         self.run.clicked.connect(self._start_or_cancel)
         self.words = ScrollingText(_LINES)
+        self.words.setAccessibleName(self.tr("What was found"))
 
     def show_result(self, result: Result | None) -> None:
         """Show this result; what was found of another is kept only if it holds for this as well."""

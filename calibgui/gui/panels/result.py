@@ -42,6 +42,7 @@ class ResultPanel(Panel):
         super().__init__(services)
         self._work = Latest(services.jobs, self)
         self.words = QTextBrowser()
+        self.words.setAccessibleName(self.tr("Summary"))
         self.array_frame, self.paper_units = Table(), Table()
         self.correlations = Matrix()
         self.correlations.setToolTip(

@@ -235,6 +235,8 @@ class Plot(pg.GraphicsView):  # type: ignore[misc]  # pyqtgraph is not typed
     def _restyle(self) -> None:
         colours = theme.current()
         self.setBackground(colours.base)
+        over = self.tr("{0} over {1}").format(self._labels["left"], self._labels["bottom"])
+        self.setAccessibleName(over)
         for name, text in self._labels.items():
             axis = self.area.axes[name]
             axis.setPen(colours.line)
@@ -303,6 +305,8 @@ class ColourBar(pg.GraphicsWidget):  # type: ignore[misc]  # pyqtgraph is not ty
         self.axis.setTextPen(colours.text)
         self.axis.setLabel(self._quantity, color=colours.text)
         self.axis.setToolTip(explain(self._quantity))
+        if self._quantity:
+            self._plot.setAccessibleName(self._quantity)
         self.setToolTip(explain(self._quantity))
         self._plot.updateGeometry()
         self.update()
