@@ -235,8 +235,7 @@ class Plot(pg.GraphicsView):  # type: ignore[misc]  # pyqtgraph is not typed
     def _restyle(self) -> None:
         colours = theme.current()
         self.setBackground(colours.base)
-        over = self.tr("{0} over {1}").format(self._labels["left"], self._labels["bottom"])
-        self.setAccessibleName(over)
+        self.setAccessibleName(f"{self._labels['left']}, {self._labels['bottom']}")
         for name, text in self._labels.items():
             axis = self.area.axes[name]
             axis.setPen(colours.line)
