@@ -1,10 +1,23 @@
-"""The groups of panels, known before any panel is loaded."""
+"""The groups of panels and what else the inspector shows, known before any panel is loaded."""
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from enum import StrEnum
+from typing import NamedTuple
 
 from PySide6.QtCore import QCoreApplication
+
+
+class Page(NamedTuple):
+    """Something that the inspector shows."""
+
+    title: str
+    """Its name."""
+    tip: str
+    """A sentence on what it is for."""
+    show: Callable[[], object]
+    """The function that brings it to the front."""
 
 
 class Group(StrEnum):

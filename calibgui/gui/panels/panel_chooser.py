@@ -18,6 +18,11 @@ _WIDE = 640
 """Width from which one row has room for every group, device-independent px."""
 
 
+def name_panel(kind: type[Panel]) -> str:
+    """Return the name of a kind of panel for the user."""
+    return QCoreApplication.translate(kind.__name__, kind.title)
+
+
 class PanelChooser(QWidget):
     """Shows every name at once, in two rows of equally many, or nearly so; in one if it is wide."""
 
@@ -31,7 +36,7 @@ class PanelChooser(QWidget):
         group = QButtonGroup(self)
         for kind in kinds:
             button = QToolButton()
-            button.setText(QCoreApplication.translate(kind.__name__, kind.title))
+            button.setText(name_panel(kind))
             button.setCheckable(True)
             button.setAutoRaise(True)
             button.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)

@@ -16,6 +16,7 @@ from calibgui.gui.dialogs.files import Files
 from calibgui.gui.dialogs.many_cameras import ManyCameras
 from calibgui.gui.dialogs.print_results import ResultPrinter
 from calibgui.gui.images.film_strip import FilmStrip
+from calibgui.gui.panels.groups import Page
 from calibgui.gui.session.session import Session
 from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.actions import COPY_PICTURE, COPY_TABLE, find_copier, show_dialog
@@ -48,6 +49,7 @@ class Commands(QObject):
         change_room: Callable[[], object],
         leave_alone: Callable[[], object],
         docks: Mapping[str, QDockWidget],
+        list_pages: Callable[[], Sequence[Page]],
         find_action: Callable[[], object],
     ) -> Sequence[Menu]:
         """Return the menus from left to right.
@@ -58,6 +60,7 @@ class Commands(QObject):
             change_room: gives the inspector more room, or the photograph.
             leave_alone: leaves the photograph alone in the window, or not.
             docks: by the text of the entry that shows and hides each.
+            list_pages: returns what the inspector can show now.
             find_action: opens the palette of all actions.
         """
         return (
@@ -65,7 +68,7 @@ class Commands(QObject):
             self._describe_edit(),
             Menu(self.tr("&Images"), (*self._images.actions_for_menu, None, *self._page.tools)),
             self._describe_calibration(calibrate),
-            self._describe_view(change_room, leave_alone, docks),
+            self._describe_view(change_room, leave_alone, docks, list_pages),
             self._describe_help(find_action),
         )
 
@@ -127,7 +130,9 @@ class Commands(QObject):
                 Command(
                     text=self.tr("&Print results…"),
                     shortcut="Ctrl+P",
-                    tip=self.tr("Sentences, tables and plots of the result on paper or as PDF"),
+                    tip=self.tr(
+                        "A report of sentences, tables and plots of the result, on paper or as PDF"
+                    ),
                     run=self._printer.preview,
                     is_enabled=lambda: self._session.result is not None,
                     why_disabled=self.tr("Nothing is calibrated yet: press Calibrate first."),
@@ -237,7 +242,7 @@ class Commands(QObject):
                 Command(
                     text=self.tr("&Export…"),
                     shortcut="Ctrl+E",
-                    tip=self.tr("Write the camera for another program"),
+                    tip=self.tr("Write the camera for OpenCV, ROS, MATLAB or another program"),
                     run=files.export,
                     is_enabled=lambda: session.result is not None,
                     why_disabled=self.tr("Nothing is calibrated yet: press Calibrate first."),
@@ -261,6 +266,7 @@ class Commands(QObject):
         change_room: Callable[[], object],
         leave_alone: Callable[[], object],
         docks: Mapping[str, QDockWidget],
+        list_pages: Callable[[], Sequence[Page]],
     ) -> Menu:
         toggles = []
         for text, dock in docks.items():
@@ -289,6 +295,7 @@ class Commands(QObject):
                 None,
                 *page.layers.values(),
                 None,
+                Menu(self.tr("S&how panel"), lambda: self._list_pages(list_pages())),
                 *toggles,
                 Command(
                     text=self.tr("&Large inspector, or back"),
@@ -305,6 +312,19 @@ class Commands(QObject):
                     why_disabled=self.tr("There are no images yet: add some first."),
                 ),
                 Menu(self.tr("&Colours"), colours),
+            ),
+        )
+
+    def _list_pages(self, pages: Sequence[Page]) -> Sequence[Command]:
+        if pages:
+            return [Command(text=page.title, tip=page.tip, run=page.show) for page in pages]
+        return (
+            Command(
+                text=self.tr("None yet"),
+                tip=self.tr("What the inspector can show stands here"),
+                run=lambda: None,
+                is_enabled=lambda: False,
+                why_disabled=self.tr("There are no images yet: add some first."),
             ),
         )
 

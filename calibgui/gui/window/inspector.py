@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import ClassVar
 
 from PySide6.QtCore import Qt, Signal
@@ -18,7 +19,7 @@ from PySide6.QtWidgets import (
 )
 
 from calibgui.gui.canvas.image_page import ImagePage
-from calibgui.gui.panels.groups import Group, describe_group, name_group
+from calibgui.gui.panels.groups import Group, Page, describe_group, name_group
 from calibgui.gui.settings.board_panel import BoardPanel
 from calibgui.gui.settings.settings_panel import SettingsPanel
 from calibgui.gui.widgets import theme
@@ -101,6 +102,14 @@ class Inspector(QWidget):
     def show_setup(self) -> None:
         """Show the board and the settings."""
         self.tabs.setCurrentIndex(1)
+
+    def list_pages(self) -> list[Page]:
+        """Return the pages before the groups of panels."""
+        tabs = self.tabs
+        return [
+            Page(tabs.tabText(k), tabs.tabToolTip(k), partial(tabs.setCurrentIndex, k))
+            for k in range(_FIRST_GROUP)
+        ]
 
     def show_group(self, group: Group) -> None:
         """Show the panels on the result; which of them is theirs to decide."""

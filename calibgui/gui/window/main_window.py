@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import gc
+from functools import partial
 from importlib import import_module
 from traceback import extract_tb
 from typing import TYPE_CHECKING
@@ -28,7 +29,7 @@ from calibgui.gui.canvas.image_page import ImagePage
 from calibgui.gui.dialogs.files import Files
 from calibgui.gui.images.film_strip import FilmStrip
 from calibgui.gui.jobs import qt_names
-from calibgui.gui.panels.groups import Group
+from calibgui.gui.panels.groups import Group, Page
 from calibgui.gui.session.calibrator import Calibrator
 from calibgui.gui.session.detector import Detector
 from calibgui.gui.session.follower import Follower
@@ -157,6 +158,7 @@ class MainWindow(QMainWindow):
                 self.change_room,
                 self.leave_photograph_alone,
                 docks,
+                self._list_pages,
                 lambda: show_dialog(Palette(menus, self)),
             ),
         )
@@ -168,7 +170,7 @@ class MainWindow(QMainWindow):
         self.session.failed.connect(self._show_failed_work)
         self.session.notified.connect(self.banner.show_text)
         Offers(self.session, self.detector, self.calibrator, self.files, self.images, self.banner)
-        self.verdict.panel_wanted.connect(lambda name: self.need_analysis().show_panel_named(name))
+        self.verdict.panel_wanted.connect(self._show_panel_named)
         self.verdict.calibration_wanted.connect(self._calibrate_anew)
         self.images.list.addActions(self.page.tools)
         self.page.canvas.addAction(self.images.actions_for_menu[0])
@@ -194,6 +196,21 @@ class MainWindow(QMainWindow):
         self.welcome.sample_wanted.connect(self.files.open_sample)
         self.welcome.board_wanted.connect(self.files.print_board)
         self.welcome.recent_wanted.connect(lambda path: self.files.open_paths([str(path)]))
+
+    def _list_pages(self) -> list[Page]:
+        """Return what the inspector can show now, which comes into sight with it."""
+        pages = [] if self._empty else self.inspector.list_pages()
+        if self.session.result is not None:
+            pages += self.need_analysis().list_pages()
+        return [page._replace(show=partial(self._show_page, page)) for page in pages]
+
+    def _show_page(self, page: Page) -> None:
+        self.inspector_dock.show()
+        page.show()
+
+    def _show_panel_named(self, name: str) -> None:
+        self.inspector_dock.show()
+        self.need_analysis().show_panel_named(name)
 
     def need_analysis(self) -> Analysis:
         """Return the panels, which are imported and made when there is something to show."""

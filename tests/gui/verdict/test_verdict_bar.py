@@ -106,9 +106,11 @@ def test_a_sound_result_has_its_figures_and_no_findings(
     assert "if squares" not in bar.figures.text()
     assert not bar.unfold.isVisible() and not bar.square.isVisible()
     # What can be done about pixels that are not known well is to add views.
+    window.inspector_dock.hide()
     assert not verdict.is_known_well and bar.button.text() == "Show where to hold the board"
     qtbot.mouseClick(bar.button, LEFT)
     assert isinstance(window.need_analysis().shown, CoveragePanel)
+    assert window.need_analysis().isVisible()
 
 
 def test_photographs_that_are_not_used_are_counted(plain: Project, open_project: Open) -> None:

@@ -10,6 +10,10 @@ from PySide6.QtGui import QAction
 from PySide6.QtWidgets import QApplication, QMenu, QWidget
 from pytestqt.qtbot import QtBot
 
+from calibgui.app.project import add_images
+from calibgui.gui.panels.panel import Panel
+from calibgui.gui.panels.stage_one import StageOnePanel
+from calibgui.gui.panels.undistort import UndistortPanel
 from calibgui.gui.window.main_window import MainWindow
 from calibgui.gui.window.menus import strip_mnemonic
 from calibgui.gui.window.palette import Palette
@@ -75,10 +79,35 @@ def test_it_finds_by_the_menu_and_by_the_tip(full: MainWindow, qtbot: QtBot) -> 
     assert texts(palette) == ["Dark", "As the system", "Light"]
     assert palette.list.topLevelItem(0).text(1) == "View › Colours"
     palette.search.clear()
-    qtbot.keyClicks(palette.search, "another program")
-    assert texts(palette) == ["Export…"]
+    for words in ("another program", "opencv"):
+        palette.search.setText(words)
+        assert texts(palette) == ["Export…"]
     palette.search.setText("no such thing")
     assert texts(palette) == [] and "No action" in palette.about.text()
+    palette.reject()
+
+
+@pytest.mark.parametrize(
+    ("typed", "title", "kind"),
+    [("undist", "Undistort", UndistortPanel), ("stage i", "Stage I", StageOnePanel)],
+)
+def test_it_finds_panels_and_brings_them_into_sight(
+    full: MainWindow, qtbot: QtBot, typed: str, title: str, kind: type[Panel]
+) -> None:
+    full.inspector_dock.hide()
+    palette = open_palette(full, qtbot)
+    qtbot.keyClicks(palette.search, typed)
+    assert texts(palette)[0] == title
+    assert palette.list.topLevelItem(0).text(1) == "View › Show panel"
+    qtbot.keyClick(palette.search, Qt.Key.Key_Return)
+    assert isinstance(full.need_analysis().shown, kind) and full.need_analysis().isVisible()
+
+
+def test_the_set_up_is_found_before_there_is_a_result(window: MainWindow, qtbot: QtBot) -> None:
+    window.session.edit("Add", lambda p: add_images(p, ["a.png"]))
+    palette = open_palette(window, qtbot)
+    palette.search.setText("show panel")
+    assert texts(palette) == ["Image", "Set-up"]
     palette.reject()
 
 
@@ -129,7 +158,8 @@ def test_every_disabled_action_says_why(window: MainWindow) -> None:
 
 
 def test_the_reason_goes_when_the_action_can_be_chosen(full: MainWindow) -> None:
-    assert find_action(full, "Export…").toolTip() == "Write the camera for another program (Ctrl+E)"
+    tip = "Write the camera for OpenCV, ROS, MATLAB or another program (Ctrl+E)"
+    assert find_action(full, "Export…").toolTip() == tip
 
 
 PARTS: dict[str, Callable[[MainWindow], QWidget]] = {
