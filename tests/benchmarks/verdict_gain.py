@@ -22,8 +22,9 @@ from typing import Any, NamedTuple
 import numpy as np
 from threadpoolctl import threadpool_limits
 
+from calibgui.engine.assessment.action_trials import try_action
 from calibgui.engine.assessment.comparison import compare_cameras
-from calibgui.engine.assessment.verdict import judge_calibration, try_action
+from calibgui.engine.assessment.verdict import judge_calibration
 from calibgui.engine.boards.shape import BoardShapePrior
 from calibgui.engine.calibration.calibrate import calibrate
 from calibgui.engine.errors import CalibrationError

@@ -5,8 +5,8 @@ deviation of projection (``uncertainty/projection_uncertainty.py``), at infinity
 direction where it is largest; it includes noise, the board's shape and the views' disagreement.
 The other is what that leaves out: a lens that the model does not follow, corners that are not where
 they are said to be, a wrong value that is held. Both together are measured by carrying out what
-remedies a finding (`try_action`). With s' the standard deviation afterwards and d the displacement
-of the camera's pixels by the remedy (``comparison.py``), the error before was
+remedies a finding (``action_trials.py``). With s' the standard deviation afterwards and d the
+displacement of the camera's pixels by the remedy (``comparison.py``), the error before was
 
     e = sqrt(d^2 + s'^2),
 
@@ -36,26 +36,17 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from enum import StrEnum
-from typing import Any, NamedTuple
 
 import numpy as np
 
 from calibgui.engine.arrays import Array, BoolArray, Size
+from calibgui.engine.assessment.action_trials import Trial, try_action_safely
 from calibgui.engine.assessment.comparison import compare_cameras, find_covered_pixels
-from calibgui.engine.assessment.cross_validation import choose_board_shape
 from calibgui.engine.assessment.finding import Action, ActionKind, Cause, Finding
 from calibgui.engine.assessment.findings import list_findings
-from calibgui.engine.assessment.lens_choice import choose_lens_stepwise
 from calibgui.engine.assessment.lens_extrapolation import map_disagreement
-from calibgui.engine.assessment.outliers import screen_outliers, select_corners
-from calibgui.engine.assessment.view_weights import calibrate_weighted
-from calibgui.engine.boards.shape import BoardShapeModel
-from calibgui.engine.calibration.calibrate import calibrate
 from calibgui.engine.calibration.observations import Observation
-from calibgui.engine.calibration.problem import recover_arguments, recover_image_arguments
-from calibgui.engine.calibration.result import Calibration, Iteration, Report, Status
-from calibgui.engine.camera.models import PINHOLE
-from calibgui.engine.errors import CalibrationError
+from calibgui.engine.calibration.result import Calibration, Status
 from calibgui.engine.geometry.rotations import rotation_from_vector
 from calibgui.engine.images.sampling import make_mesh
 from calibgui.engine.numbers import format_two_digits
@@ -165,17 +156,6 @@ class Verdict:
         return self.grade is Grade.GOOD and self.error.worst <= MAX_GOOD_PX
 
 
-class Trial(NamedTuple):
-    """An action that has been carried out for a trial."""
-
-    action: Action
-    """The action, with the model that was found to be best."""
-    calibration: Calibration
-    """The calibration that it leads to."""
-    views: list[Observation]
-    """The views that it was made from."""
-
-
 @with_one_blas_thread
 def judge_calibration(
     calibration: Calibration,
@@ -196,7 +176,7 @@ def judge_calibration(
     errors: list[Array] = []
     tried = []
     for finding in found:
-        trial = _try_action_safely(finding.action, calibration, views, check)
+        trial = try_action_safely(finding.action, calibration, views, check)
         if trial is None:
             tried.append(_ask_for_photographs(finding))
             continue
@@ -221,105 +201,6 @@ def judge_calibration(
     grade, reason = _grade(calibration, pixels, tried)
     mm = distance / float(calibration.camera.focal[0])
     return Verdict(grade, reason, pixels, mm, distance, tuple(tried))
-
-
-def try_action(
-    action: Action | None,
-    calibration: Calibration,
-    views: Sequence[Observation],
-    check: Callable[[], None] | None = None,
-) -> Trial | None:
-    """Carry out an action on the views of a calibration; None if it takes other photographs.
-
-    Args:
-        action: the action; None for none.
-        calibration: the calibration.
-        views: the views that it was made from.
-        check: a function that is called at every iteration, and raises to abandon the work.
-
-    Raises:
-        CalibrationError: if the views do not allow it.
-    """
-    if action is None or not action.is_of_camera:
-        return None
-    given, size = list(views), calibration.camera.size
-    recover = recover_image_arguments if action.takes_image_cost else recover_arguments
-    settings = recover(calibration)
-    is_repeated = settings == recover_arguments(calibration)
-    if check is not None:
-        settings["report"] = _make_report(check)
-    match action.kind:
-        case ActionKind.ESTIMATE_BOARD_SHAPE:
-            del settings["board_shape"], settings["prior"]
-            is_nominal = calibration.board_shape is None and is_repeated
-            nominal = calibration if is_nominal else None
-            board = choose_board_shape(given, size, nominal=nominal, **settings)
-            return Trial(replace(action, model=board.model), board.chosen, given)
-        case ActionKind.CHOOSE_LENS_MODEL:
-            settings["fix"] = {n: v for n, v in settings["fix"].items() if n in PINHOLE}
-            shape = {name: settings.pop(name) for name in ("board_shape", "prior")}
-            del settings["model"], settings["free"]
-            lens = choose_lens_stepwise(given, size, **settings).chosen
-            camera = lens.calibration
-            if shape["board_shape"] != BoardShapeModel.NOMINAL:  # it is estimated or given again
-                settings |= {"model": lens.model, "fix": {**settings["fix"], **lens.fixed}}
-                camera = calibrate(given, size, **settings, **shape)
-            held = tuple(lens.fixed)
-            return Trial(replace(action, model=lens.model, parameters=held), camera, given)
-        case ActionKind.LEAVE_OUT_CORNERS:
-            screening = screen_outliers(given, size, **settings)
-            kept = [
-                select_corners(view, good)
-                for view, good in zip(given, screening.kept, strict=True)
-                if good.any()
-            ]
-            return Trial(action, screening.calibration, kept)
-        case ActionKind.LEAVE_OUT_VIEWS:
-            kept = [view for k, view in enumerate(given) if k not in action.views]
-            return Trial(action, calibrate(kept, size, **settings), kept)
-        case ActionKind.WEIGH_VIEWS:
-            return Trial(action, *calibrate_weighted(given, size, **settings))
-        case _:
-            changed = _change_held(settings, action)
-            return Trial(action, calibrate(given, size, **changed), given)
-
-
-def _make_report(check: Callable[[], None]) -> Report:
-    """Return a report of a solve that goes on until `check` raises."""
-
-    def report(_: Iteration) -> bool:
-        check()
-        return True
-
-    return report
-
-
-def _change_held(settings: dict[str, Any], action: Action) -> dict[str, Any]:
-    """Return the arguments of a calibration with parameters freed, or held at 0."""
-    fixed = {n: v for n, v in settings["fix"].items() if n not in action.parameters}
-    free = [name for name in settings["free"] if name not in action.parameters]
-    if action.kind is ActionKind.FREE_HELD_VALUE:
-        return {**settings, "fix": fixed, "free": [*free, *action.parameters]}
-    return {**settings, "fix": {**fixed, **dict.fromkeys(action.parameters, 0.0)}, "free": free}
-
-
-def _try_action_safely(
-    action: Action | None,
-    calibration: Calibration,
-    views: Sequence[Observation],
-    check: Callable[[], None] | None,
-) -> Trial | None:
-    """Carry out an action; None if the views do not allow it, or it does not determine one."""
-    is_chosen = "model_reason" in calibration.settings  # from all of them already
-    if action is not None and action.kind is ActionKind.CHOOSE_LENS_MODEL and is_chosen:
-        return Trial(action, calibration, list(views))
-    try:
-        trial = try_action(action, calibration, views, check)
-    except CalibrationError:
-        return None
-    if trial is None or trial.calibration.diagnosis is not None:
-        return None
-    return trial
 
 
 def _ask_for_photographs(finding: Finding) -> Finding:

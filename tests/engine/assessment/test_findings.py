@@ -9,12 +9,12 @@ import pytest
 
 from calibgui.engine.arrays import Array
 from calibgui.engine.assessment import input_errors
+from calibgui.engine.assessment.action_trials import try_action
 from calibgui.engine.assessment.comparison import compare_cameras
 from calibgui.engine.assessment.finding import Cause, Finding
 from calibgui.engine.assessment.findings import list_findings
 from calibgui.engine.assessment.input_errors import find_wrong_frame, screen_misplaced_corners
 from calibgui.engine.assessment.side_by_side import find_two_pictures
-from calibgui.engine.assessment.verdict import try_action
 from calibgui.engine.calibration.calibrate import calibrate
 from calibgui.engine.calibration.observations import Observation
 from calibgui.engine.camera.camera import Camera

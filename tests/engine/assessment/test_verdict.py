@@ -9,6 +9,8 @@ from typing import Any
 import numpy as np
 import pytest
 
+from calibgui.engine.assessment import action_trials
+from calibgui.engine.assessment.action_trials import try_action
 from calibgui.engine.assessment.comparison import compare_cameras
 from calibgui.engine.assessment.finding import Action, ActionKind, Cause
 from calibgui.engine.assessment.verdict import (
@@ -17,7 +19,6 @@ from calibgui.engine.assessment.verdict import (
     Verdict,
     _grade,
     judge_calibration,
-    try_action,
 )
 from calibgui.engine.boards.shape import BoardShapeModel
 from calibgui.engine.calibration.calibrate import calibrate
@@ -206,7 +207,7 @@ def test_a_board_whose_shape_cannot_be_estimated_asks_for_photographs(
     def refuse(*_: Any, **__: Any) -> None:
         raise CalibrationError("The views do not determine the board's shape.", "Add views.")
 
-    monkeypatch.setattr("calibgui.engine.assessment.verdict.choose_board_shape", refuse)
+    monkeypatch.setattr(action_trials, "choose_board_shape", refuse)
     _, verdict = judge(inject("bow", 0).views)
     assert verdict.findings[0].cause is Cause.BOARD_SHAPE
     assert verdict.findings[0].action == Action(ActionKind.PHOTOGRAPH_MORE)
@@ -222,7 +223,7 @@ def keep_drawing(monkeypatch: pytest.MonkeyPatch) -> None:
     def choose(*_: Any, nominal: Calibration, **__: Any) -> SimpleNamespace:
         return SimpleNamespace(model=BoardShapeModel.NOMINAL, chosen=nominal)
 
-    monkeypatch.setattr("calibgui.engine.assessment.verdict.choose_board_shape", choose)
+    monkeypatch.setattr(action_trials, "choose_board_shape", choose)
 
 
 @pytest.mark.usefixtures("keep_drawing")
