@@ -101,3 +101,19 @@ def test_tab_goes_through_all_parts(full: MainWindow, qtbot: QtBot) -> None:
         panel,
     )
     assert {type(widget).__name__ for widget in wanted if widget not in reached} == set()
+
+
+def test_tab_goes_from_the_photograph_to_the_images_and_on_to_the_panels(full: MainWindow) -> None:
+    chain: list[QWidget] = [full.page.canvas]
+    while (widget := chain[-1].nextInFocusChain()) is not chain[0]:
+        chain.append(widget)
+    stops = (
+        full.page.canvas,
+        full.images.threshold,
+        full.images.list,
+        full.inspector.tabs,
+        full.board.square,
+        full.need_analysis().results,
+    )
+    places = [chain.index(stop) for stop in stops]
+    assert places == sorted(places)

@@ -482,13 +482,15 @@ def test_a_split_is_upright_where_it_is_not_wide(qtbot: QtBot) -> None:
 
 @pytest.mark.parametrize("scheme", [theme.Scheme.LIGHT, theme.Scheme.DARK])
 def test_the_buttons_of_a_part_show_on_its_title(
-    window: MainWindow, qapp: QApplication, scheme: theme.Scheme
+    full: MainWindow, qapp: QApplication, scheme: theme.Scheme
 ) -> None:
     theme.apply(qapp, scheme)
     qapp.processEvents()
+    full.restoreState(full.saveState())  # as when a project is opened: Qt takes its own icons again
+    full.grab()
     ground = QColor(theme.current().window).lightness()
     for name in ("qt_dockwidget_floatbutton", "qt_dockwidget_closebutton"):
-        button = window.inspector_dock.findChild(QAbstractButton, name)
+        button = full.inspector_dock.findChild(QAbstractButton, name)
         assert button is not None
         icon = button.icon().pixmap(10, 10).toImage()
         inks = [icon.pixelColor(x, y) for x in range(10) for y in range(10)]

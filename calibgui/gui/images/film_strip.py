@@ -165,6 +165,10 @@ class FilmStrip(QWidget):
         room = event.size().width() - self.controls.sizeHint().width()
         self.controls.setVisible(room >= _LEAST_IMAGES * Cell.SIZE.width())
 
+    def list_stops(self) -> list[QWidget]:
+        """Return what the Tab key stops at, in this order."""
+        return [self.follows, self.sorting, self.threshold, self.exclude_above, self.list]
+
     @property
     def chosen(self) -> list[str]:
         """The images that are selected in the list."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import QEvent, QPointF, QRectF, Qt
+from PySide6.QtCore import QEvent, QObject, QPointF, QRectF, Qt
 from PySide6.QtGui import QColor, QIcon, QPainter, QPen, QPixmap
 from PySide6.QtWidgets import QAbstractButton, QDockWidget, QMainWindow, QWidget
 
@@ -18,12 +18,23 @@ class Dock(QDockWidget):
         super().__init__(title, parent)
         self.setObjectName(name)
         self.setWidget(content)
+        self._icons: dict[QObject, QIcon] = {}
+        """Icons of the buttons; Qt takes its own again when a layout is restored."""
         self._restyle()
+        for button in self._icons:
+            button.installEventFilter(self)
 
     def changeEvent(self, event: QEvent) -> None:  # noqa: N802 - Qt's name
         super().changeEvent(event)
         if event.type() == QEvent.Type.PaletteChange:
             self._restyle()
+
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:  # noqa: N802 - Qt's name
+        if event.type() == QEvent.Type.Paint and isinstance(watched, QAbstractButton):
+            icon = self._icons[watched]
+            if watched.icon().cacheKey() != icon.cacheKey():
+                watched.setIcon(icon)
+        return super().eventFilter(watched, event)
 
     def _restyle(self) -> None:
         for name, tip, icon in (
@@ -32,6 +43,7 @@ class Dock(QDockWidget):
         ):
             button = self.findChild(QAbstractButton, name)
             if isinstance(button, QAbstractButton):
+                self._icons[button] = icon
                 button.setIcon(icon)
                 button.setToolTip(tip)
 

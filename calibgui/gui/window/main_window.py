@@ -5,6 +5,7 @@ from __future__ import annotations
 import gc
 from functools import partial
 from importlib import import_module
+from itertools import pairwise
 from traceback import extract_tb
 from typing import TYPE_CHECKING
 
@@ -132,6 +133,9 @@ class MainWindow(QMainWindow):
         """The docks that come back beside the photograph."""
         self.strip_dock.setTitleBarWidget(QWidget())  # none: the strip is as low as it can be
         self.addDockWidget(Qt.DockWidgetArea.BottomDockWidgetArea, self.strip_dock)
+        # What the inspector shows comes after its tabs, and last: it is made when it is wanted.
+        for before, after in pairwise((self.page.canvas, *self.images.list_stops())):
+            self.setTabOrder(before, after)
         for changed in (self.inspector_dock.visibilityChanged, self.inspector_dock.topLevelChanged):
             changed.connect(lambda _: self._place_verdict())
         self._place_verdict()
