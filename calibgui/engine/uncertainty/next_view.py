@@ -170,7 +170,9 @@ def _list_candidates(
     scale = measure_axis_scale(camera)
     upright = np.diag([1.0, 1.0, 1.0] if _is_y_down(calibration) else [1.0, -1.0, -1.0])
     found = []
-    tried = list(product(*_PLACES_IN_IMAGE, _WIDTHS_IN_IMAGE, _list_tilts()))
+    # No information tells what a partial calibration assumes; tilted views determine it.
+    tilts = _list_tilts(is_tilted=calibration.diagnosis is not None)
+    tried = list(product(*_PLACES_IN_IMAGE, _WIDTHS_IN_IMAGE, tilts))
     for done, (x, y, fill, (tilt, side)) in enumerate(tried):
         if progress is not None:
             progress(done, len(tried))
@@ -200,9 +202,10 @@ def _face_camera(ray: Array) -> Array:
     return rotations.rotation_from_vector(angle * axis)
 
 
-def _list_tilts() -> list[tuple[float, int | None]]:
-    """List the tilts, degrees, with the sides that recede."""
-    return [(0.0, None), *product(_TILTS_DEG, range(8))]
+def _list_tilts(*, is_tilted: bool) -> list[tuple[float, int | None]]:
+    """List the tilts, degrees, with the sides that recede; no tilt only if it may be one."""
+    tilts: list[tuple[float, int | None]] = list(product(_TILTS_DEG, range(8)))
+    return tilts if is_tilted else [(0.0, None), *tilts]
 
 
 def _is_y_down(calibration: Calibration) -> bool:

@@ -125,6 +125,11 @@ class CoveragePanel(Panel):
         around = scipy.spatial.ConvexHull(view.corners).vertices
         self.next_board.setData(*view.corners[[*around, around[0]]].T)
         self.next_corners.setData(*view.corners.T)
+        diagnosis = None if self._planned is None else self._planned.calibration.diagnosis
+        if diagnosis is not None:
+            text = self.tr("The next view (red): {0} {1}")
+            self.advice.setText(text.format(view.instruction, diagnosis.hint))
+            return
         self.advice.setText(
             self.tr(
                 "The next view (red): {0} It lowers the uncertainty over the image from "

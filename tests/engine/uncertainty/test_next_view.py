@@ -7,9 +7,10 @@ import pytest
 
 from calibgui.engine.calibration.calibrate import calibrate
 from calibgui.engine.calibration.observations import Observation
-from calibgui.engine.calibration.result import Calibration
+from calibgui.engine.calibration.result import Calibration, DegenerateError
 from calibgui.engine.camera.camera import Camera
 from calibgui.engine.errors import Cancelled
+from calibgui.engine.geometry.pose import Pose
 from calibgui.engine.geometry.rotations import rotation_from_vector
 from calibgui.engine.uncertainty.next_view import propose_views
 from calibgui.engine.uncertainty.view_design import build_design
@@ -75,6 +76,17 @@ def test_the_words_describe_the_pose(up: float) -> None:
         far, near = across > np.quantile(across, 0.8), across < np.quantile(across, 0.2)
         assert gaps[far].mean() < gaps[near].mean()
         assert f"{one.tilt:.0f} degrees away" in one.instruction
+
+
+def test_views_that_do_not_determine_the_camera_need_a_tilted_one() -> None:
+    views = seen(barrel(), [Pose(np.zeros(3), [-90.0, -75.0, 400.0])]).noisy(
+        0.02, np.random.default_rng(2)
+    )
+    with pytest.raises(DegenerateError) as caught:
+        calibrate(views, SIZE)
+    partial = caught.value.partial
+    assert partial is not None
+    assert all(one.tilt > 0 for one in propose_views(partial, views))
 
 
 def test_another_lens_model() -> None:

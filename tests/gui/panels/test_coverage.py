@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+from dataclasses import replace
 from typing import Any, NoReturn
 
 import numpy as np
@@ -10,6 +11,7 @@ import pytest
 from pytestqt.qtbot import QtBot
 
 from calibgui.dataset import Result
+from calibgui.engine.calibration.result import Degeneracy, Diagnosis
 from calibgui.engine.numbers import format_two_digits
 from calibgui.engine.uncertainty.next_view import NextView, propose_views
 from calibgui.gui.jobs.jobs import Jobs
@@ -82,6 +84,16 @@ def test_the_next_view_is_drawn_and_told(
     assert (line.min(axis=0) == best.corners.min(axis=0)).all()
     assert best.instruction in panel.advice.text()
     assert f"to {format_two_digits(best.after)} px" in panel.advice.text()
+
+
+def test_what_determines_the_camera_is_told_where_views_do_not(
+    panel: CoveragePanel, result: Result, jobs: Jobs, best: NextView, qtbot: QtBot
+) -> None:
+    diagnosis = Diagnosis(Degeneracy.ONE_VIEW, "One view.", "Add two.")
+    partial = replace(result, calibration=replace(result.calibration, diagnosis=diagnosis))
+    panel.show_result(partial)
+    qtbot.waitUntil(lambda: not jobs.running)
+    assert panel.advice.text() == f"The next view (red): {best.instruction} Add two."
 
 
 def test_the_map_ends_with_the_image(panel: CoveragePanel, qtbot: QtBot) -> None:
