@@ -6,7 +6,7 @@ import math
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from PySide6.QtCore import Signal
+from PySide6.QtCore import QSettings, Signal
 from PySide6.QtGui import QGuiApplication
 from PySide6.QtWidgets import (
     QDialog,
@@ -32,6 +32,8 @@ from calibgui.gui.widgets.wrapped_label import WrappedLabel
 
 _NAME = "camera"
 """The name that a file is given unless the user chooses another."""
+_FORMAT = "export format"
+"""Setting with the name of the format that was saved last, which is shown first."""
 _SHOWN = 20_000
 """Characters of a file that are shown."""
 
@@ -99,7 +101,9 @@ class ExportDialog(QDialog):
         layout.addLayout(last)
         self.resize(880, 520)
         self.formats.currentRowChanged.connect(self._chosen)
-        self.formats.setCurrentRow(0)
+        last_saved = QSettings().value(_FORMAT)
+        names = list(EXPORTERS)
+        self.formats.setCurrentRow(names.index(last_saved) if last_saved in names else 0)
 
     @property
     def exporter(self) -> Exporter:
@@ -176,6 +180,7 @@ class ExportDialog(QDialog):
         )
         if path is None:
             return
+        QSettings().setValue(_FORMAT, exporter.name)
         self._jobs.start(
             self.tr("Writing {0}").format(path),
             lambda _: export(self._result, exporter.name, path),

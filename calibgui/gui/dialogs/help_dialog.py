@@ -48,8 +48,9 @@ class HelpDialog(QDialog):
                 "image whose file has changed since says so: <i>detect again</i> (F5)."
             ),
             self.tr(
-                "<b>Read the result</b>: every value with its standard deviation, what is badly "
-                "determined and what to photograph to improve it."
+                "<b>Read the verdict</b>: the button below it mends what is most wrong, or shows "
+                "where to hold the board next. The result states every value with its standard "
+                "deviation, and what is badly determined."
             ),
             self.tr(
                 "<b>Doubt it</b>: residuals that point the same way, a view with a long bar, or "
@@ -76,7 +77,8 @@ class HelpDialog(QDialog):
                 self.tr("zoom, before and after as well; Ctrl+0 fits, Ctrl+1 shows pixels"),
             ),
             ("Shift+1 … 0, N", self.tr("layers over the image")),
-            ("Ctrl+Shift+P", self.tr("find any action by typing a part of it")),
+            ("Ctrl+E / Ctrl+P", self.tr("export / print the result")),
+            ("Ctrl+Shift+P", self.tr("find any action or panel by typing a part of it")),
             ("Ctrl+Z / Ctrl+Shift+Z", self.tr("undo and redo: everything can be taken back")),
         )
         origin = self.tr(

@@ -63,8 +63,9 @@ def test_tells_the_refits_largest_error(
     assert "unlimited" in dialog._error(float("nan"))
 
 
-def test_saves_under_the_chosen_name(
+def test_saves_under_the_chosen_name_and_begins_with_its_format_next_time(
     dialog: ExportDialog,
+    result: Result,
     jobs: Jobs,
     qtbot: QtBot,
     tmp_path: Path,
@@ -78,6 +79,11 @@ def test_saves_under_the_chosen_name(
     assert signal.args[0].path == wanted.with_suffix(".yaml")
     assert "camera_matrix" in wanted.with_suffix(".yaml").read_text()
     assert "Saved as" in dialog.saved.text()
+    again = ExportDialog(jobs, result)
+    qtbot.addWidget(again)
+    assert again.exporter.name == "ros"
+    qtbot.waitUntil(lambda: not jobs.running)
+    again.reject()
 
 
 def test_a_wrong_suffix_is_explained(
