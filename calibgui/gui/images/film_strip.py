@@ -145,6 +145,9 @@ class FilmStrip(QWidget):
         self.threshold.valueChanged.connect(self._threshold_typed)
         self.exclude_above = QPushButton(self._describe_exclusion(100))
         self.exclude_above.setMinimumWidth(self.exclude_above.sizeHint().width())
+        self.exclude_above.setToolTip(
+            self.tr("Leave the images out whose error is above the threshold")
+        )
         self.exclude_above.clicked.connect(lambda: self.exclude(self.above))
         sort_by = QLabel(self.tr("Sort b&y"))
         sort_by.setBuddy(self.sorting)

@@ -26,13 +26,13 @@ from calibgui.gui.panels.compare import ComparePanel
 from calibgui.gui.panels.convergence import ConvergencePanel
 from calibgui.gui.panels.coverage import CoveragePanel
 from calibgui.gui.panels.distortion import DistortionPanel
-from calibgui.gui.panels.groups import Group, Page, describe_group
+from calibgui.gui.panels.groups import Group, Page
 from calibgui.gui.panels.histograms import HistogramsPanel
 from calibgui.gui.panels.lens_models import LensModelsPanel
 from calibgui.gui.panels.methods import MethodsPanel
 from calibgui.gui.panels.panel import Panel
 from calibgui.gui.panels.panel_area import PanelArea
-from calibgui.gui.panels.panel_chooser import PanelChooser, name_panel
+from calibgui.gui.panels.panel_chooser import PanelChooser, describe_panel, name_panel
 from calibgui.gui.panels.poses import PosesPanel
 from calibgui.gui.panels.residuals import ResidualsPanel
 from calibgui.gui.panels.result import ResultPanel
@@ -181,9 +181,8 @@ class Analysis(QWidget):
     def list_pages(self) -> list[Page]:
         """Return the panels, as pages that the inspector shows."""
         return [
-            Page(name_panel(kind), describe_group(group), partial(self.show_panel, kind))
-            for group, kinds in GROUPS.items()
-            for kind in kinds
+            Page(name_panel(kind), describe_panel(kind), partial(self.show_panel, kind))
+            for kind in PANELS
         ]
 
     def show_panel_named(self, name: str) -> None:

@@ -36,6 +36,9 @@ class BoardShapePanel(Panel):
     """The board's deviations from its drawing."""
 
     title = str(QT_TRANSLATE_NOOP("BoardShapePanel", "Board shape"))
+    purpose = str(
+        QT_TRANSLATE_NOOP("BoardShapePanel", "How the real board deviates from its drawing.")
+    )
 
     def __init__(self, services: Services) -> None:
         super().__init__(services)

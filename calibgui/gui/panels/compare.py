@@ -42,6 +42,12 @@ class ComparePanel(Panel):
     """
 
     title = str(QT_TRANSLATE_NOOP("ComparePanel", "Compare"))
+    purpose = str(
+        QT_TRANSLATE_NOOP(
+            "ComparePanel",
+            "Two results side by side: parameters, difference over the image, one image by both.",
+        )
+    )
 
     def __init__(self, services: Services) -> None:
         super().__init__(services)

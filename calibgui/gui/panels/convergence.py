@@ -21,6 +21,12 @@ class ConvergencePanel(Panel):
     """The cost of every iteration; grows while a calibration runs."""
 
     title = str(QT_TRANSLATE_NOOP("ConvergencePanel", "Convergence"))
+    purpose = str(
+        QT_TRANSLATE_NOOP(
+            "ConvergencePanel",
+            "The cost after each step of the joint refinement, also while it runs.",
+        )
+    )
 
     def __init__(self, services: Services) -> None:
         super().__init__(services)

@@ -38,6 +38,12 @@ class CoveragePanel(Panel):
     """
 
     title = str(QT_TRANSLATE_NOOP("CoveragePanel", "Coverage"))
+    purpose = str(
+        QT_TRANSLATE_NOOP(
+            "CoveragePanel",
+            "What the views cover of the image, of tilts and distances, and which to add next.",
+        )
+    )
 
     def __init__(self, services: Services) -> None:
         super().__init__(services)

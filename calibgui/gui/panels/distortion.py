@@ -31,6 +31,12 @@ class DistortionPanel(Panel):
     """How far the lens moves each pixel from where an ideal camera would see it."""
 
     title = str(QT_TRANSLATE_NOOP("DistortionPanel", "Distortion"))
+    purpose = str(
+        QT_TRANSLATE_NOOP(
+            "DistortionPanel",
+            "How far the lens moves each pixel from where an ideal camera would see it.",
+        )
+    )
 
     def __init__(self, services: Services) -> None:
         super().__init__(services)

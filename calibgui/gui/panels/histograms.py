@@ -83,6 +83,12 @@ class HistogramsPanel(Panel):
     """Shows components against a Gaussian and lengths against a Rayleigh distribution."""
 
     title = str(QT_TRANSLATE_NOOP("HistogramsPanel", "Histograms"))
+    purpose = str(
+        QT_TRANSLATE_NOOP(
+            "HistogramsPanel",
+            "How the residuals are distributed, beside a Gaussian and a Rayleigh distribution.",
+        )
+    )
 
     def __init__(self, services: Services) -> None:
         super().__init__(services)

@@ -25,6 +25,12 @@ class LensModelsPanel(OnDemandPanel[LensChoice]):
     """Tries all lens models on the views of the result, and takes the one that the user chooses."""
 
     title = str(QT_TRANSLATE_NOOP("LensModelsPanel", "Lens models"))
+    purpose = str(
+        QT_TRANSLATE_NOOP(
+            "LensModelsPanel",
+            "All lens models on the same corners, by what they predict of unseen views.",
+        )
+    )
 
     def __init__(self, services: Services) -> None:
         super().__init__(

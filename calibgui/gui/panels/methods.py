@@ -32,6 +32,9 @@ class MethodsPanel(OnDemandPanel[MethodComparison]):
     """Tries all methods on the views of the result, and takes the one that the user chooses."""
 
     title = str(QT_TRANSLATE_NOOP("MethodsPanel", "Methods"))
+    purpose = str(
+        QT_TRANSLATE_NOOP("MethodsPanel", "All methods of calibration on the same corners.")
+    )
 
     def __init__(self, services: Services) -> None:
         super().__init__(

@@ -40,6 +40,8 @@ class Panel(QWidget):
     """Something that the user asked for could not be done."""
 
     title: ClassVar[str] = ""
+    purpose: ClassVar[str] = ""
+    """A sentence on what it shows: the tip of its name, by which the palette finds it, too."""
     hint: ClassVar[str] = str(
         QT_TRANSLATE_NOOP("Panel", "Nothing is calibrated yet. What Calibrate finds is shown here.")
     )

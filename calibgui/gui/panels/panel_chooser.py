@@ -23,6 +23,11 @@ def name_panel(kind: type[Panel]) -> str:
     return QCoreApplication.translate(kind.__name__, kind.title)
 
 
+def describe_panel(kind: type[Panel]) -> str:
+    """Return in a sentence what a kind of panel shows."""
+    return QCoreApplication.translate(kind.__name__, kind.purpose)
+
+
 class PanelChooser(QWidget):
     """Shows every name at once, in two rows of equally many, or nearly so; in one if it is wide."""
 
@@ -37,6 +42,7 @@ class PanelChooser(QWidget):
         for kind in kinds:
             button = QToolButton()
             button.setText(name_panel(kind))
+            button.setToolTip(describe_panel(kind))
             button.setCheckable(True)
             button.setAutoRaise(True)
             button.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)

@@ -24,6 +24,11 @@ class PosesPanel(Panel):
     """Shows where the board was held, seen from any side."""
 
     title = str(QT_TRANSLATE_NOOP("PosesPanel", "Poses"))
+    purpose = str(
+        QT_TRANSLATE_NOOP(
+            "PosesPanel", "Where the board was held before the camera, in space: the extrinsics."
+        )
+    )
 
     def __init__(self, services: Services) -> None:
         super().__init__(services)

@@ -35,6 +35,12 @@ class ResidualsPanel(Panel):
     """
 
     title = str(QT_TRANSLATE_NOOP("ResidualsPanel", "Residuals"))
+    purpose = str(
+        QT_TRANSLATE_NOOP(
+            "ResidualsPanel",
+            "Measured minus predicted corners: the reprojection errors, one dot each.",
+        )
+    )
 
     def __init__(self, services: Services) -> None:
         super().__init__(services)

@@ -37,6 +37,12 @@ class ResultPanel(Panel):
     """
 
     title = str(QT_TRANSLATE_NOOP("ResultPanel", "Result"))
+    purpose = str(
+        QT_TRANSLATE_NOOP(
+            "ResultPanel",
+            "The camera's parameters with their standard deviations, and what they are worth.",
+        )
+    )
 
     def __init__(self, services: Services) -> None:
         super().__init__(services)

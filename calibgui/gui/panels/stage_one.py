@@ -39,6 +39,11 @@ class StageOnePanel(Panel):
     """Shows what each view says of the camera by itself."""
 
     title = str(QT_TRANSLATE_NOOP("StageOnePanel", "Stage I"))
+    purpose = str(
+        QT_TRANSLATE_NOOP(
+            "StageOnePanel", "What each view says of the camera by itself: the paper's first stage."
+        )
+    )
 
     def __init__(self, services: Services) -> None:
         super().__init__(services)

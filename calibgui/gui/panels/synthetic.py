@@ -31,6 +31,12 @@ class SyntheticPanel(OnDemandPanel[SyntheticCheck]):
     """Renders the views from the result, calibrates them again and compares."""
 
     title = str(QT_TRANSLATE_NOOP("SyntheticPanel", "Synthetic check"))
+    purpose = str(
+        QT_TRANSLATE_NOOP(
+            "SyntheticPanel",
+            "Whether the method finds this camera again in pictures that are rendered with it.",
+        )
+    )
 
     def __init__(self, services: Services) -> None:
         super().__init__(

@@ -36,6 +36,12 @@ class UncertaintyPanel(Panel):
     """
 
     title = str(QT_TRANSLATE_NOOP("UncertaintyPanel", "Uncertainty"))
+    purpose = str(
+        QT_TRANSLATE_NOOP(
+            "UncertaintyPanel",
+            "How well it is known where points are imaged, over the whole image.",
+        )
+    )
 
     def __init__(self, services: Services) -> None:
         super().__init__(services)

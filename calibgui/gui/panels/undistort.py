@@ -54,6 +54,11 @@ class UndistortPanel(Panel):
     """
 
     title = str(QT_TRANSLATE_NOOP("UndistortPanel", "Undistort"))
+    purpose = str(
+        QT_TRANSLATE_NOOP(
+            "UndistortPanel", "An image without the lens's distortion, or rectified to the board."
+        )
+    )
 
     def __init__(self, services: Services) -> None:
         super().__init__(services)

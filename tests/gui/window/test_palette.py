@@ -12,6 +12,7 @@ from pytestqt.qtbot import QtBot
 
 from calibgui.app.project import add_images
 from calibgui.gui.panels.panel import Panel
+from calibgui.gui.panels.poses import PosesPanel
 from calibgui.gui.panels.stage_one import StageOnePanel
 from calibgui.gui.panels.undistort import UndistortPanel
 from calibgui.gui.window.main_window import MainWindow
@@ -89,7 +90,11 @@ def test_it_finds_by_the_menu_and_by_the_tip(full: MainWindow, qtbot: QtBot) -> 
 
 @pytest.mark.parametrize(
     ("typed", "title", "kind"),
-    [("undist", "Undistort", UndistortPanel), ("stage i", "Stage I", StageOnePanel)],
+    [
+        ("undist", "Undistort", UndistortPanel),
+        ("stage i", "Stage I", StageOnePanel),
+        ("extrinsics", "Poses", PosesPanel),
+    ],
 )
 def test_it_finds_panels_and_brings_them_into_sight(
     full: MainWindow, qtbot: QtBot, typed: str, title: str, kind: type[Panel]
