@@ -123,12 +123,13 @@ def draw_distortion(camera: Camera) -> Figure:
             levels = axes.contour(u, v, length, colors="tab:blue", linewidths=0.6)
             axes.clabel(levels, fontsize=7)
         gradient = compute_displacement(sparse, camera, part).gradient
-        axes.quiver(
-            *np.moveaxis(sparse, -1, 0),
-            *np.moveaxis(gradient, -1, 0),
-            angles="xy",
-            color="tab:green",
-        )
+        if gradient.any():  # arrows of no length have no scale
+            axes.quiver(
+                *np.moveaxis(sparse, -1, 0),
+                *np.moveaxis(gradient, -1, 0),
+                angles="xy",
+                color="tab:green",
+            )
         axes.plot(*centre_of_array(camera.size), "+", color="yellow", markersize=12)
         axes.plot(*camera.centre, "x", color="red", markersize=9)
         axes.set(title=f"({letter}) {part}", xlabel="u, px", ylabel="v, px")
