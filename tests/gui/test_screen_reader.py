@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QAccessible, QAccessibleInterface, QAction
-from PySide6.QtWidgets import QAbstractScrollArea, QApplication, QWidget
+from PySide6.QtWidgets import QAbstractButton, QAbstractScrollArea, QApplication, QComboBox, QWidget
 from pytestqt.qtbot import QtBot
 
 from calibgui.gui.dialogs.bug_dialog import BugDialog
@@ -92,6 +92,10 @@ def test_the_window_with_each_panel(full: MainWindow, qtbot: QtBot, kind: type[P
     qtbot.waitUntil(lambda: not full.session.jobs.running, timeout=60_000)
     assert list_nameless(full) == []
     assert list_nameless_stops(full) == []
+    shown = full.need_analysis().shown
+    for control in [*shown.findChildren(QAbstractButton), *shown.findChildren(QComboBox)]:
+        if control.isVisible() and not control.objectName().startswith("qt_"):
+            assert control.toolTip(), control
 
 
 def test_the_bars_of_marking(full: MainWindow) -> None:

@@ -48,6 +48,9 @@ class DistortionPanel(Panel):
         ):
             self.part.addItem(name, part)
         self.part.setAccessibleName(self.tr("Part of the distortion"))
+        self.part.setToolTip(
+            self.tr("Radial: along rays from the centre. Decentering: from lenses out of line.")
+        )
         self.part.currentIndexChanged.connect(self._refresh_now)
         self.masked = QCheckBox(self.tr("&Only where corners were seen"))
         self.masked.setToolTip(

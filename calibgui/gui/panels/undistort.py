@@ -76,6 +76,10 @@ class UndistortPanel(Panel):
         self.angle.valueChanged.connect(self._refresh_now)
         self.save_one = QPushButton(self.tr("Save &this…"))
         self.save_all = QPushButton(self.tr("&Save all…"))
+        self.save_one.setToolTip(
+            self.tr("Write the selected image as it is shown here into a folder")
+        )
+        self.save_all.setToolTip(self.tr("Write all calibrated images like this into a folder"))
         self.save_one.clicked.connect(lambda: self._save((self._indices[self._shown],)))
         self.save_all.clicked.connect(lambda: self._save(self._indices))
         self.images = DividedImages(self.tr("as taken"), self.tr("undistorted"))
