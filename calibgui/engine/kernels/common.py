@@ -114,7 +114,7 @@ def make_contiguous(array: Array) -> Array:
     """
     if array.flags.carray and array.dtype == np.float64:
         return array
-    return np.require(array, np.float64, ["C", "W"])
+    return np.array(array, dtype=np.float64, order="C")
 
 
 def make_read_only(image: GreyImage) -> GreyImage:

@@ -282,15 +282,24 @@ def _fill_light_columns(w: _Floats, u: _Floats, v: _Floats, m: int) -> None:
 
 @compiled_part
 def _add_products(w: _Floats, m: int, out: Array) -> None:
-    """Add the products of the first rows J to the lower triangle of out (columns, columns)."""
-    for a in range(out.shape[0]):
-        one = w[_J + a * BLOCK : _J + (a + 1) * BLOCK]
-        for b in range(a + 1):
-            other = w[_J + b * BLOCK : _J + (b + 1) * BLOCK]
-            total = _ZERO
+    """Add the products of the first rows J, of which there are an even number, to out
+    (columns, columns): two rows by two, on its diagonal and below."""
+    n = out.shape[0]
+    for a in range(0, n, 2):
+        p0, p1 = w[_J + a * BLOCK :], w[_J + (a + 1) * BLOCK :]
+        for b in range(0, a + 2, 2):
+            q0, q1 = w[_J + b * BLOCK :], w[_J + (b + 1) * BLOCK :]
+            s00 = s01 = s10 = s11 = _ZERO
             for p in range(m):
-                total += one[p] * other[p]
-            out[a, b] += total
+                x, y, z, t = p0[p], p1[p], q0[p], q1[p]
+                s00 += x * z
+                s01 += x * t
+                s10 += y * z
+                s11 += y * t
+            out[a, b] += s00
+            out[a, b + 1] += s01
+            out[a + 1, b] += s10
+            out[a + 1, b + 1] += s11
 
 
 @compiled_part

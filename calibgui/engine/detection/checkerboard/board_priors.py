@@ -133,9 +133,9 @@ class BoardPriors:
         flat = grid_map.fit_radial_homography(self._cells, uv)
         first, second = flat.differentiate(self._cells)
         weights, _ = self._fit_polynomials(uv - flat.locate(self._cells))
-        by_col, by_row, by_col2, by_row2 = self._terms.derivatives @ weights
-        steps = first + np.stack([by_col, by_row], axis=1)
-        return steps, compute_curvatures(steps, second + np.stack([by_col2, by_row2], axis=1))
+        rest = (self._terms.derivatives @ weights).transpose(1, 0, 2)
+        steps = first + rest[:, :2]
+        return steps, compute_curvatures(steps, second + rest[:, 2:])
 
     def follow_edges(self, edges: ReadEdges) -> EdgeGeometry:
         """Estimate the geometry again from the `edges` that were read; of few corners, and where

@@ -126,7 +126,8 @@ def find_candidates(
             levels[depth], depth, min_contrast, outlines[depth], plain, on_refusal
         )
         shown = shown or (len(content.junctions), [each.uv for each in content.lattices])
-        if any(map(_is_resolved, content.lattices)) or not depth:
+        if len(content.lattices) > 1 or any(map(_is_resolved, content.lattices)) or not depth:
+            # A single one of small squares, as boards are, is judged if finer levels do not show it.
             content = _drop_refused(content)
         if depth and content.lattices and not _is_resolved(content.lattices[0]):
             # The finer levels may show all of its small squares: until then it is of no use.

@@ -321,7 +321,7 @@ def _compute_bend_covariance(model: XCornerModel, variance: Array) -> Array:
     """Compute what the `variance` (n, 2) px^2 of the edges' bends adds to the covariance (n, 2, 2)
     of the corners."""
     moved = np.linalg.inv(model.normals())
-    return np.asarray(np.einsum("nij,nj,nkj->nik", moved, variance, moved))
+    return np.asarray((moved * variance[:, None]) @ moved.transpose(0, 2, 1))
 
 
 def _compute_light_covariance(
