@@ -18,12 +18,7 @@ from calibgui.engine.arrays import (
     Int32Array,
     IntArray,
 )
-from calibgui.engine.kernels.common import (
-    bilinear,
-    compiled,
-    compiled_allocating_part,
-    compiled_part,
-)
+from calibgui.engine.kernels.common import bilinear, compiled, compiled_part
 
 _F = np.float32
 _QUARTER, _TWO = _F(0.25), _F(2)
@@ -193,7 +188,7 @@ def refine_stationary(
     return uv, is_near
 
 
-@compiled_allocating_part
+@compiled_part
 def _check_circle(
     g: GreyImage,
     u: float,
@@ -201,12 +196,13 @@ def _check_circle(
     circle: Array,
     min_contrast: float,
     limits: tuple[float, float, float],
+    level: Array,
     found: Array,
 ) -> bool:
-    """Test one point on one circle; fill `found` with the angles A, B and the contrast."""
+    """Test one point on one circle; fill `found` with the angles A, B and the contrast, and `level`
+    with the means of opposite samples, the first once more at the end."""
     max_asymmetry, max_off_middle, min_angle = limits
     half = circle.shape[0] // 2
-    level = np.empty(half + 1)
     low, high, uneven = np.inf, -np.inf, 0.0
     for k in range(half):
         near = bilinear(g, u + circle[k, 0], v + circle[k, 1])
@@ -245,10 +241,11 @@ def _check_circles(
     rings: Array,
 ) -> None:
     """Fill passed and rings with the results of `check_circles`."""
+    level = np.empty(circles.shape[1] // 2 + 1)
     for i in range(uv.shape[0]):
+        u, v, ring = uv[i, 0], uv[i, 1], rings[i]
         for k in range(circles.shape[0]):
-            u, v = uv[i, 0], uv[i, 1]
-            passed[i] = _check_circle(g, u, v, circles[k], min_contrast, limits, rings[i])
+            passed[i] = _check_circle(g, u, v, circles[k], min_contrast, limits, level, ring)
             if passed[i]:
                 break
 

@@ -107,7 +107,7 @@ def identify_board(
     for distance in CHARUCO_THRESHOLDS.max_marker_distances:
         i, j, displacement = _measure_displacements(corners, distance)
         squares = np.stack([layout.locate_squares(numbers) for layout in candidates])
-        step = (squares[:, j] - squares[:, i])[..., ::-1]
+        step = (squares.take(j, axis=1) - squares.take(i, axis=1))[..., ::-1]
         agree, sides = _find_agreeing_pairs(step, displacement, distance)
         count = agree.sum(axis=1)
         if not count.any():

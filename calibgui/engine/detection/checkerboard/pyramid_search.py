@@ -127,7 +127,7 @@ def find_candidates(
         )
         shown = shown or (len(content.junctions), [each.uv for each in content.lattices])
         if len(content.lattices) > 1 or any(map(_is_resolved, content.lattices)) or not depth:
-            # A single one of small squares, as boards are, is judged if finer levels do not show it.
+            # A single one, as of a board, is judged only if the finer levels do not show it.
             content = _drop_refused(content)
         if depth and content.lattices and not _is_resolved(content.lattices[0]):
             # The finer levels may show all of its small squares: until then it is of no use.
