@@ -268,7 +268,7 @@ def explain_unknown_size(views: Iterable[View], pattern: Pattern) -> Calibration
         f"else count its {points}"
     )
     if not pattern.has_squares:
-        remedy += " and take pictures that show all of them: a grid is found whole or not at all"
+        remedy += " and take pictures that show its whole border"
     return CalibrationError(
         f"No picture shows {shown}, so its size is not known: the largest part seen has {rows} x "
         f"{cols} {points}.",
@@ -285,15 +285,20 @@ def refuse_unreadable(views: Sequence[View]) -> CalibrationError:
 def infer_grid_size(views: Iterable[View]) -> GridSize | None:
     """Return the most frequent grid size of completely seen boards; of equals, the largest.
 
-    If the corners identify themselves, the largest part seen is taken. A grid of circles that may
-    go on outside of its image is a part. None if there is no board, or if more photographs share a
-    part that is larger: a board of which a shadow hides a whole column looks complete.
+    If the corners identify themselves, the largest part seen is taken. A grid of circles counts as
+    complete where a few are covered, and as a part where it may go on outside of its image. None if
+    there is no board, or if more photographs share a part that is larger: a board of which a shadow
+    hides a whole column looks complete.
     """
     views = tuple(views)
     found = [view.corners for view in views if view.corners is not None]
     if found and all(corners.pattern.identifies_points for corners in found):
         return measure_largest_part(found)
-    whole = (corners for corners in found if corners.complete and not corners.relative)
+    whole = (
+        corners
+        for corners in found
+        if not corners.relative and (corners.complete or not corners.pattern.has_squares)
+    )
     seen = Counter(corners.shape for corners in whole)
     usual = max(seen, key=lambda shape: (seen[shape], shape[0] * shape[1]), default=None)
     shared = _find_shared_part(views)
@@ -335,8 +340,8 @@ def _is_worth_searching_again(view: View, grid_size: GridSize, pattern: Pattern)
     """Return whether a search for the known board can change the corners of a view."""
     if view.corners is not None:
         return view.corners.shape != grid_size or view.corners.relative
-    known = view.roi is not None or pattern.identifies_points
-    return view.status is ViewStatus.NO_BOARD and known
+    is_easier = view.roi is not None or pattern.identifies_points or not pattern.has_squares
+    return view.status is ViewStatus.NO_BOARD and is_easier
 
 
 def _record_crash(view: View) -> View:

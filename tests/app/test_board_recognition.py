@@ -103,7 +103,7 @@ def test_marks_of_a_board_of_another_size_are_told(tmp_path: Path) -> None:
 
 
 def test_boards_that_few_photographs_show_are_recognised(tmp_path: Path) -> None:
-    """A grid of circles is found whole or not at all."""
+    """One of four, of a grid of circles."""
     board = Board(4, 5, 30.0, Circles(diameter=0.5))
     shown = Scene(board, _CAMERA, (0.3, 0.2, 0.1), 300.0).image()
     for k in range(4):

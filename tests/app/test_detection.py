@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import shutil
+from dataclasses import replace
 from pathlib import Path
 from threading import Event
 
@@ -182,6 +183,15 @@ def test_a_part_in_more_pictures_belies_a_smaller_board() -> None:
     assert infer_grid_size([whole, whole, whole, part, part, part]) == (6, 7)
 
 
+def test_a_grid_of_circles_tells_its_size_though_one_is_covered() -> None:
+    seen = corners((6, 7), 41)
+    assert seen.corners is not None
+    circles = replace(seen.corners, pattern=Circles(diameter=0.5))
+    view = replace(seen, corners=circles)
+    assert infer_grid_size([view]) == (6, 7)
+    assert infer_grid_size([replace(view, corners=replace(circles, relative=True))]) is None
+
+
 def test_a_partly_seen_board_is_counted_on_the_usual_one(photographs: Path, tmp_path: Path) -> None:
     shutil.copytree(photographs, tmp_path, dirs_exist_ok=True)
     # The right-most column of the first view is outside the image.
@@ -261,7 +271,7 @@ def test_a_file_that_ends_in_zeros_is_pointed_out(photographs: Path, tmp_path: P
     ("pattern", "points", "remedy"),
     [
         (CHECKERBOARD, "inner corners", "else count its inner corners."),
-        (Circles(), "circles", "take pictures that show all of them"),
+        (Circles(), "circles", "take pictures that show its whole border"),
     ],
 )
 def test_parts_alone_do_not_tell_the_size(pattern: Pattern, points: str, remedy: str) -> None:

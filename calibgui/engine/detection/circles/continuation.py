@@ -32,6 +32,8 @@ class Continuation(NamedTuple):
     """True if there are circles where one of them would be, in most of its places in the image."""
     is_open: bool
     """True if one of them would lie outside of the image."""
+    has_discs: bool
+    """True if there is a circle in a place of one of them; the others may be covered."""
 
 
 def find_continuation(centres: Array, image: GreyImage, *, asymmetric: bool) -> Continuation:
@@ -56,6 +58,7 @@ def find_continuation(centres: Array, image: GreyImage, *, asymmetric: bool) -> 
     return Continuation(
         any(2 * np.count_nonzero(is_disc[line]) > np.count_nonzero(line) for line in lines),
         not all(line.any() for line in lines),
+        any(is_disc[line].any() for line in lines),
     )
 
 

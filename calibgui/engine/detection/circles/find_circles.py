@@ -1,12 +1,13 @@
 """From an image to the centres of a grid of circles.
 
-The grid is found among all parts that may be discs (`blobs`, `grid_labelling`), coarsely and whole
-or not at all. An ellipse is then fitted to the pixels of every circle's edge (`ellipse_fit`), and
-the image of the circle's centre follows from the ellipse's (`circle_map`), for the diameter that
-the ellipses show. Numbering is right-handed in the image; among origins that cannot be told apart
-the one that makes the grid upright is taken, or the one nearest to the first of the marked points.
-A symmetric grid turned by a quarter is another one with rows and columns exchanged: unless its size
-is stated, the fewer lines are its rows in every image.
+The grid is found coarsely among all parts that may be discs (`blobs`, `grid_labelling`), with gaps
+where a few circles are covered or cut off by the image's border. An ellipse is then fitted to the
+pixels of every circle's edge (`ellipse_fit`), and the image of the circle's centre follows from the
+ellipse's (`circle_map`), for the diameter that the ellipses show. Numbering is right-handed in the
+image; among origins that cannot be told apart the one that makes the grid upright is taken, or the
+one nearest to the first of the marked points. A symmetric grid turned by a quarter is another one
+with rows and columns exchanged: unless its size is stated, the fewer lines are its rows in every
+image.
 
 Boards of robot cells mark the origin, or the axes, by circles of another size. Such marks are
 circles like the others, and tell turns of the grid apart: of the numberings that remain that one is
@@ -31,10 +32,11 @@ from calibgui.engine.detection.circles.blobs import find_blobs
 from calibgui.engine.detection.circles.circle_map import fit_circle_map
 from calibgui.engine.detection.circles.continuation import find_continuation
 from calibgui.engine.detection.circles.ellipse_fit import EllipseFit
-from calibgui.engine.detection.circles.grid_labelling import label_grid
+from calibgui.engine.detection.circles.grid_labelling import LabelledGrid, label_grid
 from calibgui.engine.detection.circles.thresholds import CIRCLE_THRESHOLDS
 from calibgui.engine.detection.corners import Corners, find_usable_covariances
 from calibgui.engine.detection.detector_io import check_grey_levels, list_rejected_corners
+from calibgui.engine.detection.lattice import Lattice
 from calibgui.engine.errors import NoBoardError
 from calibgui.engine.images.reading import stretch_levels
 
@@ -56,11 +58,21 @@ _OPEN = (
     " rows and columns if the grid has more."
 )
 """What is said of a grid whose end is not seen."""
+_BESIDE = (
+    "Single discs lie where the next row or column would be: state the numbers of rows and columns"
+    " if these are circles of the grid."
+)
+"""What is said of a grid that may have lines of which almost all circles are covered."""
+_UNSEEN = (
+    "No circle of a row or column at the grid's border is seen well: which of the rows and columns"
+    " are seen is not certain."
+)
+"""What is said of a grid with gaps whose extent rests on circles that are not trusted."""
 _MAX_SCATTER_SIGMAS = 3.0
 """Greatest excess of the variance about the map over the stated one that counts as chance, standard
 deviations of the former."""
 _NO_ELLIPSES = "ellipses do not describe the edges of its circles"
-_TOO_MANY_FAIL = "too many of its circles fail"
+_TOO_MANY_FAIL = "too many of its circles fail or are covered"
 _CENTRE_ITERATIONS = 3
 """Number of times that the map and the centres are computed from each other."""
 
@@ -75,12 +87,14 @@ def find_circles(
     """Locate the circles of a grid in an image; see ``find_corners``."""
     grey = check_grey_levels(image)
     outline = None if roi is None else region.check_outline(roi)
-    coarse = _find_grid(pattern, stretch_levels(grey), grid_size, outline)
+    coarse, has_strays = _find_grid(pattern, stretch_levels(grey), grid_size, outline)
     is_counted = grid_size is None and outline is None
     grid_size = coarse.shape[0], coarse.shape[1]
     grid = list_grid_indices(grid_size)
-    xy = pattern.locate_points(grid.astype(np.float64))
-    first = _number_circles(pattern, coarse, xy, outline)
+    all_xy = pattern.locate_points(grid.astype(np.float64))
+    first = _number_circles(pattern, coarse, all_xy, outline)
+    is_seen = np.isfinite(first[:, 0])
+    first, xy = first[is_seen], all_xy[is_seen]
     start = fit_circle_map(xy, first)
     paper = np.array([(1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0)])
     if not pattern.asymmetric:
@@ -94,7 +108,7 @@ def find_circles(
         if _measure_misfit(tried) > _MAX_SAMPLE_EXCESS * CIRCLE_THRESHOLDS.max_relative_residual:
             raise _distrust(_NO_ELLIPSES)
     fit = ellipse_fit.fit_ellipses(grey, first, steps, pattern.half_distance, paper)
-    verified = _verify_circles(fit, xy, grey)
+    verified = _verify_circles(fit, xy, grey, len(grid))
     radius = verified.radius
     if (
         pattern.diameter is not None
@@ -104,35 +118,46 @@ def find_circles(
             f"The circles measure {2 * radius:.2f} of their distance, not {pattern.diameter:.2f}.",
             "State diameter and distance as measured, or leave the diameter out.",
         )
-    is_open = is_counted and find_continuation(coarse, grey, asymmetric=pattern.asymmetric).is_open
     order, ambiguity = _number_by_marks(verified, grid_size, pattern.symmetry(grid_size))
-    good = order[verified.good[order]]
-    whole = verified.uv[order].reshape(*grid_size, 2)
+    places, is_good = grid[is_seen], verified.good[order]
+    good = order[is_good]
+    whole = np.full((*grid_size, 2), np.nan)
+    whole[tuple(places.T)] = verified.uv[order]
+    doubts = []
+    if is_counted:
+        beyond = find_continuation(coarse, grey, asymmetric=pattern.asymmetric)
+        doubts += [_OPEN] * beyond.is_open + [_BESIDE] * (has_strays and beyond.has_discs)
+    if not is_seen.all() and np.any(np.ptp(places[is_good], axis=0) + 1 < grid_size):
+        doubts.append(_UNSEEN)
     return Corners(
         shape=grid_size,
-        grid=grid[verified.good[order]],
+        grid=places[is_good],
         uv=verified.uv[good],
         estimate=first[good],
         cov=fit.covariance[good] + verified.scatter * np.eye(2),
         ambiguity=ambiguity,
-        roi=whole[[0, 0, -1, -1], [0, -1, -1, 0]] if outline is None else outline,
+        roi=region.find_outline(Lattice(whole, dark=True)) if outline is None else outline,
         method="ellipses",
-        relative=is_open,
+        relative=bool(doubts),
         blur=fit.blur[good],
         contrast=fit.contrast[good],
         residual=fit.residual[good],
         rejected=tuple(
             list_rejected_corners(fit.uv[~verified.good], "not the image of a circle there")
         ),
-        remark=_OPEN if is_open else "",
+        remark=" ".join(doubts),
         pattern=Circles(pattern.asymmetric, 2 * radius),
     )
 
 
 def _find_grid(
     pattern: Circles, image: GreyImage, grid_size: GridSize | None, outline: Array | None
-) -> Array:
-    """Find the circles' centres (rows, cols, 2) px, coarsely, in an 8-bit image (h, w)."""
+) -> tuple[Array, bool]:
+    """Find the circles' centres (rows, cols, 2) px, coarsely, in an 8-bit image (h, w).
+
+    Returns:
+        The centres, NaN where none is seen, and whether single discs lie where the grid may go on.
+    """
     left, top = 0, 0
     if outline is not None:
         marked = region.enlarge_outline(outline)
@@ -145,33 +170,39 @@ def _find_grid(
     most = (
         CIRCLE_THRESHOLDS.max_blobs if grid_size is None else 2 * grid_size[0] * grid_size[1] + 60
     )
-    largest, part = np.zeros((0, 0, 2)), np.zeros((0, 0), np.int64)
+    largest: LabelledGrid | None = None
+    part: LabelledGrid | None = None
+    centres = np.zeros((0, 0, 2))
     for depth, seen, divisor, is_shaded in _list_searches(levels):
         is_rare = is_shaded or depth == len(levels)
-        if is_rare and grid_size is None and largest.size:
+        if is_rare and grid_size is None and largest is not None and largest.is_full:
             break
         window = max(int(min(seen.shape) / divisor), 9)
         points = find_blobs(seen, window, most, is_shaded=is_shaded)
         grid = label_grid(points, grid_size, asymmetric=pattern.asymmetric)
-        if grid is None or (grid.shape != grid_size and 2 * grid.size <= largest.size):
+        if grid is None:
             continue
-        if find_continuation(points[grid], seen, asymmetric=pattern.asymmetric).is_seen:
-            part = max(part, grid, key=np.size)
+        is_stated = grid.is_full and grid.places.shape == grid_size
+        if largest is not None and not is_stated and len(grid) <= len(largest):
             continue
-        largest = (points[grid] + 0.5) * 2**depth - 0.5 + [left, top]
-        if grid.shape == grid_size:
-            return largest
-    if grid_size is None and largest.size:
-        return largest
+        at = grid.place_points(points)
+        if find_continuation(at, seen, asymmetric=pattern.asymmetric).is_seen:
+            part = max(part or grid, grid, key=len)
+            continue
+        largest, centres = grid, (at + 0.5) * 2**depth - 0.5 + [left, top]
+        if is_stated:
+            break
+    if largest is not None and grid_size in (None, largest.places.shape):
+        return centres, largest.left_out > 0
     which = "" if grid_size is None else f"{grid_size[0]} x {grid_size[1]} "
     instead = ""
-    if largest.size:
-        instead = ", but one of {} x {}".format(*largest.shape)
-    elif part.size:
-        instead = ", but {} x {} circles of a larger one".format(*part.shape)
+    if largest is not None:
+        instead = ", but one of {} x {}".format(*largest.places.shape)
+    elif part is not None:
+        instead = ", but {} x {} circles of a larger one".format(*part.places.shape)
     raise NoBoardError(
         f"No grid of {which}circles was found{instead}.",
-        "All of it must be in view, sharp and evenly lit, with white around it."
+        "Almost all of it must be in view, sharp and evenly lit, with white around it."
         + (" Check the numbers of rows and columns." if grid_size else ""),
     )
 
@@ -200,17 +231,21 @@ def _number_circles(pattern: Circles, centres: Array, xy: Array, outline: Array 
     How well a map fits tells no others apart: a bend along three rows is a shift of the middle one.
 
     Returns:
-        (n, 2) px, the centre of each of the pattern's points `xy` (n, 2).
+        (n, 2) px, the centre of each of the pattern's points `xy` (n, 2), NaN where none is seen.
     """
     grid_size = centres.shape[0], centres.shape[1]
     rated = []
     for order in _list_turns(grid_size, pattern.symmetry(grid_size)):
         uv = centres.reshape(-1, 2)[order]
-        J = fit_circle_map(xy, uv).differentiate(xy)
+        is_seen = np.isfinite(uv[:, 0])
+        circle_map = fit_circle_map(xy[is_seen], uv[is_seen])
+        J = circle_map.differentiate(xy[is_seen])
         if not (np.isfinite(J).all() and (np.linalg.det(J) > 0).all()):
             continue
         right = J[..., 0].mean(axis=0)
-        start = 0.0 if outline is None else float(np.linalg.norm(uv[0] - outline[0]))
+        start = 0.0
+        if outline is not None:
+            start = float(np.linalg.norm(circle_map.locate(xy[:1]) - outline[0]))
         rated.append((start, -round(float(right[0] / np.linalg.norm(right)), 6), uv))
     if not rated:
         raise _distrust("its circles do not lie on a smooth grid")
@@ -226,7 +261,7 @@ def _list_turns(grid_size: GridSize, symmetry: Symmetry) -> list[IntArray]:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class _VerifiedCircles:
-    """The circles of a grid, n places of it."""
+    """The circles that are seen of a grid, n of its places."""
 
     good: BoolArray
     """(n,) True for those that pass."""
@@ -245,31 +280,32 @@ def _number_by_marks(
 ) -> tuple[IntArray, Symmetry]:
     """Choose among the turns of a symmetric grid by its marks.
 
-    A circle that was rejected might be a mark: then nothing is chosen.
+    A circle that was rejected or is not seen might be a mark: then nothing is chosen.
 
     Returns:
-        The places (n,) in the order of their numbering, and the turns that the marks leave open.
+        The circles (n,) in the order of their numbering, and the turns that the marks leave open.
     """
+    if np.count_nonzero(circles.good) < grid_size[0] * grid_size[1]:
+        return np.arange(len(circles.good)), symmetry
     orders = _list_turns(grid_size, symmetry)
-    if not circles.good.all():
-        return orders[0], symmetry
     marks = [tuple(np.flatnonzero(circles.are_marks[order]).tolist()) for order in orders]
     first = min(marks)
     left = {1: Symmetry.NONE, 2: Symmetry.HALF_TURN, 4: Symmetry.QUARTER_TURN}[marks.count(first)]
     return orders[marks.index(first)], left
 
 
-def _verify_circles(fit: EllipseFit, xy: Array, image: GreyImage) -> _VerifiedCircles:
-    """Verify the circles and compute the images of their centres.
+def _verify_circles(fit: EllipseFit, xy: Array, image: GreyImage, count: int) -> _VerifiedCircles:
+    """Verify the circles that are seen of a grid of `count`, and compute their centres' images.
 
     Every ellipse must lie inside the image, be larger than its blur, be what a circle of the common
     radius or a mark looks like there, where the others predict it, with a contrast like theirs and
     no more unexplained.
 
     Raises:
-        NoBoardError: if too many fail.
+        NoBoardError: if too many fail or are not seen.
     """
     limits = CIRCLE_THRESHOLDS
+    fewest = (1 - limits.max_rejected_share) * count
     if not (np.isfinite(fit.unknowns).all() and find_usable_covariances(fit.covariance).all()):
         raise _distrust(_NO_ELLIPSES)
     half = np.sqrt(np.einsum("nii->ni", fit.spread)) + fit.blur[:, None]
@@ -290,7 +326,7 @@ def _verify_circles(fit: EllipseFit, xy: Array, image: GreyImage) -> _VerifiedCi
     uv, are_marks = fit.uv, np.zeros_like(good)
     for _ in range(_CENTRE_ITERATIONS):
         # A circle that fails must not bend the map for the others.
-        if np.count_nonzero(~good) > limits.max_rejected_share * len(good):
+        if np.count_nonzero(good) < fewest:
             raise _distrust(_TOO_MANY_FAIL)
         circle_map = fit_circle_map(xy[good], uv[good], are_exact=True)
         J = circle_map.differentiate(xy)
@@ -304,7 +340,7 @@ def _verify_circles(fit: EllipseFit, xy: Array, image: GreyImage) -> _VerifiedCi
         shape = np.abs(spread / radii[:, None, None] ** 2 - np.eye(2)).max(axis=(1, 2))
         good = good & (np.linalg.norm(off, axis=1) < limits.max_misplacement)
         good = good & (shape < limits.max_shape_difference)
-    if np.count_nonzero(~good) > limits.max_rejected_share * len(good):
+    if np.count_nonzero(good) < fewest:
         raise _distrust(_TOO_MANY_FAIL)
     if _measure_misfit(fit) > limits.max_relative_residual:
         raise _distrust(_NO_ELLIPSES)

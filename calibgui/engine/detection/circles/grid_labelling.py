@@ -5,19 +5,22 @@ The places of a grid form a lattice: of a symmetric one (x, y) = (i, j), of an a
 from a point and two of its neighbours: the points found so far predict the next ones, by
 continuing lines and by completing parallelograms, so that perspective and lens may change the
 steps from one end to the other. Three points that have no others where their lattice would have its
-next ones are no part of a grid, and are not grown: almost all of those in textures.
+next ones are no part of a grid, and are not grown: almost all of those in textures. Growth goes
+around circles that are covered.
 
 Points are complex numbers u + iv there: a lattice is grown place by place.
 
 The nearest points of a tilted grid need not be the neighbours along rows and columns: the lattice
 may have grown along a diagonal. Of the few ways to assign places to it, that is right in which the
-points fill a rectangle of the pattern.
+points fill a rectangle of the pattern, or the most of one of which a few are covered.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator
+from functools import partial
 from itertools import combinations, product
+from typing import NamedTuple
 
 import numpy as np
 import scipy
@@ -46,11 +49,45 @@ _DIAGONALS = tuple(product((1, -1), (1, -1)))
 _SHEARS = tuple(np.array([[1, a], [b, 1]]) for a, b in ((0, 0), (1, 0), (-1, 0), (0, 1), (0, -1)))
 _TURNS = tuple(np.array([[c, -s], [s, c]]) for c, s in ((1, 0), (0, 1), (-1, 0), (0, -1)))
 """Bases of the lattice that the first neighbours may have been, and turns of it."""
-_NO_GRID: IntArray = np.zeros((0, 0), dtype=np.int64)
 
 
-def label_grid(points: Array, grid_size: GridSize | None, *, asymmetric: bool) -> IntArray | None:
-    """Find the grid of the stated size among points, or else the largest whole one.
+class LabelledGrid(NamedTuple):
+    """A grid among points."""
+
+    places: IntArray
+    """(rows, cols) index of the point at each place, right-handed in the image; -1 where no point
+    is, as its circle is covered."""
+    left_out: int
+    """Number of points where further rows or columns would have some: too few for such lines."""
+
+    def __len__(self) -> int:
+        return len(self.points)
+
+    @property
+    def points(self) -> IntArray:
+        """(n,) indices of its points, row by row."""
+        return self.places[self.places >= 0]
+
+    @property
+    def is_full(self) -> bool:
+        """True if there is a point at every place."""
+        return bool((self.places >= 0).all())
+
+    @property
+    def is_continued(self) -> bool:
+        """True if so many points were left out that it is a part of a larger grid, or of none."""
+        return self.left_out > CIRCLE_THRESHOLDS.max_continued_share * len(self)
+
+    def place_points(self, points: Array) -> Array:
+        """Return the positions (rows, cols, 2) of its points among `points` (n, 2); NaN where none
+        is."""
+        return np.where((self.places >= 0)[..., None], points[self.places], np.nan)
+
+
+def label_grid(
+    points: Array, grid_size: GridSize | None, *, asymmetric: bool
+) -> LabelledGrid | None:
+    """Find the grid of the stated size among points, or else the largest one.
 
     Args:
         points: (n, 2) px.
@@ -58,20 +95,20 @@ def label_grid(points: Array, grid_size: GridSize | None, *, asymmetric: bool) -
         asymmetric: True if every second row is shifted by half.
 
     Returns:
-        (rows, cols) indices of the points, right-handed in the image; None if there is no grid, or
-        if one whose size is not stated is a part of a larger one.
+        The grid; None if there is none, or if one whose size is not stated is a part of a larger
+        one.
     """
     limits = CIRCLE_THRESHOLDS
     if len(points) < limits.min_grid_lines**2:
         return None
-    best, left_out = _NO_GRID, 0
-    fewest = limits.min_grid_circles
+    best: LabelledGrid | None = None
+    fewest = float(limits.min_grid_circles)
     if grid_size is not None:
-        fewest = min(fewest, grid_size[0] * grid_size[1])
+        fewest = min(fewest, (1 - limits.max_rejected_share) * grid_size[0] * grid_size[1])
     tree = scipy.spatial.cKDTree(points)
     tried: list[PlacesByPoint] = []
     for seed in _find_nearest(tree, np.median(points, axis=0), _MAX_SEEDS):
-        if seed in best:
+        if best is not None and best.is_full and seed in best.points:
             continue
         for start in _start_lattices(seed, points, tree):
             if any(_is_same_lattice(start, other) for other in tried):
@@ -85,30 +122,37 @@ def label_grid(points: Array, grid_size: GridSize | None, *, asymmetric: bool) -
                     stated = _cut_stated_grid(by_place, grid_size, asymmetric=asymmetric)
                     if stated is not None:
                         return stated
-            whole = max(
-                _cut_whole_grids(placed, asymmetric=asymmetric), key=_rank_grid, default=best
-            )
-            if _rank_grid(whole) > _rank_grid(best):
-                best, left_out = whole, len(placed) - whole.size
-            if seed in best:
+            grids = list(_cut_grids(placed, grid_size, asymmetric=asymmetric))
+            if any(len(grid) >= fewest and not grid.is_continued for grid in grids) and not any(
+                grid.is_full for grid in grids
+            ):
+                placed = _complete_lattice(placed, points, tree)
+                grids = list(_cut_grids(placed, grid_size, asymmetric=asymmetric))
+            for grid in grids:
+                if len(grid) >= fewest:
+                    best = max(best or grid, grid, key=partial(_rank_grid, grid_size))
+            # A lattice that began across a gap has more gaps than the grid.
+            if best is not None and best.is_full and seed in best.points:
                 break
-    if left_out > limits.max_continued_share * best.size:
+    if best is None or best.is_continued:
         return None
-    if not best.size or _is_continued(best, points, asymmetric=asymmetric):
-        return None
-    return best
+    return None if _is_continued(best, points, asymmetric=asymmetric) else best
 
 
-def _is_continued(grid: IntArray, points: Array, *, asymmetric: bool) -> bool:
-    """Return whether a grid (rows, cols) of points (n, 2) px is a part of a larger one: most others
-    around lie where it goes on, and they are many. Something hides what would join them. In the
-    middle of the cells of a symmetric grid they belong to an asymmetric one, turned."""
+def _is_continued(grid: LabelledGrid, points: Array, *, asymmetric: bool) -> bool:
+    """Return whether a grid of points (n, 2) px is a part of a larger one: most others around lie
+    where it goes on, and they are many. Something hides what would join them. In the middle of the
+    cells of a symmetric grid they belong to an asymmetric one, turned."""
     limits = CIRCLE_THRESHOLDS
-    others = np.delete(points, grid.ravel(), axis=0)
-    if len(others) <= limits.max_continued_share * grid.size:
+    own = grid.points
+    others = np.delete(points, own, axis=0)
+    if len(others) <= limits.max_continued_share * len(own):
         return False
-    xy = np.array(_list_places((grid.shape[0], grid.shape[1]), asymmetric=asymmetric), np.float64)
-    to_board = homography.fit_homography(points[grid.ravel()], xy, np.ones(len(xy)))
+    rows, cols = grid.places.shape
+    xy = np.array(_list_places((rows, cols), asymmetric=asymmetric), np.float64)
+    to_board = homography.fit_homography(
+        points[own], xy[grid.places.ravel() >= 0], np.ones(len(own))
+    )
     at = homography.apply_homography(to_board, others)
     reach = limits.continued_lines
     near = ((at > xy.min(axis=0) - reach) & (at < xy.max(axis=0) + reach)).all(axis=1)
@@ -116,12 +160,14 @@ def _is_continued(grid: IntArray, points: Array, *, asymmetric: bool) -> bool:
     lattice = np.column_stack([x + y, x - y]) / (2 if asymmetric else 1)
     off = np.abs(lattice - np.rint(lattice)).max(axis=1)
     continuing = int(np.count_nonzero(off < limits.max_continuation_error))
-    return continuing > max(limits.max_continued_share * grid.size, len(off) / 2)
+    return continuing > max(limits.max_continued_share * len(own), len(off) / 2)
 
 
-def _rank_grid(grid: IntArray) -> tuple[int, int]:
-    """Rank grids: the larger is better, of two readings of one the one with fewer rows."""
-    return grid.size, -grid.shape[0]
+def _rank_grid(grid_size: GridSize | None, grid: LabelledGrid) -> tuple[int, int, bool, int]:
+    """Rank grids: the more points the better, of the same points with fewer gaps, of the stated
+    size or else with fewer rows."""
+    shape = grid.places.shape
+    return len(grid), -grid.places.size, shape == grid_size, -shape[0]
 
 
 def _find_nearest(tree: scipy.spatial.cKDTree, to: Array, count: int) -> list[int]:
@@ -166,9 +212,13 @@ def _grow_lattice(
     """Grow a lattice by every point that lies where it predicts one."""
     placed, taken, edge = dict(placed), set(placed.values()), list(placed)
     z: list[complex] = (points[:, 0] + 1j * points[:, 1]).tolist()
+    unpredicted: set[Place] = set()
     while edge:
-        beside = {(i + di, j + dj) for i, j in edge for di, dj in _STEPS} - placed.keys()
+        # Beside a covered circle it may take longer until the points that predict one are placed.
+        beside = {(i + di, j + dj) for i, j in edge for di, dj in _STEPS} | unpredicted
+        beside -= placed.keys()
         expected = [(place, _predict_point(place, placed, z)) for place in sorted(beside)]
+        unpredicted = {place for place, guesses in expected if not guesses}
         # Places with the most predictions come first: a point can be taken only once.
         expected = sorted((item for item in expected if item[1]), key=lambda item: -len(item[1]))
         edge = []
@@ -188,6 +238,23 @@ def _grow_lattice(
     return placed
 
 
+def _complete_lattice(
+    placed: PointsByPlace, points: Array, tree: scipy.spatial.cKDTree
+) -> PointsByPlace:
+    """Grow a lattice on in every basis that the pattern may have in it: a point beside a covered
+    one may be predicted in one of them only."""
+    for shear in _SHEARS:
+        grown = _grow_lattice(_change_basis(placed, shear), points, tree)
+        placed = _change_basis(grown, 2 * np.eye(2, dtype=np.int64) - shear)
+    return placed
+
+
+def _change_basis(placed: PointsByPlace, by: IntArray) -> PointsByPlace:
+    """Return a lattice with its places in the basis that `by` (2, 2) takes them to."""
+    places = np.array(list(placed)) @ by.T
+    return dict(zip(map(tuple, places.tolist()), placed.values(), strict=True))
+
+
 def _predict_point(
     place: Place, placed: PointsByPlace, z: list[complex]
 ) -> list[tuple[complex, float]]:
@@ -205,6 +272,10 @@ def _predict_point(
             third = at(3 * di, 3 * dj)
             continued = 2 * next_ - second if third is None else 3 * (next_ - second) + third
             guesses.append((continued, abs(next_ - second)))
+    for di, dj in _STEPS[::2]:
+        before, after = at(di, dj), at(-di, -dj)
+        if before is not None and after is not None:
+            guesses.append(((before + after) / 2, abs(after - before) / 2))
     for di, dj in _DIAGONALS:
         along, across, diagonal = at(di, 0), at(0, dj), at(di, dj)
         if along is not None and across is not None and diagonal is not None:
@@ -240,9 +311,9 @@ def _list_places(grid_size: GridSize, *, asymmetric: bool) -> list[Place]:
 
 def _cut_stated_grid(
     by_place: PointsByPlace, grid_size: GridSize, *, asymmetric: bool
-) -> IntArray | None:
-    """Cut the grid of the stated size out of a lattice; None if there is none, or more than one, as
-    in a larger grid."""
+) -> LabelledGrid | None:
+    """Cut the full grid of the stated size out of a lattice; None if there is none, or more than
+    one, as in a larger grid."""
     places = _list_places(grid_size, asymmetric=asymmetric)
     if len(by_place) < len(places):
         return None
@@ -251,28 +322,34 @@ def _cut_stated_grid(
         for left, top in by_place
         if all((left + x, top + y) in by_place for x, y in places)
     ]
-    return _collect_indices(by_place, starts[0], grid_size, places) if len(starts) == 1 else None
+    if len(starts) != 1:
+        return None
+    left, top = starts[0]
+    found = [by_place[left + x, top + y] for x, y in places]
+    return LabelledGrid(np.array(found).reshape(grid_size), len(by_place) - len(found))
 
 
-def _cut_whole_grids(placed: PointsByPlace, *, asymmetric: bool) -> list[IntArray]:
-    """Cut the grids that a lattice fills in any basis and turn once stray points at its borders
-    are left out."""
-    points, grids = np.array(list(placed.values())), []
+def _cut_grids(
+    placed: PointsByPlace, grid_size: GridSize | None, *, asymmetric: bool
+) -> Iterator[LabelledGrid]:
+    """Cut the grids that a lattice fills, but for a few places, in any basis and turn once stray
+    points at its borders are left out: as many as give it the stated size, or all."""
+    points = np.array(list(placed.values()))
     for xy in _shear_places(placed, asymmetric=asymmetric):
-        kept = _drop_stray_borders(xy, asymmetric=asymmetric)
-        if len(kept) < CIRCLE_THRESHOLDS.min_grid_circles:
-            continue
-        for turn in _TURNS:
-            grid = _fill_grid(xy[kept] @ turn.T, points[kept], asymmetric=asymmetric)
-            if grid is not None:
-                grids.append(grid)
-    return grids
+        *larger, least = _drop_stray_borders(xy, asymmetric=asymmetric)
+        for kept in (*larger, least) if grid_size else (least,):
+            for turn in _TURNS:
+                grid = _fill_grid(xy[kept] @ turn.T, points[kept], asymmetric=asymmetric)
+                if grid is not None and (kept is least or grid.shape == grid_size):
+                    yield LabelledGrid(grid, len(placed) - len(kept))
 
 
-def _drop_stray_borders(xy: IntArray, *, asymmetric: bool) -> IntArray:
-    """Return the indices of the places (n, 2) left once border lines with too few are dropped."""
+def _drop_stray_borders(xy: IntArray, *, asymmetric: bool) -> Iterator[IntArray]:
+    """Drop border lines with too few places (n, 2), one after the other; yield the indices of the
+    places left each time, first those of all."""
     kept = np.arange(len(xy))
-    while len(kept) >= CIRCLE_THRESHOLDS.min_grid_circles:
+    while len(kept):
+        yield kept
         here = xy[kept]
         low, high = here.min(axis=0), here.max(axis=0)
         # An asymmetric grid has a circle at every second place along a line.
@@ -282,27 +359,21 @@ def _drop_stray_borders(xy: IntArray, *, asymmetric: bool) -> IntArray:
             break
         end, axis = np.unravel_index(np.argmin(share), share.shape)
         kept = kept[here[:, axis] != (low, high)[end][axis]]
-    return kept
 
 
 def _fill_grid(xy: IntArray, points: IntArray, *, asymmetric: bool) -> IntArray | None:
-    """Return the grid (rows, cols) of `points` (n,) at the places `xy` (n, 2), None if they do not
-    fill one."""
-    low = xy.min(axis=0)
-    width, rows = (xy.max(axis=0) - low + 1).tolist()
+    """Return the grid (rows, cols) of `points` (n,) at the places `xy` (n, 2), -1 where none is;
+    None if they do not fill one, but for a few places."""
+    limits = CIRCLE_THRESHOLDS
+    x, y = (xy - xy.min(axis=0)).T
+    width, rows = int(x.max()) + 1, int(y.max()) + 1
     cols = width // 2 if asymmetric else width
-    if rows * cols != len(xy) or min(rows, cols) < CIRCLE_THRESHOLDS.min_grid_lines:
+    if min(rows, cols) < limits.min_grid_lines:
         return None
-    places = _list_places((rows, cols), asymmetric=asymmetric)
-    by_place = dict(zip(map(tuple, (xy - low).tolist()), points.tolist(), strict=True))
-    if by_place.keys() != set(places):
+    if asymmetric and (width % 2 or (x[0] + y[0]) % 2):
         return None
-    return _collect_indices(by_place, (0, 0), (rows, cols), places)
-
-
-def _collect_indices(
-    by_place: PointsByPlace, start: Place, grid_size: GridSize, places: list[Place]
-) -> IntArray:
-    """Collect the indices (rows, cols) of the points at a grid's places."""
-    found = [by_place[start[0] + x, start[1] + y] for x, y in places]
-    return np.array(found, dtype=np.int64).reshape(grid_size)
+    if len(xy) < (1 - limits.max_rejected_share) * rows * cols:
+        return None
+    grid = np.full((rows, cols), -1, dtype=np.int64)
+    grid[y, x // 2 if asymmetric else x] = points
+    return grid

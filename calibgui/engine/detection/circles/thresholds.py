@@ -65,7 +65,7 @@ class CircleThresholds:
     max_shape_difference: float = 0.2
     """Greatest difference of an ellipse from the one predicted by the others, over its size."""
     max_rejected_share: float = 0.25
-    """Share of rejected circles beyond which the grid itself is rejected."""
+    """Share of circles, rejected or not seen, beyond which the grid itself is rejected."""
     min_mark_radius_difference: float = 0.15
     """Least difference of a mark's radius from the others', over the latter; the radius of a disc
     is measured to a few per cent in any image that passes."""

@@ -373,24 +373,60 @@ def _show_near_fisheye(lens: Array, board: Board, rvec: Array, distance: float) 
     return Scene(board, camera, (rvec[0], rvec[1], rvec[2]), distance).image()
 
 
-@pytest.mark.parametrize(
-    ("lens", "grid_size", "mark", "rvec", "distance"),
-    [
-        ((389.0, 0.287, 0.0775), (6, 7), 0.65, (-0.126, 0.1975, 0.9717), 130.5),
-        ((260.7, 0.327, 0.0173), (7, 9), 0.95, (-0.579, -0.2457, -1.989), 95.5),
-    ],
-)
-def test_a_part_of_a_grid_under_a_fisheye_is_refused(
-    lens: Array, grid_size: GridSize, mark: float, rvec: Array, distance: float
-) -> None:
-    """Marks break the lattice, of which a few rows are full."""
+def test_marks_and_a_cut_corner_leave_the_rest_of_a_grid_under_a_fisheye() -> None:
     marks = frozenset({(3, 3), (3, 4), (3, 5), (4, 3)})
-    if grid_size == (7, 9):
-        marks = frozenset({(4, 4), (3, 4), (3, 5), (3, 6)})
-    board = Board(*grid_size, 26.0, MarkedCircles(False, 0.45, marks, mark))
-    image = _show_near_fisheye(lens, board, rvec, distance)
-    with pytest.raises(NoBoardError, match=r"but 3 x 7 circles of a larger one"):
-        find_corners(image, pattern=Circles())
+    board = Board(6, 7, 26.0, MarkedCircles(False, 0.45, marks, 0.65))
+    rvec = np.array([-0.126, 0.1975, 0.9717])
+    image = _show_near_fisheye(np.array([389.0, 0.287, 0.0775]), board, rvec, 130.5)
+    corners = find_corners(image, pattern=Circles())
+    assert corners.shape == (6, 7) and len(corners) == 38 and not corners.relative
+    missing = set(np.ndindex(6, 7)) - set(map(tuple, corners.grid.tolist()))
+    assert missing == {(0, 0), (4, 6), (5, 5), (5, 6)}
+
+
+def test_a_part_of_a_grid_under_a_fisheye_is_no_whole() -> None:
+    """Two circles of its last column are seen, and the image's border cuts both."""
+    marks = frozenset({(4, 4), (3, 4), (3, 5), (3, 6)})
+    board = Board(7, 9, 26.0, MarkedCircles(False, 0.45, marks, 0.95))
+    rvec = np.array([-0.579, -0.2457, -1.989])
+    image = _show_near_fisheye(np.array([260.7, 0.327, 0.0173]), board, rvec, 95.5)
+    for grid_size in (None, (7, 9)):
+        corners = find_corners(image, grid_size, pattern=Circles())
+        assert corners.relative and corners.remark
+
+
+@pytest.mark.parametrize(
+    ("pattern", "grid_size"), [(Circles(False, 0.45), (4, 7)), (Circles(True, 0.7), (7, 4))]
+)
+@pytest.mark.parametrize(
+    "covered", [{(2, 2)}, {(0, 1)}, {(0, 0), (3, 3)}], ids=["inside", "at the border", "corners"]
+)
+def test_circles_beside_covered_ones_keep_their_numbers(
+    pattern: Circles, grid_size: GridSize, covered: set[tuple[int, int]]
+) -> None:
+    scene = Scene(Board(*grid_size, 26.0, pattern), _SMALL, (0.3, 0.2, 0.1), distance=500.0)
+    image = scene.image()
+    whole = find_corners(image, grid_size, pattern=pattern).uv.reshape(*grid_size, 2)
+    for place in covered:
+        u, v = np.rint(whole[place]).astype(int)
+        image[v - 12 : v + 13, u - 9 : u + 15] = 150  # a finger
+    for size in (grid_size, None):
+        corners = find_corners(image, size, pattern=Circles(pattern.asymmetric))
+        assert corners.shape == grid_size and not corners.relative
+        assert set(map(tuple, corners.grid.tolist())) == set(np.ndindex(grid_size)) - covered
+        assert np.abs(scene.error(corners)).max() < 0.05
+
+
+def test_a_covered_circle_might_be_the_mark() -> None:
+    scene = _show_marked({(0, 0)}, 0.1)
+    image = scene.image()
+    whole = find_corners(image, (7, 7), pattern=Circles())
+    assert whole.ambiguity is Symmetry.NONE
+    u, v = np.rint(whole.uv[0]).astype(int)
+    image[v - 20 : v + 21, u - 17 : u + 24] = 150
+    corners = find_corners(image, pattern=Circles())
+    assert len(corners) == 48
+    assert corners.ambiguity is Symmetry.QUARTER_TURN
 
 
 def test_it_is_said_that_a_grid_may_go_on_outside_of_the_picture() -> None:
@@ -412,9 +448,10 @@ def test_whole_grids_are_told_from_parts_on_each_side(pattern: Circles) -> None:
     image = Scene(Board(7, 6, 26.0, pattern), _SMALL, distance=500.0).image()
     centres = find_corners(image, (7, 6), pattern=pattern).uv.reshape(7, 6, 2)
     whole = find_continuation(centres, image, asymmetric=pattern.asymmetric)
-    assert whole == (False, False)
+    assert whole == (False, False, False)
     for part in (centres[2:], centres[:-2], centres[:, 1:], centres[:, :-1]):
-        assert find_continuation(part, image, asymmetric=pattern.asymmetric) == (True, False)
+        seen = find_continuation(part, image, asymmetric=pattern.asymmetric)
+        assert seen == (True, False, True)
 
 
 def _photograph_screen(scene: Scene, seed: int, depth: float) -> GreyImage:

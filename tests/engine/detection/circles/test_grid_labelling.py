@@ -57,13 +57,13 @@ def test_a_grid_is_found_among_other_points(
     order = rng.permutation(len(uv) + 10)
     points = np.vstack([uv, around(uv, rng)])[order]
     grid = label_grid(points, grid_size if stated else None, asymmetric=asymmetric)
-    assert grid is not None
-    which = order[grid.ravel()]
+    assert grid is not None and grid.is_full
+    which = order[grid.points]
     assert sorted(which) == list(range(len(uv)))
-    assert grid.shape == (grid_size if stated or asymmetric else tuple(sorted(grid_size)))
+    assert grid.places.shape == (grid_size if stated or asymmetric else tuple(sorted(grid_size)))
     # However it is counted, it is the same grid.
     pattern = Circles(asymmetric)
-    counted = pattern.locate_points(np.indices(grid.shape).reshape(2, -1).T.astype(float))
+    counted = pattern.locate_points(np.indices(grid.places.shape).reshape(2, -1).T.astype(float))
     true = pattern.locate_points(np.indices(grid_size).reshape(2, -1).T.astype(float))[which]
     np.testing.assert_allclose(distances(counted), distances(true), atol=1e-9)
 
@@ -73,7 +73,7 @@ def test_strays_beside_the_grid_are_not_of_it() -> None:
     beside = np.array([[240.0, 80.0], [240.0, 120.0], [-40.0, 0.0]])
     grid = label_grid(np.vstack([uv, beside]), None, asymmetric=False)
     assert grid is not None
-    assert sorted(grid.ravel()) == list(range(36))
+    assert sorted(grid.points) == list(range(36))
 
 
 @pytest.mark.parametrize("stated", [None, (6, 10)])
@@ -82,8 +82,18 @@ def test_a_part_of_a_grid_is_not_taken_for_the_whole(stated: GridSize | None) ->
     row, col = np.indices((6, 10)).reshape(2, -1)
     uv = np.column_stack([col, row]) * 40.0
     most_of_the_lower_rows = (row > 2) & (col > 3)
-    for hidden in ((col == 4) | (col == 5), row + col == 6, most_of_the_lower_rows):
+    band = (row + col == 6) | (row + col == 7)
+    for hidden in ((col == 4) | (col == 5), band, most_of_the_lower_rows):
         assert label_grid(uv[~hidden], stated, asymmetric=False) is None
+
+
+def test_a_line_across_a_grid_is_grown_over() -> None:
+    """A cable hides one circle of every row."""
+    row, col = np.indices((6, 10)).reshape(2, -1)
+    seen = np.column_stack([col, row])[row + col != 6] * 40.0
+    grid = label_grid(seen, None, asymmetric=False)
+    assert grid is not None
+    assert grid.places.shape == (6, 10) and len(grid) == 54
 
 
 def test_under_a_fisheye_a_part_is_not_taken_for_the_whole() -> None:
@@ -107,7 +117,7 @@ def test_a_small_grid_must_be_stated() -> None:
     points = np.indices((3, 3)).reshape(2, -1).T * 40.0
     stated = label_grid(points, (3, 3), asymmetric=False)
     assert stated is not None
-    assert sorted(stated.ravel()) == list(range(9))
+    assert sorted(stated.points) == list(range(9))
     assert label_grid(points, None, asymmetric=False) is None
 
 
@@ -117,3 +127,38 @@ def test_scattered_points_are_no_grid(asymmetric: bool) -> None:
         points = np.random.default_rng(seed).uniform(0, 1000, (120, 2))
         assert label_grid(points, None, asymmetric=asymmetric) is None
     assert label_grid(points[:5], None, asymmetric=asymmetric) is None
+
+
+@given(
+    grid_size=st.sampled_from(BOARDS),
+    asymmetric=st.booleans(),
+    stated=st.booleans(),
+    tilt=st.floats(0.0, 0.9),
+    seed=st.integers(0, 10_000),
+)
+def test_circles_keep_their_places_when_others_are_covered(
+    grid_size: GridSize, asymmetric: bool, stated: bool, tilt: float, seed: int
+) -> None:
+    """Wherever they lie, also at the border and in the grid's corners."""
+    rng = np.random.default_rng(seed)
+    uv = imaged(grid_size, asymmetric, rng, tilt)
+    seen = np.sort(rng.permutation(len(uv))[len(uv) // 20 :])
+    grid = label_grid(uv[seen], grid_size if stated else None, asymmetric=asymmetric)
+    assert grid is not None and len(grid) == len(seen) and not grid.is_full
+    assert grid.places.shape == (grid_size if stated or asymmetric else tuple(sorted(grid_size)))
+    pattern = Circles(asymmetric)
+    counted = pattern.locate_points(np.argwhere(grid.places >= 0).astype(float))
+    whole = pattern.locate_points(np.indices(grid_size).reshape(2, -1).T.astype(float))
+    np.testing.assert_allclose(distances(counted), distances(whole[seen[grid.points]]), atol=1e-9)
+
+
+def test_a_border_line_with_few_circles_is_left_out_unless_its_size_is_stated() -> None:
+    row, col = np.indices((6, 9)).reshape(2, -1)
+    uv = np.column_stack([col, row]) * 40.0
+    seen = uv[(col < 8) | (row < 2)]
+    counted = label_grid(seen, None, asymmetric=False)
+    assert counted is not None
+    assert counted.places.shape == (6, 8) and counted.left_out == 2
+    stated = label_grid(seen, (6, 9), asymmetric=False)
+    assert stated is not None
+    assert stated.places.shape == (6, 9) and len(stated) == len(seen)
