@@ -75,8 +75,8 @@ def add_board_options(parser: argparse.ArgumentParser) -> None:
         "--spacing",
         type=parse_positive,
         metavar="RATIO",
-        help="gap between the tags of an AprilGrid over the side of a tag, Kalibr's tagSpacing; "
-        "measured if left out",
+        help="gap between the tags of an AprilGrid over the side of a tag, Kalibr's tagSpacing, "
+        "at most 1; measured if left out",
     )
     group.add_argument(
         "--border",

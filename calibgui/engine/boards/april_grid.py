@@ -28,6 +28,9 @@ from calibgui.engine.boards.pattern import Pattern
 from calibgui.engine.boards.printed_pattern import PrintedPattern, PrintedRectangles
 from calibgui.engine.errors import CalibrationError
 
+MAX_GAP_BETWEEN_SQUARES = 0.98
+"""Widest gap between tags with small squares, sides of a tag: with that of 1 the squares are as
+large, and the board is a checkerboard with tags in every second one of its rows and columns."""
 MAX_BORDER = 2
 """Greatest width of a tag's border, cells."""
 _SIGMA_OF_MEDIAN = 1.4826 * 1.2533
@@ -63,7 +66,8 @@ class AprilGrid(CodedPattern):
     family: str | None = None
     """Family of the tags, one of ``apriltags.FAMILIES``, such as t36h11."""
     spacing: float | None = None
-    """s, ratio of the gap between tags to the side of a tag (the pitch), no length."""
+    """s, ratio of the gap between tags to the side of a tag (the pitch), no length: above 0 and at
+    most 1, or `MAX_GAP_BETWEEN_SQUARES` if there are small squares."""
     border: int | None = None
     """Width of the black border of a tag, cells: 2 on the boards of Kalibr."""
     from_top: bool | None = None
@@ -117,12 +121,18 @@ class AprilGrid(CodedPattern):
         """See ``Pattern``.
 
         Raises:
-            CalibrationError: if family or gap are unknown, the numbers of points are odd, or the
-                family holds too few tags for the board.
+            CalibrationError: if family or gap are unknown, the gap is too wide for small squares,
+                the numbers of points are odd, or the family holds too few tags for the board.
         """
         if self.family is None or self.spacing is None:
             raise CalibrationError(
                 "The tags of the board are not known.", "State their family and their gap."
+            )
+        if self.corner_squares is not False and self.spacing > MAX_GAP_BETWEEN_SQUARES:
+            raise CalibrationError(
+                "With a gap as wide as the tags and squares between them the board is a "
+                "checkerboard with tags.",
+                "Choose that pattern with a step of 2, a smaller gap, or no squares.",
             )
         rows, cols = count_tags(grid_size)
         check_number_of_tags(self.family, rows * cols)

@@ -78,7 +78,7 @@ class PatternChoice(QWidget):
         )
         self.spacing = QDoubleSpinBox(decimals=3, minimum=0.0, maximum=1.0, singleStep=0.05)
         self.spacing.setToolTip(
-            self.tr("The gap between tags over the side of a tag: Kalibr's tagSpacing.")
+            self.tr("The gap between tags over the side of a tag, at most 1: Kalibr's tagSpacing.")
         )
         self.spacing.setSpecialValueText(undecided)
         self.spacing.setKeyboardTracking(False)

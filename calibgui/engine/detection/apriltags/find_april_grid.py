@@ -17,7 +17,7 @@ import numpy as np
 import numpy.typing as npt
 
 from calibgui.engine.arrays import Array, BoolArray, GreyImage, GridSize, IntArray
-from calibgui.engine.boards.april_grid import AprilGrid
+from calibgui.engine.boards.april_grid import MAX_GAP_BETWEEN_SQUARES, AprilGrid
 from calibgui.engine.detection import grid_map
 from calibgui.engine.detection import region_of_interest as region
 from calibgui.engine.detection.apriltags.grid_tags import (
@@ -29,7 +29,7 @@ from calibgui.engine.detection.apriltags.outlined_corners import (
     has_corner_squares,
     locate_outlined_corners,
 )
-from calibgui.engine.detection.apriltags.tag_gap import fit_gap, measure_gap
+from calibgui.engine.detection.apriltags.tag_gap import explain_wide_gap, fit_gap, measure_gap
 from calibgui.engine.detection.charuco.assembly import FittedCorners, assemble_corners
 from calibgui.engine.detection.charuco.corners_between_markers import (
     predict_places,
@@ -145,6 +145,8 @@ def _locate_corners(
     if has_squares:
         lattice = _refine_corners(grey, lattice, gap, border)
         gap = measure_gap(lattice.uv, gap)
+        if gap > MAX_GAP_BETWEEN_SQUARES:
+            raise explain_wide_gap()
         unit = 2 * min(border, gap / 2)
         lattice, rejected = _verify_corners(grey, lattice, gap, unit)
         if method == "edges":

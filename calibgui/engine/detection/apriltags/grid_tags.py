@@ -40,8 +40,9 @@ from calibgui.engine.detection.region_of_interest import are_inside
 
 _MAX_COARSE_SIDE = 1600
 """Longer side of the image in which tags are looked for first, px."""
-_MIN_SIDE = 0.5
-"""Least side of a tag over the distance of two: the gap of an AprilGrid is at most as wide."""
+_MIN_SIDE = 0.48
+"""Least side of a tag over the distance of two, as measured: the gap of an AprilGrid is at most as
+wide, which is 0.5."""
 _REFINING_SIGMA, _SIGMA_LIMITS = 0.06, (0.8, 6.0)
 """Standard deviation of the weights with which the corners of a tag are refined, sides of the tag,
 and its limits, px."""

@@ -17,7 +17,6 @@ from __future__ import annotations
 import numpy as np
 
 from calibgui.engine.arrays import Array, IntArray
-from calibgui.engine.boards.april_grid import AprilGrid
 from calibgui.engine.detection.grid_map import fit_radial_homography
 from calibgui.engine.errors import NoBoardError
 
@@ -30,6 +29,8 @@ _ITERATIONS = 2
 _MAX_CHANGE = 0.05
 """Greatest difference of a fitted gap from the cross-ratios', sides of a tag: more is no lens's
 doing, but that of corners that do not tell the gap."""
+_MAX_EXCESS = 0.05
+"""Greatest excess of a measured gap over the widest, a tag's side: noise, or a lens."""
 
 
 def measure_gap_of_tags(squares: IntArray, corners: Array, gap: float) -> float:
@@ -48,8 +49,11 @@ def measure_gap(uv: Array, gap: float) -> float:
         uv: (rows, cols, 2) px of the corners of a board's tags, NaN where unknown.
         gap: what is returned where nothing shows it.
 
+    Returns:
+        The gap, at most the side of a tag, which is the widest of an AprilGrid.
+
     Raises:
-        NoBoardError: it is wider than a tag, which that of an AprilGrid is not.
+        NoBoardError: it is wider.
     """
     ratios = []
     for lines in (uv, uv.transpose(1, 0, 2)):
@@ -66,12 +70,17 @@ def measure_gap(uv: Array, gap: float) -> float:
         return gap
     cross = float(np.median(ratio))
     measured = float(np.sqrt(cross / (cross - 1))) - 1
-    if measured > 1:
-        raise NoBoardError(
-            "Tags were read, but they stand too far apart for an AprilGrid.",
-            "For a checkerboard with tags in some of its squares, choose that pattern.",
-        )
-    return measured
+    if measured > 1 + _MAX_EXCESS:
+        raise explain_wide_gap()
+    return min(measured, 1.0)
+
+
+def explain_wide_gap() -> NoBoardError:
+    """Return the error that tags are those of a checkerboard, not of an AprilGrid."""
+    return NoBoardError(
+        "Tags were read, but they stand too far apart for an AprilGrid.",
+        "For a checkerboard with tags in some of its squares, choose that pattern.",
+    )
 
 
 def fit_gap(grid: IntArray, uv: Array, gap: float) -> float:
@@ -92,11 +101,12 @@ def fit_gap(grid: IntArray, uv: Array, gap: float) -> float:
             fitted -= float(left @ by_gap / (by_gap @ by_gap))
         if not abs(fitted - gap) < _MAX_CHANGE:
             return gap
-    return fitted
+    return min(fitted, 1.0)
 
 
 def _compute_misfit(grid: IntArray, uv: Array, gap: float) -> Array:
     """Compute what homography and lens leave, (2 n,) px, of corners if the gap is `gap` sides."""
-    places = AprilGrid(spacing=gap).locate_points(grid.astype(np.float64))
+    tag, corner = np.divmod(grid[:, ::-1], 2)
+    places = (1 + gap) * tag + corner
     seen = fit_radial_homography(places, uv, are_exact=True)
     return np.asarray((uv - seen.locate(places)).ravel())

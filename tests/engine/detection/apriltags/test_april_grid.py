@@ -11,6 +11,7 @@ from calibgui.engine.arrays import GreyImage
 from calibgui.engine.boards.april_grid import AprilGrid, TagLayout
 from calibgui.engine.boards.board import Board
 from calibgui.engine.boards.checkerboard import CHECKERBOARD
+from calibgui.engine.boards.tagged_checkerboard import TaggedCheckerboard
 from calibgui.engine.camera.camera import Camera
 from calibgui.engine.camera.distortion import project_points
 from calibgui.engine.camera.projection import pixels_from_rays
@@ -18,7 +19,7 @@ from calibgui.engine.detection.apriltags import grid_tags
 from calibgui.engine.detection.apriltags.tag_gap import fit_gap, measure_gap
 from calibgui.engine.detection.corners import Corners
 from calibgui.engine.detection.find_corners import find_corners
-from calibgui.engine.errors import NoBoardError
+from calibgui.engine.errors import CalibrationError, NoBoardError
 from calibgui.engine.geometry.rotations import rotation_from_vector
 from tests.engine.detection.conftest import Scene
 from tests.scenes.perspective import photograph_pattern
@@ -78,6 +79,15 @@ def test_a_lens_does_not_widen_the_gap(grid_size: tuple[int, int], gap: float) -
     rough = measure_gap(uv.reshape(*grid_size, 2), 1.0)
     assert abs(rough - gap) > 0.005
     assert fit_gap(grid, uv, rough) == pytest.approx(gap, abs=3e-4)
+
+
+@pytest.mark.parametrize("gap", [0.99, 1.0])
+def test_noise_makes_no_gap_wider_than_an_april_grid_has(gap: float) -> None:
+    grid = np.indices((6, 8)).reshape(2, -1).T
+    tag, corner = np.divmod(grid[:, ::-1], 2)
+    uv = 30.0 * ((1 + gap) * tag + corner)
+    noisy = uv + np.random.default_rng(0).normal(0, 0.02, uv.shape)
+    assert fit_gap(grid, noisy, gap) == pytest.approx(gap, abs=2e-3)
 
 
 @pytest.mark.parametrize("corners", [[(0, 0), (0, 1), (1, 0), (1, 1)], [(0, 0), (0, 1), (0, 2)]])
@@ -329,15 +339,29 @@ def test_other_levels(kind: type) -> None:
 
 
 def test_tags_farther_apart_than_they_are_wide_are_no_april_grid() -> None:
-    """Those of a checkerboard with tags in every second square, whose sides are the squares'."""
-    for gap in (0.3, 0.98, 1.02):
+    for gap in (0.3, 0.98, 1.02, 1.1):
         row, col = np.indices((4, 6))
         uv = 50 * np.stack([each // 2 * (1 + gap) + each % 2 for each in (col, row)], axis=-1)
-        if gap > 1:
+        if gap > 1.05:
             with pytest.raises(NoBoardError, match="too far apart"):
                 measure_gap(uv, 0.9)
         else:
-            assert measure_gap(uv, 0.9) == pytest.approx(gap)
+            assert measure_gap(uv, 0.9) == pytest.approx(min(gap, 1.0))
+
+
+def test_a_gap_as_wide_as_the_tags_is_told_without_small_squares() -> None:
+    """With them the board is a checkerboard with tags in every second row and column."""
+    bare = replace(KALIBR, board=Board(6, 8, 14.0, AprilGrid("t36h11", 1.0, 2, False, False)))
+    corners = find_corners(bare.image(), pattern=AprilGrid())
+    assert corners.complete
+    assert np.abs(bare.error(corners)).max() < 0.1
+    assert isinstance(corners.pattern, AprilGrid)
+    assert corners.pattern.spacing == pytest.approx(1.0, abs=0.001)
+    board = Board(6, 8, 14.0, TaggedCheckerboard("t36h11", 2, 2, False))
+    with pytest.raises(NoBoardError, match="too far apart"):
+        find_corners(replace(KALIBR, board=board).image(), pattern=AprilGrid())
+    with pytest.raises(CalibrationError, match="a checkerboard with tags"):
+        AprilGrid("t36h11", 1.0, 2, False, True).draw((6, 8))
 
 
 def test_noise_moves_no_corners_of_tags_without_small_squares() -> None:
