@@ -243,14 +243,25 @@ def _predict_corners(
 
 
 def _refine_corners(image: GreyImage, predicted: Lattice, gap: float, border: float) -> Lattice:
-    """Move corners to their saddle points; those that have none are left out."""
-    found = predicted.found
-    side = NearPriors(_locate_places(predicted, gap), 2 * min(border, gap / 2))
-    steps, _ = side.estimate_geometry(predicted.uv[found])
+    """Move corners to their saddle points, those that have none where they are predicted from where
+    the map of the others expects them; those that have none there either are left out."""
+    found, start = predicted.found, predicted.uv[predicted.found]
+    places = _locate_places(predicted, gap)
+    steps, _ = NearPriors(places, 2 * min(border, gap / 2)).estimate_geometry(start)
     length = np.linalg.norm(steps, axis=2).min(axis=1)
     uv, good = saddle.refine_saddles(
-        image, predicted.uv[found], saddle.choose_weight_sigma(length), _MAX_SHIFT * length
+        image, start, saddle.choose_weight_sigma(length), _MAX_SHIFT * length
     )
+    if _MIN_MAPPED_CORNERS < np.count_nonzero(good) < len(good):
+        good = _find_regular_corners(places, uv, length, good)
+        expected = grid_map.fit_cells(places[good][:, ::-1], uv[good]).locate(places[:, ::-1])
+        lost = np.flatnonzero(~good & verification.are_in_image(expected, image.shape))
+        uv[lost], good[lost] = saddle.refine_saddles(
+            image,
+            expected[lost],
+            saddle.choose_weight_sigma(length[lost]),
+            _MAX_SHIFT * length[lost],
+        )
     refined = predicted.uv.copy()
     refined[found] = np.where(good[:, None], uv, np.nan)
     lattice = Lattice(refined, predicted.dark)

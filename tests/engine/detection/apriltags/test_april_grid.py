@@ -15,10 +15,11 @@ from calibgui.engine.boards.tagged_checkerboard import TaggedCheckerboard
 from calibgui.engine.camera.camera import Camera
 from calibgui.engine.camera.distortion import project_points
 from calibgui.engine.camera.projection import pixels_from_rays
-from calibgui.engine.detection.apriltags import grid_tags
+from calibgui.engine.detection.apriltags import find_april_grid, grid_tags
 from calibgui.engine.detection.apriltags.tag_gap import fit_gap, measure_gap
 from calibgui.engine.detection.corners import Corners
 from calibgui.engine.detection.find_corners import find_corners
+from calibgui.engine.detection.lattice import Lattice
 from calibgui.engine.errors import CalibrationError, NoBoardError
 from calibgui.engine.geometry.rotations import rotation_from_vector
 from tests.engine.detection.conftest import Scene
@@ -362,6 +363,17 @@ def test_a_gap_as_wide_as_the_tags_is_told_without_small_squares() -> None:
         find_corners(replace(KALIBR, board=board).image(), pattern=AprilGrid())
     with pytest.raises(CalibrationError, match="a checkerboard with tags"):
         AprilGrid("t36h11", 1.0, 2, False, True).draw((6, 8))
+
+
+def test_corners_that_are_predicted_badly_are_looked_for_where_the_others_expect_them() -> None:
+    """Those of a tag that was read beside one of which a corner was far off."""
+    board = KALIBR.board
+    truth = project_points(board.points(), KALIBR.camera, KALIBR.pose).reshape(8, 10, 2)
+    predicted = truth.copy()
+    predicted[2:4, 4:6] += [6.0, 2.0]
+    lattice = Lattice(predicted, dark=True)
+    refined = find_april_grid._refine_corners(KALIBR.image(), lattice, 0.3, 0.2)
+    assert np.abs(refined.uv - truth).max() < 0.5
 
 
 def test_noise_moves_no_corners_of_tags_without_small_squares() -> None:
