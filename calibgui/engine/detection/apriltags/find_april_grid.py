@@ -77,7 +77,7 @@ def find_april_grid(
     searched = None if outline is None else region.enlarge_outline(outline)
     levels = convert_for_reading(grey)
     finder = GridTagFinder(levels, searched)
-    negative = GridTagFinder(invert_levels(levels), searched, finder)
+    negative = GridTagFinder(levels, searched, finder)
     found = find_grid_tags([finder, negative], pattern, grid_size)
     if found is None:
         raise _explain_missing_board(levels, grid_size, finder)

@@ -11,7 +11,7 @@ so are read where these predict them (`marker_growth`).
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from functools import lru_cache
+from functools import cached_property, lru_cache
 
 import numpy as np
 
@@ -35,6 +35,7 @@ from calibgui.engine.detection.charuco.marker_growth import (
 )
 from calibgui.engine.detection.charuco.markers import Markers, drop_repeated, identify_board
 from calibgui.engine.detection.checkerboard import saddle
+from calibgui.engine.detection.detector_io import invert_levels
 from calibgui.engine.detection.print_samples import PrintSample, detect_dark_quads
 from calibgui.engine.detection.region_of_interest import are_inside
 
@@ -91,17 +92,23 @@ class GridTagFinder:
         Args:
             image: (h, w) 8-bit grey levels.
             outline: (m, 2) px, outline that the tags must not leave, if there is one.
-            positive: the finder of the image that `image` is the negative of, if it is one.
+            positive: the finder of the same image as it is, if this one is to search its negative.
         """
+        self._image = image
         self._outline = outline
-        self._levels = [image]
-        while max(self._levels[-1].shape) > _MAX_COARSE_SIDE:
-            self._levels.append(opencv.halve_image(self._levels[-1]))
         self._readers: dict[tuple[int, bool], TagReader] = {}
         self._is_negative = positive is not None
         # A negative has the same contrasts.
         self._samples: dict[int, PrintSample] = {} if positive is None else positive._samples
         self._looks: dict[int, TagReader] = {}
+
+    @cached_property
+    def _levels(self) -> list[GreyImage]:
+        """The image, or its negative, and its halved copies, made once they are searched."""
+        levels = [invert_levels(self._image) if self._is_negative else self._image]
+        while max(levels[-1].shape) > _MAX_COARSE_SIDE:
+            levels.append(opencv.halve_image(levels[-1]))
+        return levels
 
     @property
     def depth(self) -> int:
