@@ -3,19 +3,23 @@
 1. The search for checkerboards (`pyramid_search`) finds lattices that may be boards.
 2. The dark squares of a lattice are read as tags (`tag_reader`). Those that stand where their
    numbers say (`tag_places`) place the lattice on the board: no pattern stands there by chance, and
-   the tests by which a plain checkerboard is told from a texture are not asked.
+   the tests by which a plain checkerboard is told from a texture are not asked. Tags that are too
+   small for that place a lattice on a stated board all together (`lattice_placement`).
 3. The corners are refined, verified and fitted (`tagged_corners`).
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
+from itertools import product
 from typing import NamedTuple
 
 import numpy as np
 import numpy.typing as npt
 
 from calibgui.engine.arrays import Array, GreyImage, GridSize, IntArray
+from calibgui.engine.boards.april_grid import MAX_BORDER
 from calibgui.engine.boards.tagged_checkerboard import TaggedCheckerboard, count_tagged_squares
 from calibgui.engine.detection import region_of_interest as region
 from calibgui.engine.detection.apriltags.tag_places import PlacedTags, place_tags
@@ -28,9 +32,11 @@ from calibgui.engine.detection.apriltags.tag_reader import (
 )
 from calibgui.engine.detection.apriltags.tagged_corners import (
     fit_tagged_corners,
+    list_tags,
     refine_tagged_corners,
 )
 from calibgui.engine.detection.charuco.assembly import assemble_corners
+from calibgui.engine.detection.charuco.lattice_placement import MarkedBoard, place_by_marks
 from calibgui.engine.detection.checkerboard.numbering import turn_lattice
 from calibgui.engine.detection.checkerboard.pyramid_search import (
     Candidate,
@@ -104,6 +110,26 @@ def _identify_board(
             # With a border of the wrong width some of the tags are read all the same.
             best = max(boards, key=lambda board: board.rating)
             return best.lattice, best.pattern
+    return _place_by_all_tags(grey, lattice, pattern, grid_size)
+
+
+def _place_by_all_tags(
+    grey: GreyImage, lattice: Lattice, pattern: TaggedCheckerboard, grid_size: GridSize | None
+) -> tuple[Lattice, TaggedCheckerboard] | None:
+    """Place a lattice on a stated board by all of its tags together, which are too small to be read
+    one by one; None if it is not there, or not stated."""
+    if grid_size is None or pattern.family is None or pattern.step is None:
+        return None
+    borders = range(1, MAX_BORDER + 1) if pattern.border is None else (pattern.border,)
+    orders = (False, True) if pattern.from_top is None else (pattern.from_top,)
+    for border, from_top in product(borders, orders):
+        stated = replace(pattern, border=border, from_top=from_top)
+        first_dark = stated.is_first_square_dark(grid_size)
+        tags = list_tags(stated, grid_size)
+        for seen_dark in (first_dark, not first_dark):  # printed inversely
+            placed = place_by_marks(grey, lattice, MarkedBoard(grid_size, seen_dark, tags))
+            if placed is not None:
+                return placed, stated
     return None
 
 

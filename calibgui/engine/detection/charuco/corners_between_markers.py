@@ -17,9 +17,10 @@ import scipy
 
 from calibgui.engine.arrays import Array, BoolArray, GreyImage, GridSize
 from calibgui.engine.boards.charuco import MarkerLayout
+from calibgui.engine.detection.charuco.mark_removal import Marks, fit_without_marks
 from calibgui.engine.detection.charuco.markers import Markers
 from calibgui.engine.detection.charuco.thresholds import CHARUCO_THRESHOLDS
-from calibgui.engine.detection.checkerboard import saddle, verification, x_corner_fit
+from calibgui.engine.detection.checkerboard import saddle, verification
 from calibgui.engine.detection.checkerboard.undisturbed_fit import fit_undisturbed
 from calibgui.engine.detection.checkerboard.x_corner_fit import XCornerFit
 from calibgui.engine.detection.corners import RejectedCorner
@@ -32,6 +33,8 @@ _MARKERS_PER_CORNER = 4
 """Number of the nearest markers whose corners place an inner corner."""
 _LEAST_DISTANCE = 0.1
 """Distance from a point, in units of the board, within which markers' corners count alike."""
+_MAX_ROUNDS = 8
+"""Number of times that the corners beside those found are tried."""
 _MAX_FITS = 4
 """Number of times that corners may be rejected and the rest fitted again."""
 
@@ -113,15 +116,38 @@ def refine_corners(
     return lattice, list_rejected_corners(predicted.uv[lost], "off place or colours")
 
 
+def refine_and_extend_corners(
+    image: GreyImage, predicted: Lattice, plain: float
+) -> tuple[Lattice, list[RejectedCorner]]:
+    """Move corners to their saddle points, verify them, and try the places beside them, and beside
+    these.
+
+    Args:
+        image: (h, w) grey levels.
+        predicted: the lattice of the whole board, with the corners seen.
+        plain: how far from its edges a square is of one colour, squares.
+
+    Raises:
+        NoBoardError: if too few corners are left.
+    """
+    lattice, rejected = refine_corners(image, predicted, plain)
+    for _ in range(_MAX_ROUNDS):
+        more, lost = refine_corners(image, lattice, plain)
+        if len(more) <= len(lattice):
+            break
+        lattice, rejected = more, lost
+    return lattice, rejected
+
+
 def fit_corners(
-    image: GreyImage, lattice: Lattice, plain: float
+    image: GreyImage, lattice: Lattice, marks: Marks
 ) -> tuple[Lattice, XCornerFit, list[RejectedCorner]]:
     """Fit the model of two crossing edges, leaving out the corners that it does not describe.
 
     Args:
         image: (h, w) grey levels.
-        lattice: the corners.
-        plain: how far from its edges a square is of one colour, squares.
+        lattice: the corners, in the lattice of the whole board.
+        marks: the markers of the whole board.
 
     Returns:
         The corners that the model describes, their fit, and the others.
@@ -133,7 +159,7 @@ def fit_corners(
     for _ in range(_MAX_FITS):
         require_enough_corners(lattice)
         fit, displacement = fit_undisturbed(
-            lattice, lambda part: _fit_all_corners(image, part, plain)
+            lattice, lambda part: _fit_all_corners(image, part, marks)
         )
         found, uv = lattice.found, lattice.uv[lattice.found]
         described = verification.find_described_corners(fit, lattice, None, displacement)
@@ -151,10 +177,10 @@ def fit_corners(
 
 
 def _fit_all_corners(
-    image: GreyImage, lattice: Lattice, plain: float
+    image: GreyImage, lattice: Lattice, marks: Marks
 ) -> tuple[XCornerFit, BoolArray]:
-    """Fit the model at all corners, see `FitCorners`."""
-    fit = x_corner_fit.fit_x_corners(image, lattice, plain)
+    """Fit the model at all corners, without markers that the blur brings near; see `FitCorners`."""
+    fit, _ = fit_without_marks(image, lattice, marks, marks.margin)
     return fit, verification.find_suspect_corners(fit.board_residual)
 
 

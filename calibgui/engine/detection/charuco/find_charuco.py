@@ -5,10 +5,15 @@ and size; a board printed bright on dark shows them in the negative. `corners_be
 predicts the inner corners from them and refines and verifies each like a corner of a checkerboard.
 Where the markers leave open whether the first square is dark or white, the corners tell: one of the
 two predicts some beyond the end of the board and none where others are seen.
+
+Markers of few pixels cannot be read one by one. If the board is stated, its corners are then found
+like those of a checkerboard, and all of its markers together tell which they are
+(`lattice_placement`).
 """
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import NamedTuple
 
 import numpy as np
@@ -26,13 +31,22 @@ from calibgui.engine.detection.charuco.assembly import assemble_corners
 from calibgui.engine.detection.charuco.corners_between_markers import (
     fit_corners,
     predict_corners,
+    refine_and_extend_corners,
     refine_corners,
     require_enough_corners,
 )
+from calibgui.engine.detection.charuco.lattice_placement import MarkedBoard, place_by_marks
+from calibgui.engine.detection.charuco.mark_removal import Marks
+from calibgui.engine.detection.charuco.marker_candidates import draw_markers
 from calibgui.engine.detection.charuco.marker_reader import MarkerReader, ReadBoard
 from calibgui.engine.detection.charuco.markers import Markers
 from calibgui.engine.detection.charuco.thresholds import CHARUCO_THRESHOLDS
 from calibgui.engine.detection.checkerboard import verification
+from calibgui.engine.detection.checkerboard.pyramid_search import (
+    Candidate,
+    find_candidates,
+    find_same,
+)
 from calibgui.engine.detection.corners import Corners, RejectedCorner
 from calibgui.engine.detection.detector_io import (
     check_grey_levels,
@@ -41,6 +55,25 @@ from calibgui.engine.detection.detector_io import (
 )
 from calibgui.engine.detection.lattice import Lattice
 from calibgui.engine.errors import NoBoardError
+
+_FEW_CORNERS = 0.5
+"""Share of a board's corners up to which all of its markers are read together."""
+_PLAIN = 1 / 8
+"""How far from the corners nothing is printed, squares: the margin of markers of 3/4 of a
+square."""
+_SIDES = (0.75, 0.6)
+"""Sides of a marker that are tried where none is stated, squares: they miss others by less than a
+cell."""
+
+
+class _FoundBoard(NamedTuple):
+    """A board and its corners."""
+
+    lattice: Lattice
+    rejected: list[RejectedCorner]
+    pattern: Charuco
+    """As the image shows it."""
+    marks: Marks
 
 
 class _LocatedBoard(NamedTuple):
@@ -71,16 +104,98 @@ def find_charuco(
     """Locate the inner corners of a ChArUco board in an image; see ``find_corners``."""
     grey = check_grey_levels(image)
     outline = None if roi is None else region.check_outline(roi)
-    read, is_inverted = _read_board(pattern, convert_for_reading(grey), grid_size, outline)
-    board = _choose_reading(grey, read.readings, grid_size, is_inverted=is_inverted)
+    board = _find_board(grey, pattern, grid_size, outline)
     lattice, rejected, fit = board.lattice, board.rejected, None
     if method == "edges":
-        lattice, fit, more = fit_corners(grey, lattice, _measure_plain_part(board.markers))
+        lattice, fit, more = fit_corners(grey, lattice, board.marks)
         rejected += more
     require_enough_corners(lattice)
-    legacy = pattern.legacy if pattern.legacy is not None else not board.markers.layout.first_dark
-    seen = Charuco(read.dictionary, board.markers.side, legacy)
-    return assemble_corners(grey, lattice, fit, outline, rejected, seen)
+    return assemble_corners(grey, lattice, fit, outline, rejected, board.pattern)
+
+
+def _find_board(
+    grey: GreyImage, pattern: Charuco, grid_size: GridSize | None, outline: Array | None
+) -> _FoundBoard:
+    """Find the board by markers that are read one by one, or, where these tell hardly half of the
+    corners of a stated one, by all of them together.
+
+    Raises:
+        NoBoardError: if neither finds it.
+    """
+    try:
+        board = _find_by_markers(grey, pattern, grid_size, outline)
+    except NoBoardError:
+        other = _find_by_lattice(grey, pattern, grid_size, outline)
+        if other is None:
+            raise
+        return other
+    rows, cols = board.lattice.shape
+    if len(board.lattice) < _FEW_CORNERS * rows * cols:
+        other = _find_by_lattice(grey, pattern, grid_size, outline)
+        if other is not None and len(other.lattice) > len(board.lattice):
+            return other
+    return board
+
+
+def _find_by_markers(
+    grey: GreyImage, pattern: Charuco, grid_size: GridSize | None, outline: Array | None
+) -> _FoundBoard:
+    """Find the board by its markers, read one by one.
+
+    Raises:
+        NoBoardError: if too few are read, or they are of another board.
+    """
+    read, is_inverted = _read_board(pattern, convert_for_reading(grey), grid_size, outline)
+    board = _choose_reading(grey, read.readings, grid_size, is_inverted=is_inverted)
+    layout, side = board.markers.layout, board.markers.side
+    legacy = pattern.legacy if pattern.legacy is not None else not layout.first_dark
+    marks = _list_marks(read.dictionary, layout, side, board.lattice.shape)
+    seen = Charuco(read.dictionary, side, legacy)
+    return _FoundBoard(board.lattice, board.rejected, seen, marks)
+
+
+def _find_by_lattice(
+    grey: GreyImage, pattern: Charuco, grid_size: GridSize | None, outline: Array | None
+) -> _FoundBoard | None:
+    """Find a board of stated dictionary and size by the lattice of its corners and all of its
+    markers together; None if it is not there, or not stated."""
+    if pattern.dictionary is None or grid_size is None:
+        return None
+    searched = None if outline is None else region.enlarge_outline(outline)
+    boards = list(_list_stated_boards(pattern, pattern.dictionary, grid_size))
+    tried: list[Candidate] = []
+    for candidates in find_candidates(grey, searched, plain=_PLAIN):
+        for candidate in candidates:
+            if find_same(candidate, tried):
+                continue
+            tried.append(candidate)
+            for stated, seen in boards:
+                placed = place_by_marks(grey, candidate.lattice, stated)
+                if placed is not None:
+                    margin = stated.marks.margin
+                    lattice, rejected = refine_and_extend_corners(grey, placed, margin)
+                    return _FoundBoard(lattice, rejected, seen, stated.marks)
+    return None
+
+
+def _list_stated_boards(
+    pattern: Charuco, dictionary: str, grid_size: GridSize
+) -> Iterator[tuple[MarkedBoard, Charuco]]:
+    """List the boards that a pattern may be, printed dark on bright or inversely."""
+    for layout in _list_layouts(pattern, grid_size):
+        for side in _SIDES if pattern.marker is None else (pattern.marker,):
+            marks = _list_marks(dictionary, layout, side, grid_size)
+            for first_dark in (layout.first_dark, not layout.first_dark):
+                seen = Charuco(dictionary, side, not layout.first_dark)
+                yield MarkedBoard(grid_size, first_dark, marks), seen
+
+
+def _list_marks(dictionary: str, layout: MarkerLayout, side: float, grid_size: GridSize) -> Marks:
+    """List the markers that are printed in the squares of a board."""
+    rows, cols = grid_size
+    cells = draw_markers(dictionary)[: (rows + 1) * (cols + 1) // 2]
+    squares = layout.locate_squares(np.arange(len(cells))) - 1
+    return Marks(squares, cells, (1 - side) / 2)
 
 
 def _locate_corners(

@@ -50,7 +50,7 @@ class MarkerPrints:
 
     def rate_markers(self, image: GreyImage, read: Markers[Layout]) -> tuple[Array, Array]:
         """Rate the n markers `read` in an image (h, w), dark on bright; see `rate`."""
-        seen = _list_differences(measure_cells(image, read.corners, self.side))
+        seen = list_differences(measure_cells(image, read.corners, self.side))
         return self.rate(seen, read.numbers)
 
     def rate(self, seen: Array, numbers: IntArray) -> tuple[Array, Array]:
@@ -68,10 +68,10 @@ class MarkerPrints:
 def describe_prints(cells: BoolArray, neighbours: IntArray) -> MarkerPrints:
     """Describe the prints of markers whose cells (m, n, n), the border included, are True where
     dark; see `MarkerPrints`."""
-    return MarkerPrints(_list_differences(np.where(cells, 0.0, 1.0)), neighbours, cells.shape[1])
+    return MarkerPrints(list_differences(np.where(cells, 0.0, 1.0)), neighbours, cells.shape[1])
 
 
-def _list_differences(level: Array) -> Array:
+def list_differences(level: Array) -> Array:
     """List the differences (n, s) of neighbouring cells (n, k, k), down and to the right."""
     return np.concatenate(
         [np.diff(level, axis=axis).reshape(len(level), -1) for axis in (1, 2)], axis=1
@@ -198,7 +198,7 @@ def _read_by_steps(
     wanted, may_be = wanted.select(possible), may_be[possible]
     if not len(possible):
         return wanted
-    seen = _list_differences(measure_cells(image, wanted.corners, prints.side))
+    seen = list_differences(measure_cells(image, wanted.corners, prints.side))
     steps = prints.steps[: places.shape[1]]
     share = np.sign(seen) @ steps.T / np.abs(steps).sum(axis=1)
     numbers = np.where(may_be, share, -np.inf).argmax(axis=1)

@@ -1,0 +1,78 @@
+"""Boards whose markers or tags are too small to be read one by one, against rendered truth."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import cv2
+import numpy as np
+import pytest
+
+from calibgui.engine.boards.board import Board
+from calibgui.engine.boards.charuco import Charuco
+from calibgui.engine.boards.pattern import Pattern
+from calibgui.engine.boards.tagged_checkerboard import TaggedCheckerboard
+from calibgui.engine.detection.find_corners import find_corners
+from calibgui.engine.errors import NoBoardError
+from tests.engine.detection.apriltags.test_april_grid import CAMERA, assert_at_bound
+from tests.engine.detection.conftest import Scene
+
+SMALL = Scene(
+    Board(8, 11, 20.0, Charuco("DICT_5X5_250", 0.7, legacy=False)),
+    camera=CAMERA,
+    rvec=(0.3, 0.2, 2.6),
+    distance=680.0,
+)
+"""Squares of 16 px, cells of 1.6 px."""
+TAGGED = replace(SMALL, board=Board(12, 15, 20.0, TaggedCheckerboard("t36h11", 1, 2, True)))
+BLUR, NOISE = 1.0, 2.0
+
+
+@pytest.mark.parametrize("inverted", [False, True], ids=["", "inverted"])
+@pytest.mark.parametrize("scene", [SMALL, TAGGED], ids=["charuco", "tagged"])
+def test_small_marks_are_read_together(scene: Scene, inverted: bool) -> None:
+    image = scene.image(BLUR, NOISE)
+    board = scene.board
+    corners = find_corners(
+        255 - image if inverted else image, board.grid_size, pattern=board.pattern
+    )
+    assert corners.complete
+    assert corners.pattern == board.pattern
+    assert_at_bound(scene, corners, (0.7, 1.6))
+
+
+def test_opencv_reads_none_of_these_markers() -> None:
+    dictionary = cv2.aruco.getPredefinedDictionary(cv2.aruco.DICT_5X5_250)
+    _, numbers, *_ = cv2.aruco.ArucoDetector(dictionary).detectMarkers(SMALL.image(BLUR, NOISE))
+    assert numbers is None
+
+
+def test_the_side_of_a_marker_need_not_be_stated() -> None:
+    corners = find_corners(SMALL.image(BLUR, NOISE), (8, 11), pattern=Charuco("DICT_5X5_250"))
+    assert corners.complete
+    assert np.abs(SMALL.error(corners)).max() < 0.3
+
+
+def test_a_part_has_the_ids_of_the_whole() -> None:
+    image = SMALL.image(BLUR, NOISE)
+    image[:, :300] = 128
+    corners = find_corners(image, (8, 11), pattern=SMALL.board.pattern)
+    assert 30 < len(corners) < 70
+    assert np.abs(SMALL.error(corners)).max() < 0.3
+
+
+@pytest.mark.parametrize(
+    ("scene", "stated", "grid_size"),
+    [
+        (SMALL, Charuco("DICT_6X6_250", 0.7), (8, 11)),
+        (SMALL, Charuco("DICT_5X5_250", 0.7), (8, 10)),
+        (TAGGED, TaggedCheckerboard("t25h7", 1, 4), (12, 15)),
+        (replace(SMALL, board=Board(8, 11, 20.0)), Charuco("DICT_5X5_250", 0.7), (8, 11)),
+    ],
+    ids=["another dictionary", "another size", "another family", "a plain checkerboard"],
+)
+def test_another_board_is_refused(
+    scene: Scene, stated: Pattern, grid_size: tuple[int, int]
+) -> None:
+    with pytest.raises(NoBoardError):
+        find_corners(scene.image(BLUR, NOISE), grid_size, pattern=stated)
