@@ -14,6 +14,7 @@ like those of a checkerboard, and all of its markers together tell which they ar
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
@@ -35,7 +36,11 @@ from calibgui.engine.detection.charuco.corners_between_markers import (
     refine_corners,
     require_enough_corners,
 )
-from calibgui.engine.detection.charuco.lattice_placement import MarkedBoard, place_by_marks
+from calibgui.engine.detection.charuco.lattice_placement import (
+    MarkedBoard,
+    measure_margin,
+    place_by_marks,
+)
 from calibgui.engine.detection.charuco.mark_removal import Marks
 from calibgui.engine.detection.charuco.marker_candidates import draw_markers
 from calibgui.engine.detection.charuco.marker_reader import MarkerReader, ReadBoard
@@ -169,12 +174,30 @@ def _find_by_lattice(
             if find_same(candidate, tried):
                 continue
             tried.append(candidate)
-            for stated, seen in boards:
-                placed = place_by_marks(grey, candidate.lattice, stated)
-                if placed is not None:
-                    margin = stated.marks.margin
-                    lattice, rejected = refine_and_extend_corners(grey, placed, margin)
-                    return _FoundBoard(lattice, rejected, seen, stated.marks)
+            found = _place_on_boards(grey, candidate.lattice, boards, pattern.marker)
+            if found is not None:
+                return found
+    return None
+
+
+def _place_on_boards(
+    grey: GreyImage,
+    lattice: Lattice,
+    boards: list[tuple[MarkedBoard, Charuco]],
+    side: float | None,
+) -> _FoundBoard | None:
+    """Place a lattice on the first of some boards whose markers it shows, and locate its corners;
+    the markers' `side`, squares, is measured where it is not stated."""
+    for board, seen in boards:
+        placed = place_by_marks(grey, lattice, board)
+        if placed is None:
+            continue
+        marks = board.marks
+        if side is None:
+            marks = marks._replace(margin=measure_margin(grey, placed, board))
+            seen = replace(seen, marker=1 - 2 * marks.margin)
+        refined, rejected = refine_and_extend_corners(grey, placed, marks.margin)
+        return _FoundBoard(refined, rejected, seen, marks)
     return None
 
 

@@ -34,6 +34,8 @@ of 1 to 4 px and blurs of 0.5 to 1.6 px it is 4.1 to 33, and 2.6 at most on 1547
 theirs."""
 _MIN_SHARE_INSIDE = 0.5
 """Least share of a lattice that lies on the board: it may have stray lines."""
+_MARGINS = tuple((np.arange(5, 31) / 100).tolist())
+"""Margins that are tried, squares: markers of 0.9 to 0.4 of a square."""
 _LEAST_NORM = 1e-9
 """Norm of the differences in a square, grey levels, below which nothing is seen in it."""
 
@@ -86,6 +88,21 @@ def place_by_marks(image: GreyImage, lattice: Lattice, board: MarkedBoard) -> La
     return Lattice(uv, board.first_dark)
 
 
+def measure_margin(image: GreyImage, placed: Lattice, board: MarkedBoard) -> float:
+    """Measure how far the cells of the marks are from the edges of their squares, squares: where
+    what is seen in those of a `placed` lattice is most like what is printed."""
+    squares, quads = _list_squares(placed)
+    number = _number_squares(board)[tuple((squares + 1).T)]
+    quads, number = quads[number >= 0], number[number >= 0]
+
+    def rate(margin: float) -> float:
+        there = board._replace(marks=board.marks._replace(margin=margin))
+        correlation = _correlate_squares(image, quads, there)
+        return float(correlation[np.arange(len(number)), number].mean())
+
+    return max(_MARGINS, key=rate)
+
+
 def _rate(place: _Place) -> tuple[float, float]:
     """Return the mean correlation at a place, and the variance of that mean."""
     r = place.correlation
@@ -94,21 +111,11 @@ def _rate(place: _Place) -> tuple[float, float]:
 
 def _list_places(image: GreyImage, lattice: Lattice, board: MarkedBoard) -> Iterator[_Place]:
     """List the places on the board that the colours of the squares allow."""
-    marks, size = board.marks, np.array(board.grid_size)
-    printed = list_differences(marks.cells.astype(np.float64))
-    printed -= printed.mean(axis=0)
-    printed /= np.maximum(np.linalg.norm(printed, axis=1, keepdims=True), _LEAST_NORM)
-    numbers = np.full(size + 1, -1)
-    numbers[tuple((marks.squares + 1).T)] = np.arange(len(printed))
-    # The cells of a mark are brighter than a dark square, and darker than a bright one.
-    sign = 1.0 if board.first_dark ^ bool(marks.squares[0].sum() % 2) else -1.0
+    size, numbers = np.array(board.grid_size), _number_squares(board)
     for quarters in range(4):
         turned = turn_lattice(lattice, quarters)
         squares, quads = _list_squares(turned)
-        inner = _inset_quads(quads, marks.margin)
-        seen = sign * list_differences(measure_cells(image, inner, marks.cells.shape[1]))
-        seen /= np.maximum(np.linalg.norm(seen, axis=1, keepdims=True), _LEAST_NORM)
-        correlation = seen @ printed.T
+        correlation = _correlate_squares(image, quads, board)
         spare = size - turned.shape
         for offset in np.ndindex(*(abs(spare) + 1)):
             origin = np.minimum(spare, 0) + offset
@@ -123,6 +130,28 @@ def _list_places(image: GreyImage, lattice: Lattice, board: MarkedBoard) -> Iter
             if np.count_nonzero(marked) >= _MIN_SQUARES:
                 there = correlation[inside[marked], number[marked]]
                 yield _Place(there, turned, (int(origin[0]), int(origin[1])))
+
+
+def _number_squares(board: MarkedBoard) -> IntArray:
+    """Return the numbers of the marks in all squares (rows + 1, cols + 1) of a board, -1 where
+    there is none."""
+    numbers = np.full(np.array(board.grid_size) + 1, -1)
+    numbers[tuple((board.marks.squares + 1).T)] = np.arange(len(board.marks.squares))
+    return numbers
+
+
+def _correlate_squares(image: GreyImage, quads: Array, board: MarkedBoard) -> Array:
+    """Correlate what is seen in squares (n, 4, 2) px with each of the board's marks, (n, m)."""
+    marks = board.marks
+    printed = list_differences(marks.cells.astype(np.float64))
+    printed -= printed.mean(axis=0)
+    printed /= np.maximum(np.linalg.norm(printed, axis=1, keepdims=True), _LEAST_NORM)
+    # The cells of a mark are brighter than a dark square, and darker than a bright one.
+    sign = 1.0 if board.first_dark ^ bool(marks.squares[0].sum() % 2) else -1.0
+    inner = _inset_quads(quads, marks.margin)
+    seen = sign * list_differences(measure_cells(image, inner, marks.cells.shape[1]))
+    seen /= np.maximum(np.linalg.norm(seen, axis=1, keepdims=True), _LEAST_NORM)
+    return np.asarray(seen @ printed.T)
 
 
 def _list_squares(lattice: Lattice) -> tuple[IntArray, Array]:

@@ -51,6 +51,9 @@ def test_the_side_of_a_marker_need_not_be_stated() -> None:
     corners = find_corners(SMALL.image(BLUR, NOISE), (8, 11), pattern=Charuco("DICT_5X5_250"))
     assert corners.complete
     assert np.abs(SMALL.error(corners)).max() < 0.3
+    seen = corners.pattern
+    assert isinstance(seen, Charuco)
+    assert seen.marker == pytest.approx(0.7, abs=0.03)
 
 
 def test_a_part_has_the_ids_of_the_whole() -> None:
