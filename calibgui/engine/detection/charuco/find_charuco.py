@@ -155,8 +155,13 @@ def _find_by_markers(
     layout, side = board.markers.layout, board.markers.side
     legacy = pattern.legacy if pattern.legacy is not None else not layout.first_dark
     marks = _list_marks(read.dictionary, layout, side, board.lattice.shape)
-    seen = Charuco(read.dictionary, side, legacy)
-    return _FoundBoard(board.lattice, board.rejected, seen, marks)
+    lattice, rejected = board.lattice, board.rejected
+    if not lattice.found.all():
+        # Beside markers that were not read the corners predict others, which markers do not bound.
+        more, lost = refine_and_extend_corners(grey, lattice, marks.margin)
+        if len(more) > len(lattice):
+            lattice, rejected = more, lost
+    return _FoundBoard(lattice, rejected, Charuco(read.dictionary, side, legacy), marks)
 
 
 def _find_by_lattice(

@@ -79,3 +79,20 @@ def test_another_board_is_refused(
 ) -> None:
     with pytest.raises(NoBoardError):
         find_corners(scene.image(BLUR, NOISE), grid_size, pattern=stated)
+
+
+def test_corners_lead_on_where_hardly_a_marker_is_read() -> None:
+    scene = replace(SMALL, rvec=(0.7, 0.5, 0.3), distance=460.0)
+    corners = find_corners(scene.image(BLUR, noise=3.0), pattern=Charuco())
+    assert len(corners) >= 75
+    assert_at_bound(scene, corners, (0.6, 1.6))
+
+
+def test_blurred_markers_draw_no_corner_aside() -> None:
+    """They begin a tenth of a square, about one blur, beside the edges."""
+    board = Board(8, 11, 20.0, Charuco("DICT_4X4_250", 0.8, legacy=False))
+    scene = replace(SMALL, board=board, distance=640.0)
+    corners = find_corners(scene.image(1.5, 1.0), board.grid_size, pattern=board.pattern)
+    assert corners.complete
+    assert np.abs(scene.error(corners)).max() < 0.3
+    assert_at_bound(scene, corners, (0.6, 1.6))
