@@ -6,7 +6,7 @@ distances (``coverage``).
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 
@@ -21,6 +21,9 @@ _MIN_VIEWS = 8
 """Number of views below which more are advised."""
 _MIN_DISTANCE_RATIO = 1.3
 """Ratio of the farthest to the nearest distance, below which all count as the same."""
+_MIN_EXTENT = 1 / 3
+"""Part of the image's width or height that a board takes, below which it is too far away: the views
+`calibgui views --next` asks for take 0.45 and more."""
 _REGION_NAMES = (
     ("upper left", "top", "upper right"),
     ("left", "middle", "right"),
@@ -35,6 +38,7 @@ def advise_photographs(result: Result) -> list[str]:
     attitude = measure_attitudes(calibration, observations)
     uv = np.concatenate([view.uv for view in observations])
     texts = [
+        *_advise_nearness([view.uv for view in observations], calibration),
         *_advise_regions(uv, calibration),
         *_advise_tilts(attitude.tilt, attitude.direction),
     ]
@@ -45,6 +49,16 @@ def advise_photographs(result: Result) -> list[str]:
             f"take more views: {len(observations)} leave little to average and to check against"
         )
     return texts
+
+
+def _advise_nearness(views: Sequence[Array], calibration: Calibration) -> Iterator[str]:
+    """Advise on boards whose corners (n, 2), px, take a small part of the image in every view."""
+    extent = max(float((np.ptp(uv, axis=0) / calibration.camera.size).max()) for uv in views)
+    if extent < _MIN_EXTENT:
+        yield (
+            "hold the board nearer, so that it fills half of the image or more: it takes at most "
+            f"{100 * extent:.0f} % of its width or height"
+        )
 
 
 def _advise_regions(uv: Array, calibration: Calibration) -> Iterator[str]:

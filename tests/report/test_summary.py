@@ -71,6 +71,15 @@ def test_a_board_that_noise_bends_is_distinguished_from_a_bent_one() -> None:
         assert ("it may well be as drawn" in describe_board_shape(board_shape)) is feigned
 
 
+@pytest.mark.parametrize(("fill", "is_advised"), [((0.15, 0.2), True), ((0.5, 0.9), False)])
+def test_boards_far_away_are_to_be_held_nearer(fill: tuple[float, float], is_advised: bool) -> None:
+    rng = np.random.default_rng(5)
+    poses = [scenes.looking(CAMERA, rng, fill=fill) for _ in range(12)]
+    told = texts(solved(scenes.seen(CAMERA, poses).views), Tone.ADVICE)
+    assert ("hold the board nearer" in told) is is_advised
+    assert ("% of its width or height" in told) is is_advised
+
+
 def test_a_lens_that_is_not_followed_is_named_and_the_board_is_not(good: Result) -> None:
     wrong = solved(everywhere(), model="pinhole")
     caution = texts(wrong, Tone.CAUTION)
