@@ -94,7 +94,10 @@ def read_manifest(path: Path, board: BoardSought, settings: Settings) -> tuple[C
             raise CalibrationError(f"{path}, {place}: {error.message}", error.hint) from error
         tasks.append(task)
     if not tasks:
-        raise CalibrationError(f"{path} lists no cameras.", "Add a line for each.")
+        hint = "Add a line for each."
+        if path.is_dir():
+            hint = "Name a folder that holds a folder of photographs for each camera."
+        raise CalibrationError(f"{path} lists no cameras.", hint)
     return tuple(tasks)
 
 

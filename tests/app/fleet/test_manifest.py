@@ -54,6 +54,12 @@ def test_a_folder_of_folders_is_a_manifest(tmp_path: Path) -> None:
     ]
 
 
+def test_a_folder_of_photographs_is_no_manifest(tmp_path: Path) -> None:
+    (tmp_path / "1.png").touch()
+    with pytest.raises(CalibrationError, match="a folder of photographs for each camera"):
+        read_manifest(tmp_path, BOARD, SETTINGS)
+
+
 def test_words_of_a_board_replace_what_is_known() -> None:
     stated = BoardSought(30.0, (5, 7), Charuco(marker=0.7))
     assert read_board_words("", stated) == stated
