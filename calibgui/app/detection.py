@@ -286,26 +286,27 @@ def infer_grid_size(views: Iterable[View]) -> GridSize | None:
     """Return the most frequent grid size of completely seen boards; of equals, the largest.
 
     If the corners identify themselves, the largest part seen is taken. A grid of circles counts as
-    complete where a few are covered, and as a part where it may go on outside of its image. None if
-    there is no board, or if more photographs share a part that is larger: a board of which a shadow
-    hides a whole column looks complete.
+    complete where a few are covered, and as a part where it may go on outside of its image. A size
+    is none if more photographs show a part that is larger: a board may look complete where a shadow
+    or the image's edge hides its next corners. None if there is no board.
     """
-    views = tuple(views)
     found = [view.corners for view in views if view.corners is not None]
     if found and all(corners.pattern.identifies_points for corners in found):
         return measure_largest_part(found)
-    whole = (
-        corners
+    whole = Counter(
+        corners.shape
         for corners in found
         if not corners.relative and (corners.complete or not corners.pattern.has_squares)
     )
-    seen = Counter(corners.shape for corners in whole)
-    usual = max(seen, key=lambda shape: (seen[shape], shape[0] * shape[1]), default=None)
-    shared = _find_shared_part(views)
-    if usual is None or shared is None or shared == usual:
-        return usual
-    count = sum(corners.shape == shared for corners in found)
-    return usual if seen[usual] >= count else None
+    for size in sorted(whole, key=lambda size: (whole[size], size[0] * size[1]), reverse=True):
+        if sum(_is_larger(corners.shape, size) for corners in found) <= whole[size]:
+            return size
+    return None
+
+
+def _is_larger(part: GridSize, size: GridSize) -> bool:
+    """Return whether a part has more corners than a board of a size, one way or the other."""
+    return any(seen > most for seen, most in zip(sorted(part), sorted(size), strict=True))
 
 
 def measure_largest_part(found: Sequence[Corners]) -> GridSize | None:

@@ -175,12 +175,15 @@ def test_the_usual_board_is_the_most_frequent_complete_one() -> None:
     assert infer_grid_size([part, View("blank.png", ViewStatus.NO_BOARD)]) is None
 
 
-def test_a_part_in_more_pictures_belies_a_smaller_board() -> None:
+def test_larger_parts_in_more_pictures_belie_a_smaller_board() -> None:
     """The image's dark edge hides the last column of one board, and a corner of the others."""
-    whole, part = corners((6, 7), 42), corners((6, 8), 47)
-    assert infer_grid_size([whole, part, part, part]) is None
-    assert infer_grid_size([whole, part, part]) == (6, 7)
-    assert infer_grid_size([whole, whole, whole, part, part, part]) == (6, 7)
+    whole, part, turned = corners((6, 7), 42), corners((6, 8), 47), corners((8, 5), 40)
+    assert infer_grid_size([whole, part, part]) is None
+    assert infer_grid_size([whole, part, turned]) is None
+    assert infer_grid_size([whole, whole, part, part]) == (6, 7)
+    assert infer_grid_size([whole, corners((7, 6), 40), corners((7, 5), 30)]) == (6, 7)
+    larger = corners((8, 9), 72)
+    assert infer_grid_size([whole, whole, larger, part, part]) == (8, 9)
 
 
 def test_a_grid_of_circles_tells_its_size_though_one_is_covered() -> None:
