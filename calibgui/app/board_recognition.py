@@ -20,7 +20,7 @@ from calibgui.engine import detection as detectors
 from calibgui.engine.arrays import GridSize
 from calibgui.engine.boards import CHECKERBOARD, KINDS, Pattern
 from calibgui.engine.detection import Corners
-from calibgui.engine.errors import CalibrationError
+from calibgui.engine.errors import CalibrationError, UnknownPartError
 from calibgui.engine.images import read_image
 from calibgui.report.boards import name_kind
 
@@ -183,8 +183,9 @@ def recognise_pattern(
         *(_KINDS_MARKED_ON_EDGES if marks.on_edges else ()),
     )
     tries = [(view.image, KINDS[kind]) for kind in kinds]
-    if (read := next(filter(None, map(_search_image, tries)), None)) is not None:
-        return KINDS[read.pattern.kind]
+    for image, pattern in tries:
+        if isinstance(_search_image((image, pattern)), Corners):
+            return pattern
     if (mirrored := next(filter(None, map(_search_mirror_image, tries)), None)) is not None:
         raise CalibrationError(*_describe_mirroring(mirrored.pattern))
     return None
@@ -195,7 +196,8 @@ def find_other_pattern(
 ) -> Pattern | None:
     """Return another pattern than `stated` that is found in some of the `images`, else None.
 
-    Of several, the one found in most images is returned, then the one with most corners.
+    Of several, the one found in most images is returned, then the one with most corners. If none is
+    found, it is the one whose marks were read in most.
 
     Raises:
         Cancelled: if `stop` was set.
@@ -220,32 +222,41 @@ def find_mirrored_pattern(images: Iterable[str], stop: Event | None = None) -> P
 def _find_best_pattern(
     images: Iterable[str],
     patterns: Sequence[Pattern],
-    search: Callable[[tuple[str, Pattern]], Corners | None],
+    search: Callable[[tuple[str, Pattern]], Corners | UnknownPartError | None],
     stop: Event | None,
 ) -> Pattern | None:
     """Return the pattern that `search` finds in most images, of several that with most corners.
 
-    Only where the first images show none the others are searched.
+    Only where the first images show none the others are searched. Where all show none, it is the
+    one of which `search` reads marks in most images.
     """
     images = list(images)
     found: Counter[str] = Counter()
     corners: Counter[str] = Counter()
+    read: Counter[str] = Counter()
     for some in images[:_FIRST_SAMPLES], images[_FIRST_SAMPLES:]:
         tries = [(image, pattern) for image in some for pattern in patterns]
         for i, seen in map_in_processes(search, tries, stop):
+            kind = tries[i][1].kind
             if isinstance(seen, Corners):
-                kind = tries[i][1].kind
                 found[kind] += 1
                 corners[kind] += len(seen)
+            read[kind] += isinstance(seen, UnknownPartError)
         if found:
             break
-    best = max(found, key=lambda kind: (found[kind], corners[kind]), default=None)
-    return None if best is None else KINDS[best]
+    best = max(+read | found, key=lambda kind: (found[kind], corners[kind], read[kind]), default="")
+    return KINDS[best] if best else None
 
 
-def _search_image(attempt: tuple[str, Pattern]) -> Corners | None:
+def _search_image(attempt: tuple[str, Pattern]) -> Corners | UnknownPartError | None:
+    """Search an image; an error says that marks were read which do not tell its corners."""
     image, pattern = attempt
-    return search_view(View(image), pattern=pattern).corners
+    try:
+        return detectors.find_corners(read_image(image).pixels, pattern=pattern)
+    except UnknownPartError as error:
+        return error
+    except CalibrationError:
+        return None
 
 
 def _search_mirror_image(attempt: tuple[str, Pattern]) -> Corners | None:

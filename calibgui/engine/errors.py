@@ -30,6 +30,10 @@ class NoBoardError(CalibrationError):
     """An error: no acceptable board was found in an image."""
 
 
+class UnknownPartError(NoBoardError):
+    """An error: marks of a board were read, but they do not tell its corners in this image."""
+
+
 class WriteError(CalibrationError):
     """An error: the disk or the system refuses to write a file."""
 

@@ -12,9 +12,10 @@ from calibgui.app.board_recognition import (
     explain_missing_board,
     find_any_board,
     find_mirrored_pattern,
+    find_other_pattern,
     recognise_pattern,
 )
-from calibgui.app.detection import Detection, find_views
+from calibgui.app.detection import Detection, find_views, search_view
 from calibgui.dataset import View, ViewStatus
 from calibgui.engine.arrays import GridSize
 from calibgui.engine.boards import KINDS
@@ -164,3 +165,13 @@ def test_marks_in_a_mirror_are_told_where_a_plain_board_is_found(tmp_path: Path)
     with pytest.raises(CalibrationError, match="mirrored: left is right") as caught:
         recognise_pattern(views)
     assert "Turn mirroring off" in caught.value.hint
+
+
+def test_markers_that_do_not_tell_their_part_tell_the_kind(tmp_path: Path) -> None:
+    """A ChArUco board that fills more than the image, so that its borders are not seen."""
+    pattern = Charuco("DICT_5X5_100", 0.7, legacy=False)
+    scene = Scene(Board(8, 10, 20.0, pattern), _CAMERA, (0.4, 0.25, 0.2), 330.0)
+    write_image(tmp_path / "view.png", scene.image()[120:280, 200:360])
+    image = str(tmp_path / "view.png")
+    assert search_view(View(image), pattern=KINDS["charuco"]).corners is None
+    assert find_other_pattern([image], CHECKERBOARD) == KINDS["charuco"]

@@ -26,7 +26,7 @@ from calibgui.engine.detection.checkerboard.x_corner_fit import XCornerFit
 from calibgui.engine.detection.corners import RejectedCorner
 from calibgui.engine.detection.detector_io import list_rejected_corners
 from calibgui.engine.detection.lattice import Lattice
-from calibgui.engine.errors import NoBoardError
+from calibgui.engine.errors import NoBoardError, UnknownPartError
 from calibgui.engine.geometry import homography
 
 _MARKERS_PER_CORNER = 4
@@ -193,7 +193,7 @@ def require_enough_corners(lattice: Lattice) -> None:
 
 def _distrust() -> NoBoardError:
     """Return the error for a board of which too few corners pass."""
-    return NoBoardError(
+    return UnknownPartError(
         "Markers of the board were read, but too few corners beside them can be trusted.",
         "Take the picture again: sharp, evenly lit, and more of the board in view.",
     )

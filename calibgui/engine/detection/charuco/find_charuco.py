@@ -59,7 +59,7 @@ from calibgui.engine.detection.detector_io import (
     invert_levels,
 )
 from calibgui.engine.detection.lattice import Lattice
-from calibgui.engine.errors import NoBoardError
+from calibgui.engine.errors import NoBoardError, UnknownPartError
 
 _FEW_CORNERS = 0.5
 """Share of a board's corners up to which all of its markers are read together."""
@@ -290,7 +290,7 @@ def _choose_reading(
         second = boards[1].rate(rows) if len(boards) > 1 else CHARUCO_THRESHOLDS.min_corners - 1
         ahead = boards[0].rate(rows) - second
         if ahead < CHARUCO_THRESHOLDS.min_deciding_corners:
-            raise NoBoardError(
+            raise UnknownPartError(
                 "The markers seen do not tell which part of the board this is.",
                 "State its rows and columns and whether its first square is dark, or show more of"
                 " its left or right border.",
@@ -371,7 +371,7 @@ def _explain_missing_board(
             found = found or reader.read_dictionary(pattern.dictionary, MARKER_LAYOUTS)
         found = found or reader.search_dictionaries(MARKER_LAYOUTS)
     if found is None and any(reader.is_undecided for reader in readers):
-        return NoBoardError(
+        return UnknownPartError(
             "The markers seen do not tell how many squares the board has in a row.",
             "State its rows and columns, or show more of it.",
         )
