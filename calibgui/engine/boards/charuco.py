@@ -13,6 +13,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 
@@ -37,8 +38,15 @@ class MarkerLayout:
     def locate_squares(self, numbers: IntArray) -> IntArray:
         """Return row and column (n, 2) of the squares that hold the markers `numbers` (n,)."""
         rows = 2 * (int(numbers.max(initial=0)) // max(self.cols - 1, 1)) + 3
-        parity = np.indices((rows, self.cols)).sum(axis=0) % 2
-        return np.argwhere(parity == (1 if self.first_dark else 0))[numbers]
+        return _list_marked_squares(rows, self.cols, self.first_dark)[numbers]
+
+
+@lru_cache(maxsize=512)
+def _list_marked_squares(rows: int, cols: int, first_dark: bool) -> IntArray:
+    """List row and column (n, 2) of the squares that hold markers, in the order of their numbers;
+    they are kept, since what is read in an image is compared with all layouts."""
+    parity = np.indices((rows, cols)).sum(axis=0) % 2
+    return np.argwhere(parity == (1 if first_dark else 0))
 
 
 MARKER_LAYOUTS = tuple(MarkerLayout(cols, dark) for cols in range(2, 65) for dark in (True, False))
