@@ -29,7 +29,7 @@ from typing import Generic, Protocol, TypeVar
 import numpy as np
 import scipy
 
-from calibgui.engine.arrays import Array, BoolArray, IntArray
+from calibgui.engine.arrays import Array, BoolArray, Int32Array, IntArray
 from calibgui.engine.detection.charuco.thresholds import CHARUCO_THRESHOLDS
 
 
@@ -106,7 +106,8 @@ def identify_board(
     candidates = [*{**dict.fromkeys(known), **dict.fromkeys(allowed)}]
     for distance in CHARUCO_THRESHOLDS.max_marker_distances:
         i, j, displacement = _measure_displacements(corners, distance)
-        squares = np.stack([layout.locate_squares(numbers) for layout in candidates])
+        located = [layout.locate_squares(numbers) for layout in candidates]
+        squares = np.array(located, dtype=np.int32)  # many steps, which are small
         step = (squares.take(j, axis=1) - squares.take(i, axis=1))[..., ::-1]
         agree, sides = _find_agreeing_pairs(step, displacement, distance)
         count = agree.sum(axis=1)
@@ -175,7 +176,7 @@ def _invert_frames(A: Array) -> Array:
 
 
 def _find_agreeing_pairs(
-    step: IntArray, displacement: Array, max_distance: int
+    step: Int32Array, displacement: Array, max_distance: int
 ) -> tuple[BoolArray, Array]:
     """Find the pairs (k, p) whose displacements (p, 2) are `step` (k, p, 2) squares, at most
     `max_distance`, on each of k layouts, and the sides rho (k,) that they agree on."""
