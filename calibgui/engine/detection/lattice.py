@@ -199,11 +199,10 @@ def measure_in_steps(offset: Array, right: Array, down: Array) -> Array:
         steps are parallel.
     """
     det = right[..., 0] * down[..., 1] - right[..., 1] * down[..., 0]
-    a = offset[..., 0] * down[..., 1] - offset[..., 1] * down[..., 0]
-    b = right[..., 0] * offset[..., 1] - right[..., 1] * offset[..., 0]
-    largest = np.maximum(abs(a), abs(b))
+    a = abs(offset[..., 0] * down[..., 1] - offset[..., 1] * down[..., 0])
+    b = abs(right[..., 0] * offset[..., 1] - right[..., 1] * offset[..., 0])
     with np.errstate(divide="ignore", invalid="ignore"):
-        return np.asarray(largest / abs(det))
+        return np.asarray(np.maximum(a, b) / abs(det))
 
 
 def _average_known(values: list[Array]) -> Array:
