@@ -78,7 +78,7 @@ def place_by_marks(image: GreyImage, lattice: Lattice, board: MarkedBoard) -> La
     (mean, variance), (other, its) = _rate(best), (0.0, 0.0)
     if len(places) > 1:
         other, its = _rate(places[1])
-    if mean - other < _MIN_LEAD * np.sqrt(variance + its):
+    if mean - other <= _MIN_LEAD * np.sqrt(variance + its):
         return None
     cells = np.argwhere(best.lattice.found)
     at = cells + best.origin

@@ -96,3 +96,11 @@ def test_blurred_markers_draw_no_corner_aside() -> None:
     assert corners.complete
     assert np.abs(scene.error(corners)).max() < 0.3
     assert_at_bound(scene, corners, (0.6, 1.6))
+
+
+def test_squares_without_any_print_say_nothing() -> None:
+    """Not even that they are equally unlike all of it."""
+    squares = np.kron(np.indices((9, 12)).sum(axis=0) % 2, np.ones((16, 16)))
+    image = np.pad(np.where(squares == 1, 220, 30), 60, constant_values=220).astype(np.uint8)
+    with pytest.raises(NoBoardError):
+        find_corners(image, (8, 11), pattern=Charuco("DICT_5X5_250", 0.7))
