@@ -47,6 +47,8 @@ _WINDOW_DIVISORS = (4, 16)
 _SHADED_DIVISOR = 8
 """The image's shorter side over the window in which shadows are evened out, at the coarsest size:
 that takes a twentieth of the time of the search among what is dark."""
+_SMOOTHED_COPIES = 2
+"""Number of copies coarser than the coarsest that are searched where nothing was found."""
 _SAMPLE = 40
 """Number of circles, spread over the grid, that are fitted before all of a grid of more than twice
 as many."""
@@ -174,7 +176,7 @@ def _find_grid(
     part: LabelledGrid | None = None
     centres = np.zeros((0, 0, 2))
     for depth, seen, divisor, is_shaded in _list_searches(levels):
-        is_rare = is_shaded or depth == len(levels)
+        is_rare = is_shaded or depth >= len(levels)
         if is_rare and grid_size is None and largest is not None and largest.is_full:
             break
         window = max(int(min(seen.shape) / divisor), 9)
@@ -210,8 +212,8 @@ def _find_grid(
 def _list_searches(levels: list[GreyImage]) -> Iterator[tuple[int, GreyImage, int, bool]]:
     """List the searches for circles in an image and its halved copies, the coarsest first: depth,
     image or negative, what its shorter side is divided by for the window, and whether shadows are
-    evened out. That is needed rarely and so comes last, with a copy that is coarser still, in which
-    the pixels of a screen do not tear the circles apart."""
+    evened out. That is needed rarely and so comes last, with copies that are coarser still: there
+    the pixels of a screen neither tear the circles apart nor leave specks between them."""
     coarsest = len(levels) - 1
     for depth in reversed(range(len(levels))):
         # What the coarsest level does not show is small, and lies in a small window.
@@ -219,9 +221,11 @@ def _list_searches(levels: list[GreyImage]) -> Iterator[tuple[int, GreyImage, in
         for seen in (levels[depth], 255 - levels[depth]):
             for divisor in divisors:
                 yield depth, seen, divisor, False
-    smoothed = opencv.halve_image(levels[coarsest])
-    for seen in (smoothed, 255 - smoothed):
-        yield coarsest + 1, seen, _WINDOW_DIVISORS[0], False
+    smoothed = levels[coarsest]
+    for depth in range(len(levels), len(levels) + _SMOOTHED_COPIES):
+        smoothed = opencv.halve_image(smoothed)
+        for seen in (smoothed, 255 - smoothed):
+            yield depth, seen, _WINDOW_DIVISORS[0], False
     yield coarsest, levels[coarsest], _SHADED_DIVISOR, True
 
 

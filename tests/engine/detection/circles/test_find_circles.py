@@ -492,3 +492,11 @@ def test_the_pixels_of_a_screen_do_not_hide_the_grid() -> None:
             find_corners(_photograph_screen(scene, seed, 0.25), (7, 9), pattern=Circles())
         reasons.append(str(refused.value))
     assert sum("ellipses do not describe the edges" in reason for reason in reasons) >= 5
+
+
+def test_specks_between_the_pixels_of_a_screen_do_not_hide_the_grid() -> None:
+    """They are more than the circles, and of a size with them, in all copies but the coarsest."""
+    scene = Scene(Board(11, 4, 20.0, Circles(True, 0.8)), rvec=(-0.3, 0.25, 0.6), distance=360.0)
+    corners = find_corners(_photograph_screen(scene, 3, 0.15), (11, 4), pattern=Circles(True))
+    assert corners.complete
+    assert np.abs(scene.error(corners)).max() < 0.3
