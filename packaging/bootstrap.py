@@ -280,7 +280,7 @@ class Environment:
         Nothing is lost if that fails: they are compiled when they are needed.
         """
         say("compiling what is slow in Python (about a minute, once)")
-        succeeds(self.python, "-m", "calibgui.app.kernel_preparation", env=self.variables())
+        succeeds(self.python, "-m", "calibgui.app.system.kernel_preparation", env=self.variables())
         sample = ROOT / "resources" / "sample"
         calibrate = ["-m", "calibgui", "calibrate", sample, "--square", "25", "--quiet"]
         # The window's choice of a lens model needs the solver of the other models as well.

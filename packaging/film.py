@@ -27,7 +27,7 @@ from screenshots import open_window, pause, wait
 
 from calibgui.engine.images import write_image
 from calibgui.gui.images.image_model import Role
-from calibgui.gui.panels.poses import PosesPanel
+from calibgui.gui.panels.evidence.poses import PosesPanel
 from calibgui.gui.verdict.before_after import BeforeAndAfter
 from calibgui.gui.widgets import theme
 from calibgui.gui.window.main_window import MainWindow

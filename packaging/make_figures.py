@@ -12,10 +12,10 @@ from pathlib import Path
 import numpy as np
 from matplotlib.figure import Figure
 
-from calibgui.app.calibration import calibrate_views
-from calibgui.app.detection import find_views
-from calibgui.app.outputs import save_figure
-from calibgui.app.paths import find_images
+from calibgui.app.calibrating.calibration import calibrate_views
+from calibgui.app.outputs.output_files import save_figure
+from calibgui.app.photographs.detection import find_views
+from calibgui.app.photographs.paths import find_images
 from calibgui.engine.assessment import compare_cameras, screen_outliers
 from calibgui.engine.boards import Board
 from calibgui.engine.calibration import Observation, calibrate

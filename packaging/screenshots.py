@@ -24,20 +24,20 @@ from PySide6.QtGui import QAction
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QTabWidget
 
-from calibgui.app.resources import find_resource
-from calibgui.app.series import Scalar
+from calibgui.app.calibrating.series import Scalar
+from calibgui.app.system.resources import find_resource
 from calibgui.cli.main import main as calibgui
 from calibgui.engine.boards import BoardShapeModel
 from calibgui.gui.canvas.layers import Layer
 from calibgui.gui.dialogs.many_cameras import ManyCameras
 from calibgui.gui.dialogs.series_dialog import SeriesDialog
 from calibgui.gui.panels.analysis import PANELS
-from calibgui.gui.panels.board_shape import BoardShapePanel
-from calibgui.gui.panels.methods import MethodsPanel
+from calibgui.gui.panels.answer.uncertainty import UncertaintyPanel
+from calibgui.gui.panels.answer.undistort import RECTIFIED, UndistortPanel
+from calibgui.gui.panels.evidence.board_shape import BoardShapePanel
+from calibgui.gui.panels.evidence.poses import PosesPanel
+from calibgui.gui.panels.method.methods import MethodsPanel
 from calibgui.gui.panels.on_demand import OnDemandPanel
-from calibgui.gui.panels.poses import PosesPanel
-from calibgui.gui.panels.uncertainty import UncertaintyPanel
-from calibgui.gui.panels.undistort import RECTIFIED, UndistortPanel
 from calibgui.gui.verdict.before_after import BeforeAndAfter
 from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.actions import show_dialog

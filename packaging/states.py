@@ -20,8 +20,8 @@ from PySide6.QtCore import QPoint, QTimer
 from PySide6.QtWidgets import QApplication, QMenu, QWidget
 from screenshots import Photographer, add_options, open_window, pause, wait
 
-from calibgui.app.document import Document
-from calibgui.app.resources import find_resource
+from calibgui.app.projects.document import Document
+from calibgui.app.system.resources import find_resource
 from calibgui.engine.boards import (
     AprilGrid,
     Board,
@@ -36,12 +36,12 @@ from calibgui.engine.errors import CalibrationError
 from calibgui.engine.geometry import Pose, rotation_from_vector
 from calibgui.engine.images import render_view, write_image
 from calibgui.gui.panels.analysis import PANELS
-from calibgui.gui.panels.lens_models import LensModelsPanel
+from calibgui.gui.panels.answer.result import ResultPanel
+from calibgui.gui.panels.answer.uncertainty import UncertaintyPanel
+from calibgui.gui.panels.evidence.poses import PosesPanel
+from calibgui.gui.panels.evidence.residuals import ResidualsPanel
+from calibgui.gui.panels.method.lens_models import LensModelsPanel
 from calibgui.gui.panels.on_demand import OnDemandPanel
-from calibgui.gui.panels.poses import PosesPanel
-from calibgui.gui.panels.residuals import ResidualsPanel
-from calibgui.gui.panels.result import ResultPanel
-from calibgui.gui.panels.uncertainty import UncertaintyPanel
 
 _BOARDS = {
     "charuco": Board(7, 10, 25.0, Charuco("DICT_4X4_50", 0.7)),

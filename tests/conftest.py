@@ -16,7 +16,7 @@ from pathlib import Path
 import pytest
 from hypothesis import HealthCheck, settings
 
-from calibgui.app.workers import do_tasks_here
+from calibgui.app.system.workers import do_tasks_here
 from calibgui.engine.kernels import COMPILED
 from tests.photographs import write_photographs
 

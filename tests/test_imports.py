@@ -136,7 +136,7 @@ def test_no_layer_imports_a_higher_one(copy: Path, tmp_path: Path) -> None:
         ("engine.geometry.frames", f"{ENGINE}.geometry", INSIDE),
         ("engine.calibration.options", f"{ENGINE}.camera", INSIDE),
         ("engine.calibration.refinement.schur", f"{ENGINE}.calibration.calibrate", CIRCLES),
-        ("app.paths", "calibgui.app.document", ""),
+        ("app.paths", "calibgui.app.projects.document", ""),
         ("engine.geometry.frames", "matplotlib", "The engine draws nothing"),
         ("engine.geometry.frames", "tqdm", "The engine draws nothing"),
         ("cli.console", "PySide6.QtCore", "Qt is imported"),
@@ -166,7 +166,7 @@ def test_rules_beside_the_layers(copy: Path, module: str, imported: str, contrac
 @pytest.mark.parametrize(
     ("module", "imported", "contract"),
     [
-        ("formats.exporter", "calibgui.app.paths", OUTER),
+        ("formats.exporter", "calibgui.app.photographs.paths", OUTER),
         ("engine.errors", f"{ENGINE}.calibration.result", ROOMS),
         ("gui.app", f"{ENGINE}.camera.camera", FACES),
         ("engine.calibration.refinement.schur", f"{ENGINE}.calibration.calibrate", CIRCLES),

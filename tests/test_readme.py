@@ -12,10 +12,10 @@ from typing import Any
 
 import pytest
 
-from calibgui.app.settings import MODEL_CHOICES
+from calibgui.app.calibrating.settings import MODEL_CHOICES
 from calibgui.cli.main import main
-from calibgui.engine.assessment import method_comparison
-from calibgui.engine.assessment.lens_choice import choose_lens
+from calibgui.engine.assessment.choices import method_comparison
+from calibgui.engine.assessment.choices.lens_choice import choose_lens
 from calibgui.engine.boards import KINDS
 from calibgui.formats import EXPORTERS
 
@@ -40,7 +40,7 @@ def elsewhere(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 def few_candidates(monkeypatch: pytest.MonkeyPatch) -> None:
     """Lens models and methods to compare are few, which is quick; tests/cli compares all."""
     few_lenses = partial(choose_lens, candidates=("lucchese", "pinhole"), folds=2)
-    monkeypatch.setattr("calibgui.app.lens_comparison.choose_lens", few_lenses)
+    monkeypatch.setattr("calibgui.app.calibrating.lens_comparison.choose_lens", few_lenses)
     listed = method_comparison.list_compared_methods()
     few_methods = {name: listed[name] for name in ("lucchese", "bouguet", "stein")}
     monkeypatch.setattr(method_comparison, "list_compared_methods", lambda: few_methods)

@@ -13,13 +13,13 @@ from functools import cache
 from pathlib import Path
 from typing import BinaryIO
 
-from calibgui.app.board_recognition import explain_missing_board, find_any_board
-from calibgui.app.detection import (
+from calibgui.app.photographs.board_recognition import explain_missing_board, find_any_board
+from calibgui.app.photographs.detection import (
     Detection,
     find_views,
 )
-from calibgui.app.paths import find_images
-from calibgui.app.regions import read_regions
+from calibgui.app.photographs.paths import find_images
+from calibgui.app.photographs.regions import read_regions
 from calibgui.cli.console import Console
 from calibgui.engine.arrays import GridSize
 from calibgui.engine.boards import CHECKERBOARD, Pattern

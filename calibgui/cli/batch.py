@@ -21,7 +21,7 @@ from calibgui.app.fleet import (
     read_manifest,
     run_batch,
 )
-from calibgui.app.outputs import check_outputs, check_writable
+from calibgui.app.outputs.output_files import check_outputs, check_writable
 from calibgui.cli.arguments import add_corner_method, add_grid_size_option, parse_positive
 from calibgui.cli.boards import add_board_options, is_pattern_open, read_pattern_options
 from calibgui.cli.calibrate import add_settings_options, read_settings

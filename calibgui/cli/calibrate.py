@@ -10,8 +10,8 @@ import argparse
 import contextlib
 from pathlib import Path
 
-from calibgui.app.redetection import calibrate_twice
-from calibgui.app.settings import (
+from calibgui.app.calibrating.redetection import calibrate_twice
+from calibgui.app.calibrating.settings import (
     AUTO_MODEL,
     DEFAULT_MODEL,
     MODEL_CHOICES,

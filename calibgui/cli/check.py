@@ -10,7 +10,7 @@ import argparse
 from pathlib import Path
 from typing import Any
 
-from calibgui.app.calibration import shorten_names
+from calibgui.app.calibrating.calibration import shorten_names
 from calibgui.cli.arguments import parse_positive
 from calibgui.cli.camera import add_camera_options, read_camera_and_warn
 from calibgui.cli.console import Console

@@ -12,8 +12,8 @@ import math
 from pathlib import Path
 from typing import Any
 
-from calibgui.app.method_comparison import compare_methods
-from calibgui.app.outputs import check_figure_name, save_figure
+from calibgui.app.calibrating.method_comparison import compare_methods
+from calibgui.app.outputs.output_files import check_figure_name, save_figure
 from calibgui.cli.arguments import is_corners_file
 from calibgui.cli.console import Console
 from calibgui.cli.corners import add_corner_options, check_corner_options, read_or_search

@@ -15,7 +15,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from calibgui.app.outputs import check_outputs
+from calibgui.app.outputs.output_files import check_outputs
 from calibgui.cli.arguments import add_export_option, parse_positive
 from calibgui.cli.camera import CAMERA_FILE, add_camera_options, read_camera_and_warn
 from calibgui.cli.console import Console

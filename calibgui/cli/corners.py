@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
-from calibgui.app.paths import describe_unread_folders, describe_unread_photographs
+from calibgui.app.photographs.paths import describe_unread_folders, describe_unread_photographs
 from calibgui.cli.arguments import (
     add_image_paths,
     add_search_options,

@@ -7,9 +7,9 @@ from pathlib import Path
 
 from matplotlib.figure import Figure
 
-from calibgui.app.calibration import calibrate_views
-from calibgui.app.outputs import check_outputs, make_folder, save_figure
-from calibgui.app.resources import find_resource, read_sample_truth
+from calibgui.app.calibrating.calibration import calibrate_views
+from calibgui.app.outputs.output_files import check_outputs, make_folder, save_figure
+from calibgui.app.system.resources import find_resource, read_sample_truth
 from calibgui.cli.arguments import search_images
 from calibgui.cli.console import Console
 from calibgui.cli.notices import explain_solve

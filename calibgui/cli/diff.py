@@ -15,7 +15,7 @@ from pathlib import Path
 
 import numpy as np
 
-from calibgui.app.outputs import check_figures, save_figure
+from calibgui.app.outputs.output_files import check_figures, save_figure
 from calibgui.cli.arguments import add_map_options, parse_positive
 from calibgui.cli.camera import CAMERA_FILE, add_size_option, read_camera_and_warn
 from calibgui.cli.console import Console

@@ -10,7 +10,7 @@ import argparse
 from pathlib import Path
 
 from calibgui.app.fleet.pages import write_fleet_pages
-from calibgui.app.outputs import check_outputs
+from calibgui.app.outputs.output_files import check_outputs
 from calibgui.cli.console import Console
 from calibgui.cli.outputs import add_overwrite_option
 from calibgui.formats.fleet_ledger import open_ledger

@@ -136,7 +136,7 @@ def _open_window(arguments: list[str]) -> int:
         with _keep_what_is_loaded():
             app = import_module("calibgui.gui.app")
     except ImportError as error:
-        missing = import_module("calibgui.app.missing_library")
+        missing = import_module("calibgui.app.system.missing_library")
         library = missing.describe_missing_library(str(error))
         # The error of a library that Qt lacks may name no package.
         if not library and (error.name or "").partition(".")[0] not in _WINDOW_PACKAGES:

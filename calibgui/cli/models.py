@@ -11,7 +11,7 @@ import argparse
 from pathlib import Path
 from typing import Any
 
-from calibgui.app.lens_comparison import compare_lenses
+from calibgui.app.calibrating.lens_comparison import compare_lenses
 from calibgui.cli.console import Console
 from calibgui.cli.corners import add_corner_options, check_corner_options, read_or_search
 from calibgui.cli.notices import explain_solve

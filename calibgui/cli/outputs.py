@@ -6,7 +6,7 @@ import argparse
 from collections.abc import Iterable
 from pathlib import Path
 
-from calibgui.app.outputs import check_outputs
+from calibgui.app.outputs.output_files import check_outputs
 from calibgui.cli.arguments import list_input_files
 from calibgui.engine.errors import CalibrationError
 from calibgui.formats import EXPORTERS

@@ -10,10 +10,10 @@ import argparse
 import re
 from pathlib import Path
 
-from calibgui.app.calibration import calibrate_views
-from calibgui.app.outputs import check_figures, check_outputs, make_folder, save_figure
-from calibgui.app.settings import Settings
-from calibgui.app.synthetic import run_synthetic_check
+from calibgui.app.calibrating.calibration import calibrate_views
+from calibgui.app.calibrating.settings import Settings
+from calibgui.app.calibrating.synthetic import run_synthetic_check
+from calibgui.app.outputs.output_files import check_figures, check_outputs, make_folder, save_figure
 from calibgui.cli.arguments import add_corner_method, search_images
 from calibgui.cli.console import Console
 from calibgui.cli.notices import explain_solve

@@ -5,8 +5,8 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from calibgui.app.paths import find_images
-from calibgui.app.resampling import rectify_files
+from calibgui.app.outputs.resampling import rectify_files
+from calibgui.app.photographs.paths import find_images
 from calibgui.cli.arguments import add_image_paths, parse_positive
 from calibgui.cli.console import Console
 from calibgui.cli.resampled import add_output_folder, report_written

@@ -6,7 +6,7 @@ import argparse
 from collections.abc import Sequence
 from pathlib import Path
 
-from calibgui.app.resampling import GEOMETRY_FILE, WrittenImage
+from calibgui.app.outputs.resampling import GEOMETRY_FILE, WrittenImage
 from calibgui.cli.console import Console
 from calibgui.cli.outputs import add_overwrite_option
 from calibgui.engine.errors import CalibrationError

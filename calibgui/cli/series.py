@@ -16,8 +16,7 @@ from typing import Any
 
 import numpy as np
 
-from calibgui.app.outputs import check_figures, check_outputs, save_figure
-from calibgui.app.series import (
+from calibgui.app.calibrating.series import (
     AnalysedSeries,
     Scalar,
     analyse_series,
@@ -27,6 +26,7 @@ from calibgui.app.series import (
     format_value,
     parse_value,
 )
+from calibgui.app.outputs.output_files import check_figures, check_outputs, save_figure
 from calibgui.cli.arguments import add_export_option
 from calibgui.cli.console import Console
 from calibgui.cli.outputs import add_overwrite_option

@@ -6,8 +6,8 @@ import argparse
 import math
 from pathlib import Path
 
-from calibgui.app.calibration import shorten_names
-from calibgui.app.outputs import check_figures, save_figure
+from calibgui.app.calibrating.calibration import shorten_names
+from calibgui.app.outputs.output_files import check_figures, save_figure
 from calibgui.cli.arguments import add_map_options, parse_positive
 from calibgui.cli.console import Console
 from calibgui.cli.outputs import add_overwrite_option

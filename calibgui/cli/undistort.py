@@ -6,8 +6,8 @@ import argparse
 import math
 from pathlib import Path
 
-from calibgui.app.paths import find_images
-from calibgui.app.resampling import Undistortion, undistort_files
+from calibgui.app.outputs.resampling import Undistortion, undistort_files
+from calibgui.app.photographs.paths import find_images
 from calibgui.cli.arguments import add_image_paths, parse_positive
 from calibgui.cli.camera import CAMERA_FILE, add_camera_options, read_camera_and_warn
 from calibgui.cli.console import Console

@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from calibgui.app.outputs import check_figures, save_figure
+from calibgui.app.outputs.output_files import check_figures, save_figure
 from calibgui.cli.arguments import parse_positive
 from calibgui.cli.console import Console
 from calibgui.cli.outputs import add_overwrite_option

@@ -87,7 +87,7 @@ class Change:
     """The difference from the last calibration of the same serial number.
 
     It is that of far points after the rotation that brings both cameras closest together
-    (``assessment/drift.py``).
+    (``assessment/changes/drift.py``).
     """
 
     against: str

@@ -49,7 +49,7 @@ class View:
     """(4, 2) corners of the region of interest that the user gave, px."""
     orientation: int | None = None
     """EXIF orientation by which the image's pixels are turned, 1 to 8, the same for all photographs
-    of a camera (``app/sensor_frame.py``); None for that which the file states."""
+    of a camera (``app/photographs/sensor_frame.py``); None for that which the file states."""
     enabled: bool = True
     """True if the user wants the view in the calibration."""
 

@@ -30,7 +30,7 @@ from typing import TYPE_CHECKING
 from calibgui.engine.faces import load_on_demand
 
 if TYPE_CHECKING:
-    from calibgui.engine.assessment.residual_statistics import (
+    from calibgui.engine.assessment.residuals.residual_statistics import (
         ResidualSummary as ResidualSummary,
         summarise_residuals as summarise_residuals,
     )
@@ -95,7 +95,7 @@ if TYPE_CHECKING:
 load_on_demand(
     __name__,
     {
-        "assessment.residual_statistics": ["ResidualSummary", "summarise_residuals"],
+        "assessment.residuals.residual_statistics": ["ResidualSummary", "summarise_residuals"],
         "boards.april_grid": ["AprilGrid"],
         "boards.board": ["Board"],
         "boards.charuco": ["Charuco"],

@@ -24,8 +24,8 @@ from PySide6.QtCore import (
 from PySide6.QtGui import QIcon
 from PySide6.QtWidgets import QApplication
 
-from calibgui.app.missing_library import describe_missing_library
-from calibgui.app.resources import find_resource
+from calibgui.app.system.missing_library import describe_missing_library
+from calibgui.app.system.resources import find_resource
 from calibgui.engine.errors import CalibrationError
 from calibgui.gui.widgets import theme
 from calibgui.gui.window.main_window import MainWindow

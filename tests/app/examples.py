@@ -8,9 +8,9 @@ from pathlib import Path
 
 import numpy as np
 
-from calibgui.app.calibration import calibrate_views
-from calibgui.app.project import Project, add_result
-from calibgui.app.settings import Settings
+from calibgui.app.calibrating.calibration import calibrate_views
+from calibgui.app.calibrating.settings import Settings
+from calibgui.app.projects.project import Project, add_result
 from calibgui.dataset import CornerSet, View, ViewStatus
 from calibgui.engine.boards.board import Board
 from calibgui.engine.camera.camera import Camera

@@ -30,6 +30,7 @@ from typing import Any, TypeVar
 
 import pytest
 
+from calibgui.app.calibrating.settings import Settings
 from calibgui.app.fleet import schedulers
 from calibgui.app.fleet.batch import run_batch
 from calibgui.app.fleet.camera_task import (
@@ -41,8 +42,7 @@ from calibgui.app.fleet.camera_task import (
 from calibgui.app.fleet.manifest import BoardSought, CameraTask, read_manifest
 from calibgui.app.fleet.photographs import list_photographs
 from calibgui.app.fleet.schedulers import open_scheduler
-from calibgui.app.settings import Settings
-from calibgui.app.workers import map_in_processes
+from calibgui.app.system.workers import map_in_processes
 from calibgui.dataset.fleet import FleetCamera, FleetStatus
 from calibgui.formats.fleet_ledger import open_ledger
 from tests.scenes.fleet import make_camera, write_camera

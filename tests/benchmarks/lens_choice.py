@@ -13,8 +13,8 @@ from collections import Counter
 import numpy as np
 
 from calibgui.engine.arrays import Array
-from calibgui.engine.assessment.cross_validation import resect_views
-from calibgui.engine.assessment.lens_choice import LensChoice, choose_lens_stepwise
+from calibgui.engine.assessment.choices.cross_validation import resect_views
+from calibgui.engine.assessment.choices.lens_choice import LensChoice, choose_lens_stepwise
 from calibgui.engine.calibration.observations import Observation
 from calibgui.engine.camera.camera import Camera
 from calibgui.engine.errors import CalibrationError

@@ -25,7 +25,7 @@ import cv2
 import numpy as np
 from threadpoolctl import threadpool_limits
 
-from calibgui.engine.assessment.cross_validation import resect_views
+from calibgui.engine.assessment.choices.cross_validation import resect_views
 from calibgui.engine.calibration.calibrate import calibrate
 from calibgui.engine.calibration.observations import Observation
 from calibgui.engine.calibration.result import ViewResiduals

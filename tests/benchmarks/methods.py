@@ -34,7 +34,7 @@ import scipy
 from threadpoolctl import threadpool_limits
 
 from calibgui.engine.arrays import Array
-from calibgui.engine.assessment.method_comparison import measure_radial_shift
+from calibgui.engine.assessment.choices.method_comparison import measure_radial_shift
 from calibgui.engine.calibration.calibrate import calibrate
 from calibgui.engine.calibration.methods import DEFAULT_METHOD, METHODS
 from calibgui.engine.calibration.methods.dlt import make_dlt

@@ -35,12 +35,12 @@ import cv2
 import numpy as np
 from threadpoolctl import threadpool_limits
 
-from calibgui.app.detection import find_views
+from calibgui.app.photographs.detection import find_views
 from calibgui.engine import detection
 from calibgui.engine.arrays import Array, Size
-from calibgui.engine.assessment.cross_validation import DEFAULT_FOLDS
-from calibgui.engine.assessment.lens_choice import choose_lens_stepwise
-from calibgui.engine.assessment.lens_trial import LensTrial
+from calibgui.engine.assessment.choices.cross_validation import DEFAULT_FOLDS
+from calibgui.engine.assessment.choices.lens_choice import choose_lens_stepwise
+from calibgui.engine.assessment.choices.lens_trial import LensTrial
 from calibgui.engine.boards import CHECKERBOARD, Charuco, Pattern
 from calibgui.engine.calibration.calibrate import calibrate
 from calibgui.engine.calibration.observations import Observation, pack_observations

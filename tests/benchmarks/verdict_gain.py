@@ -23,7 +23,7 @@ import numpy as np
 from threadpoolctl import threadpool_limits
 
 from calibgui.engine.assessment.action_trials import try_action
-from calibgui.engine.assessment.comparison import compare_cameras
+from calibgui.engine.assessment.changes.comparison import compare_cameras
 from calibgui.engine.assessment.verdict import judge_calibration
 from calibgui.engine.boards.shape import BoardShapePrior
 from calibgui.engine.calibration.calibrate import calibrate

@@ -9,7 +9,7 @@ import jsonschema
 import numpy as np
 import pytest
 
-from calibgui.app.synthetic import run_synthetic_check
+from calibgui.app.calibrating.synthetic import run_synthetic_check
 from calibgui.cli.main import main
 from calibgui.engine.boards.april_grid import AprilGrid
 from calibgui.engine.boards.board import Board

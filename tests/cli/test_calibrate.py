@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from calibgui.app.settings import Settings
+from calibgui.app.calibrating.settings import Settings
 from calibgui.cli.arguments import parse_length
 from calibgui.cli.main import main
 from calibgui.engine.boards.shape import BoardShapeModel, BoardShapePrior

@@ -11,7 +11,7 @@ import pytest
 
 from calibgui.cli.main import main
 from calibgui.engine import assessment
-from calibgui.engine.assessment import method_comparison
+from calibgui.engine.assessment.choices import method_comparison
 from calibgui.formats.result_json import read_result
 from calibgui.report.methods import QUANTITIES
 from tests.photographs import COUNT

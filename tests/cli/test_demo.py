@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from calibgui.app.resources import find_resource
+from calibgui.app.system.resources import find_resource
 from calibgui.cli.main import main
 from calibgui.engine.images.reading import read_image_size
 from calibgui.formats.result_json import read_result

@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from calibgui.app.detection import Detection
+from calibgui.app.photographs.detection import Detection
 from calibgui.cli import corners
 from calibgui.cli.arguments import search_images
 from calibgui.cli.main import main

@@ -19,7 +19,7 @@ from pathlib import Path
 import pytest
 
 from calibgui import __version__
-from calibgui.app.missing_library import describe_missing_library
+from calibgui.app.system.missing_library import describe_missing_library
 from calibgui.cli import corners, detect
 from calibgui.cli.main import main
 from calibgui.cli.parser import COMMANDS

@@ -8,10 +8,10 @@ from pathlib import Path
 
 import pytest
 
-from calibgui.app.settings import MODEL_CHOICES
+from calibgui.app.calibrating.settings import MODEL_CHOICES
 from calibgui.cli.main import main
-from calibgui.engine.assessment import lens_choice
-from calibgui.engine.assessment.lens_choice import choose_lens
+from calibgui.engine.assessment.choices import lens_choice
+from calibgui.engine.assessment.choices.lens_choice import choose_lens
 from calibgui.formats.result_json import read_result
 from tests.photographs import COUNT
 
@@ -23,7 +23,7 @@ FEW = ("lucchese", "brown-conrady-4", "pinhole")
 def few_lenses(monkeypatch: pytest.MonkeyPatch) -> None:
     """Let there be few lens models to choose from, which is quick."""
     few = partial(choose_lens, candidates=FEW, folds=2)
-    monkeypatch.setattr("calibgui.app.lens_comparison.choose_lens", few)
+    monkeypatch.setattr("calibgui.app.calibrating.lens_comparison.choose_lens", few)
     monkeypatch.setattr(lens_choice, "_FIRST_CANDIDATES", FEW)
 
 
@@ -117,7 +117,7 @@ def test_all_lens_models_are_compared(
     corners_file: Path, capsys: Capture, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     all_with_two_folds = partial(choose_lens, folds=2)
-    monkeypatch.setattr("calibgui.app.lens_comparison.choose_lens", all_with_two_folds)
+    monkeypatch.setattr("calibgui.app.calibrating.lens_comparison.choose_lens", all_with_two_folds)
     assert main(["models", str(corners_file), "--json"]) == 0
     found = json.loads(capsys.readouterr().out)
     tried = {row["model"] for row in found["models"]} | found["refused"].keys()

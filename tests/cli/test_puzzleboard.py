@@ -9,8 +9,8 @@ import jsonschema
 import numpy as np
 import pytest
 
-from calibgui.app.board_recognition import find_other_pattern
-from calibgui.app.detection import find_views
+from calibgui.app.photographs.board_recognition import find_other_pattern
+from calibgui.app.photographs.detection import find_views
 from calibgui.cli.main import main
 from calibgui.engine.boards.board import Board
 from calibgui.engine.boards.checkerboard import CHECKERBOARD

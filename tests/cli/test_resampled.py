@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from calibgui.app.resampling import GEOMETRY_FILE
+from calibgui.app.outputs.resampling import GEOMETRY_FILE
 from calibgui.cli.main import main
 from calibgui.engine.images.reading import read_image_size
 from tests.photographs import CAMERA, COUNT

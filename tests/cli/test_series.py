@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 from PIL import Image
 
-from calibgui.app.series import (
+from calibgui.app.calibrating.series import (
     Scalar,
     analyse_series,
     choose_axis_text,

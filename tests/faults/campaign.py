@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from calibgui.engine.assessment.findings import list_findings
+from calibgui.engine.assessment.causes.findings import list_findings
 from calibgui.engine.calibration.calibrate import calibrate
 from calibgui.engine.calibration.result import Calibration
 from calibgui.engine.camera.camera import Camera

@@ -11,7 +11,7 @@ import pytest
 
 from calibgui.dataset import Result
 from calibgui.engine.arrays import Array
-from calibgui.engine.assessment.comparison import compare_cameras
+from calibgui.engine.assessment.changes.comparison import compare_cameras
 from calibgui.engine.camera.camera import Camera
 from calibgui.engine.camera.projection import pixels_from_rays
 from calibgui.engine.errors import CalibrationError

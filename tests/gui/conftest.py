@@ -20,7 +20,7 @@ from PySide6.QtCore import QEvent, QSettings, QTimer
 from PySide6.QtWidgets import QApplication, QWidget
 from pytestqt.qtbot import QtBot
 
-from calibgui.app.document import Document
+from calibgui.app.projects.document import Document
 from calibgui.gui.jobs.jobs import Jobs
 from calibgui.gui.widgets import theme
 from calibgui.gui.window.main_window import MainWindow
@@ -72,7 +72,7 @@ def search_in_threads(monkeypatch: pytest.MonkeyPatch) -> None:
 
     Modules that are about the processes themselves put a fixture of this name in its place.
     """
-    monkeypatch.setattr("calibgui.app.workers._serial", SimpleNamespace(is_on=True))
+    monkeypatch.setattr("calibgui.app.system.workers._serial", SimpleNamespace(is_on=True))
 
 
 @pytest.fixture(autouse=True)

@@ -19,10 +19,10 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QComboBox, QInputDialog
 from pytestqt.qtbot import QtBot
 
-from calibgui.app.autosave import find_unsaved_work, get_autosave_path, read_unsaved_work
-from calibgui.app.project import Project, add_images, set_grid_size
-from calibgui.app.project_file import encode_project, read_project, write_project
-from calibgui.app.resources import find_resource
+from calibgui.app.projects.autosave import find_unsaved_work, get_autosave_path, read_unsaved_work
+from calibgui.app.projects.project import Project, add_images, set_grid_size
+from calibgui.app.projects.project_file import encode_project, read_project, write_project
+from calibgui.app.system.resources import find_resource
 from calibgui.dataset import ViewStatus
 from calibgui.engine.calibration.result import Cost
 from calibgui.formats.json_document import dumps
@@ -67,7 +67,7 @@ import hashlib, signal, sys
 from pathlib import Path
 from PySide6.QtCore import QEventLoop, QTimer
 from PySide6.QtWidgets import QApplication
-from calibgui.app.project_file import encode_project
+from calibgui.app.projects.project_file import encode_project
 from calibgui.formats.json_document import dumps
 from calibgui.gui.panels.analysis import PANELS
 from calibgui.gui.window.main_window import MainWindow

@@ -8,12 +8,12 @@ from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QApplication, QPushButton, QWidget
 from pytestqt.qtbot import QtBot
 
-from calibgui.app.recent import Recent
-from calibgui.gui.panels.distortion import DistortionPanel
-from calibgui.gui.panels.lens_models import LensModelsPanel
-from calibgui.gui.panels.poses import PosesPanel
-from calibgui.gui.panels.stage_one import StageOnePanel
-from calibgui.gui.panels.uncertainty import UncertaintyPanel
+from calibgui.app.projects.recent import Recent
+from calibgui.gui.panels.answer.uncertainty import UncertaintyPanel
+from calibgui.gui.panels.evidence.poses import PosesPanel
+from calibgui.gui.panels.method.distortion import DistortionPanel
+from calibgui.gui.panels.method.lens_models import LensModelsPanel
+from calibgui.gui.panels.method.stage_one import StageOnePanel
 from calibgui.gui.widgets.focus_ring import FocusRing
 from calibgui.gui.window.main_window import MainWindow
 

@@ -11,10 +11,10 @@ from pytestqt.qtbot import QtBot
 
 from calibgui.gui.canvas.layers import trace_hull
 from calibgui.gui.images.image_model import Role
-from calibgui.gui.panels.coverage import CoveragePanel
-from calibgui.gui.panels.poses import PosesPanel
-from calibgui.gui.panels.residuals import ResidualsPanel
-from calibgui.gui.panels.stage_one import StageOnePanel
+from calibgui.gui.panels.evidence.coverage import CoveragePanel
+from calibgui.gui.panels.evidence.poses import PosesPanel
+from calibgui.gui.panels.evidence.residuals import ResidualsPanel
+from calibgui.gui.panels.method.stage_one import StageOnePanel
 from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.picture import make_qimage
 from calibgui.gui.window.main_window import MainWindow

@@ -12,9 +12,9 @@ from PySide6.QtWidgets import QAbstractButton, QApplication, QLabel, QMenu, QTab
 from pytestqt.qtbot import QtBot
 
 from calibgui.gui.panels.analysis import PANELS
+from calibgui.gui.panels.evidence.residuals import ResidualsPanel
 from calibgui.gui.panels.groups import Group
 from calibgui.gui.panels.panel import Panel
-from calibgui.gui.panels.residuals import ResidualsPanel
 from calibgui.gui.window.main_window import MainWindow
 
 

@@ -10,9 +10,9 @@ from PySide6.QtCore import Qt, QTimer
 from PySide6.QtWidgets import QApplication, QFileDialog, QLineEdit, QWidget
 from pytestqt.qtbot import QtBot
 
-from calibgui.app.document import Document
-from calibgui.app.project import Project
-from calibgui.app.settings import DEFAULT_SETTINGS
+from calibgui.app.calibrating.settings import DEFAULT_SETTINGS
+from calibgui.app.projects.document import Document
+from calibgui.app.projects.project import Project
 from calibgui.engine.boards import Board
 from calibgui.engine.camera import Camera
 from calibgui.engine.images import Appearance, render_view, write_image

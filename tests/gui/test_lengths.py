@@ -13,17 +13,17 @@ from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QLabel, QTableView, QTextBrowser, QWidget
 from pytestqt.qtbot import QtBot
 
-from calibgui.app.calibration import calibrate_views
-from calibgui.app.document import Document
-from calibgui.app.project import Project, record_result
-from calibgui.app.settings import Settings
+from calibgui.app.calibrating.calibration import calibrate_views
+from calibgui.app.calibrating.settings import Settings
+from calibgui.app.projects.document import Document
+from calibgui.app.projects.project import Project, record_result
 from calibgui.dataset import CornerSet
 from calibgui.engine.boards import BoardShapeModel
 from calibgui.gui.panels.analysis import PANELS
-from calibgui.gui.panels.board_shape import BoardShapePanel
+from calibgui.gui.panels.answer.uncertainty import UncertaintyPanel
+from calibgui.gui.panels.evidence.board_shape import BoardShapePanel
+from calibgui.gui.panels.evidence.poses import PosesPanel
 from calibgui.gui.panels.panel import Panel
-from calibgui.gui.panels.poses import PosesPanel
-from calibgui.gui.panels.uncertainty import UncertaintyPanel
 from calibgui.gui.widgets.plots import Plot
 from calibgui.gui.window.main_window import MainWindow
 from calibgui.report.printed_page import make_printed_page

@@ -19,22 +19,22 @@ from PySide6.QtWidgets import (
 )
 from pytestqt.qtbot import QtBot
 
-from calibgui.app.document import Document
-from calibgui.app.project import Unit, change_views
-from calibgui.app.project_file import write_project
-from calibgui.app.recent import list_recent_projects
+from calibgui.app.projects.document import Document
+from calibgui.app.projects.project import Unit, change_views
+from calibgui.app.projects.project_file import write_project
+from calibgui.app.projects.recent import list_recent_projects
 from calibgui.dataset import View, ViewStatus
 from calibgui.engine.calibration.result import Status
 from calibgui.engine.errors import CalibrationError
 from calibgui.gui.dialogs.bug_dialog import BugDialog
 from calibgui.gui.dialogs.help_dialog import HelpDialog
 from calibgui.gui.dialogs.print_dialog import PrintDialog
-from calibgui.gui.panels.compare import ComparePanel
-from calibgui.gui.panels.histograms import HistogramsPanel
-from calibgui.gui.panels.poses import PosesPanel
-from calibgui.gui.panels.residuals import ResidualsPanel
-from calibgui.gui.panels.result import ResultPanel
-from calibgui.gui.panels.split import Split
+from calibgui.gui.panels.answer.compare import ComparePanel
+from calibgui.gui.panels.answer.result import ResultPanel
+from calibgui.gui.panels.evidence.histograms import HistogramsPanel
+from calibgui.gui.panels.evidence.poses import PosesPanel
+from calibgui.gui.panels.evidence.residuals import ResidualsPanel
+from calibgui.gui.panels.parts.split import Split
 from calibgui.gui.widgets import questions, theme
 from calibgui.gui.widgets.narrow_combo import NarrowCombo
 from calibgui.gui.window.main_window import MainWindow

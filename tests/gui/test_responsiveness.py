@@ -18,11 +18,11 @@ import pytest
 from PySide6.QtCore import QTimer
 from pytestqt.qtbot import QtBot
 
-from calibgui.app.calibration import calibrate_views
-from calibgui.app.project import Project, add_result
-from calibgui.app.project_file import write_project
+from calibgui.app.calibrating.calibration import calibrate_views
+from calibgui.app.projects.project import Project, add_result
+from calibgui.app.projects.project_file import write_project
 from calibgui.dataset import CornerSet
-from calibgui.gui.panels.synthetic import SyntheticPanel
+from calibgui.gui.panels.method.synthetic import SyntheticPanel
 from calibgui.gui.window.main_window import MainWindow
 from tests.app import examples
 from tests.engine import scenes

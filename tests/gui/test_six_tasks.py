@@ -21,13 +21,13 @@ from PySide6.QtWidgets import QFileDialog, QPushButton
 from pytestqt.qtbot import QtBot
 from scipy.interpolate import LinearNDInterpolator
 
-from calibgui.app.resources import find_resource
+from calibgui.app.system.resources import find_resource
 from calibgui.engine.arrays import Array
 from calibgui.engine.boards import Board
 from calibgui.engine.camera import Camera
 from calibgui.engine.geometry import Pose
 from calibgui.engine.images import read_image, render_view, write_image
-from calibgui.gui.panels.coverage import CoveragePanel
+from calibgui.gui.panels.evidence.coverage import CoveragePanel
 from calibgui.gui.verdict.before_after import BeforeAndAfter
 from calibgui.gui.window.main_window import MainWindow
 from tests.engine import scenes

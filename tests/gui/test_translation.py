@@ -29,9 +29,9 @@ from PySide6.QtWidgets import (
 from pytestqt.qtbot import QtBot
 
 import calibgui.gui
-from calibgui.app.document import Document
-from calibgui.app.settings import MODEL_CHOICES
-from calibgui.engine.assessment.residual_checks import NoiseReport
+from calibgui.app.calibrating.settings import MODEL_CHOICES
+from calibgui.app.projects.document import Document
+from calibgui.engine.assessment.residuals.residual_checks import NoiseReport
 from calibgui.engine.boards.board import Board
 from calibgui.engine.calibration.methods import METHODS
 from calibgui.engine.images.reading import Image
@@ -41,9 +41,9 @@ from calibgui.gui.dialogs.bug_dialog import BugDialog
 from calibgui.gui.dialogs.export_dialog import ExportDialog
 from calibgui.gui.dialogs.help_dialog import HelpDialog
 from calibgui.gui.dialogs.print_dialog import PrintDialog
-from calibgui.gui.panels import residuals
 from calibgui.gui.panels.analysis import PANELS
-from calibgui.gui.panels.undistort import UndistortPanel
+from calibgui.gui.panels.answer.undistort import UndistortPanel
+from calibgui.gui.panels.evidence import residuals
 from calibgui.gui.widgets.plots import Plot
 from calibgui.gui.window.main_window import MainWindow
 from calibgui.report.lens_models import describe_lens_model, get_lens_title

@@ -15,16 +15,16 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QFileDialog, QInputDialog
 from pytestqt.qtbot import QtBot
 
-from calibgui.app import redetection
-from calibgui.app.project import Project
-from calibgui.app.project_file import encode_project
-from calibgui.app.resources import find_resource
+from calibgui.app.calibrating import redetection
+from calibgui.app.projects.project import Project
+from calibgui.app.projects.project_file import encode_project
+from calibgui.app.system.resources import find_resource
 from calibgui.engine.calibration.result import Status
 from calibgui.formats.json_document import dumps
 from calibgui.formats.result_json import read_result
 from calibgui.gui.canvas.layers import Layer
 from calibgui.gui.images.image_model import Role
-from calibgui.gui.panels.convergence import ConvergencePanel
+from calibgui.gui.panels.method.convergence import ConvergencePanel
 from calibgui.gui.session import calibrator
 from calibgui.gui.window.main_window import MainWindow
 from tests.gui.hand import Hand, outermost

@@ -7,8 +7,8 @@ from unittest.mock import patch
 
 import numpy as np
 
-from calibgui.engine.assessment import method_comparison
-from calibgui.engine.assessment.method_comparison import MethodComparison
+from calibgui.engine.assessment.choices import method_comparison
+from calibgui.engine.assessment.choices.method_comparison import MethodComparison
 from tests.engine.scenes import VGA, brown, scene
 
 TRUTH = brown()

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from calibgui.app.calibration import calibrate_views
-from calibgui.app.settings import Settings
+from calibgui.app.calibrating.calibration import calibrate_views
+from calibgui.app.calibrating.settings import Settings
 from calibgui.dataset import CornerSet, Result, View, ViewStatus
 from calibgui.engine.boards.board import Board
 from calibgui.engine.calibration.result import Cost

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 from scipy.optimize import brentq
 
-from calibgui.engine.assessment.lens_choice import LensChoice, choose_lens
-from calibgui.engine.assessment.lens_trial import LensTrial
+from calibgui.engine.assessment.choices.lens_choice import LensChoice, choose_lens
+from calibgui.engine.assessment.choices.lens_trial import LensTrial
 from calibgui.engine.calibration.observations import Observation
 from calibgui.engine.camera.camera import Camera
 from calibgui.engine.camera.models import MODELS

@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from calibgui.engine.assessment.method_comparison import MethodComparison
+from calibgui.engine.assessment.choices.method_comparison import MethodComparison
 from calibgui.report.methods import (
     QUANTITIES,
     MethodRow,

@@ -9,16 +9,16 @@ from typing import cast
 import numpy as np
 import pytest
 
-from calibgui.engine.assessment.comparison import compare_cameras
-from calibgui.engine.assessment.cross_validation import (
+from calibgui.engine.assessment.causes.finding import find_explanation
+from calibgui.engine.assessment.causes.findings import list_findings
+from calibgui.engine.assessment.changes.comparison import compare_cameras
+from calibgui.engine.assessment.choices.cross_validation import (
     Bootstrap,
     bootstrap_views,
     choose_board_shape,
     cross_validate,
 )
-from calibgui.engine.assessment.finding import find_explanation
-from calibgui.engine.assessment.findings import list_findings
-from calibgui.engine.assessment.residual_checks import check_residuals
+from calibgui.engine.assessment.residuals.residual_checks import check_residuals
 from calibgui.engine.calibration.calibrate import calibrate
 from calibgui.engine.calibration.observations import Observation
 from calibgui.engine.calibration.result import Calibration

@@ -12,7 +12,7 @@ import pytest
 
 from calibgui import engine
 from calibgui.dataset import Result, View, ViewStatus
-from calibgui.engine.assessment.error_sources import ErrorSources
+from calibgui.engine.assessment.residuals.error_sources import ErrorSources
 from calibgui.engine.boards.shape import BoardShape, BoardShapeModel
 from calibgui.engine.calibration.observations import Observation
 from calibgui.engine.calibration.result import Status, Undetermined

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from calibgui import engine
-from calibgui.app.calibration import calibrate_views
-from calibgui.app.settings import Settings
+from calibgui.app.calibrating.calibration import calibrate_views
+from calibgui.app.calibrating.settings import Settings
 from calibgui.dataset import CornerSet, Result, View, ViewStatus
 from calibgui.engine.boards.board import Board
 from calibgui.engine.boards.pattern import Symmetry

@@ -25,8 +25,8 @@ from calibgui.app.fleet.limits import NO_LIMITS, Limits, list_failures
 from calibgui.app.fleet.manifest import CameraTask
 from calibgui.app.fleet.photographs import list_photographs
 from calibgui.app.fleet.schedulers import Scheduler
-from calibgui.app.paths import is_remote
-from calibgui.app.workers import Crashed
+from calibgui.app.photographs.paths import is_remote
+from calibgui.app.system.workers import Crashed
 from calibgui.dataset.fleet import FleetCamera
 from calibgui.engine.arrays import Size
 from calibgui.engine.errors import CalibrationError, Progress

@@ -19,12 +19,7 @@ from urllib.parse import quote
 
 import numpy as np
 
-from calibgui.app.board_recognition import explain_missing_board, find_any_board
-from calibgui.app.detection import (
-    Detection,
-    find_views,
-    search_view,
-)
+from calibgui.app.calibrating.redetection import calibrate_twice
 from calibgui.app.fleet.manifest import BoardSought, CameraTask
 from calibgui.app.fleet.photographs import (
     Photograph,
@@ -34,9 +29,14 @@ from calibgui.app.fleet.photographs import (
     list_photographs,
     read_exif_date,
 )
-from calibgui.app.outputs import make_folder
-from calibgui.app.redetection import calibrate_twice
-from calibgui.app.workers import do_tasks_here
+from calibgui.app.outputs.output_files import make_folder
+from calibgui.app.photographs.board_recognition import explain_missing_board, find_any_board
+from calibgui.app.photographs.detection import (
+    Detection,
+    find_views,
+    search_view,
+)
+from calibgui.app.system.workers import do_tasks_here
 from calibgui.dataset import Result, View, ViewStatus, list_installed_versions
 from calibgui.dataset.fleet import (
     Change,

@@ -26,8 +26,13 @@ from datetime import UTC, date, datetime
 from pathlib import Path
 from typing import Any
 
-from calibgui.app.paths import is_remote
-from calibgui.app.settings import AUTO_MODEL, Settings, check_settings, resolve_model_choice
+from calibgui.app.calibrating.settings import (
+    AUTO_MODEL,
+    Settings,
+    check_settings,
+    resolve_model_choice,
+)
+from calibgui.app.photographs.paths import is_remote
 from calibgui.dataset.fleet import FleetEntry
 from calibgui.engine.arrays import GridSize
 from calibgui.engine.boards import CHECKERBOARD, KINDS, Pattern

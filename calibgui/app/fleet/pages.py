@@ -6,7 +6,7 @@ import os
 from pathlib import Path
 from urllib.parse import quote
 
-from calibgui.app.outputs import make_folder
+from calibgui.app.outputs.output_files import make_folder
 from calibgui.engine.files import write_atomically
 from calibgui.report.fleet_overview import FleetOverview
 from calibgui.report.fleet_page import FleetPages

@@ -15,9 +15,9 @@ from dataclasses import dataclass
 from pathlib import Path, PurePosixPath
 from typing import Any
 
-from calibgui.app.image_store import compute_file_digest
-from calibgui.app.missing_library import describe_missing_extra
-from calibgui.app.paths import find_images, is_remote, make_natural_key
+from calibgui.app.photographs.image_store import compute_file_digest
+from calibgui.app.photographs.paths import find_images, is_remote, make_natural_key
+from calibgui.app.system.missing_library import describe_missing_extra
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.images import FORMATS, read_image_header
 

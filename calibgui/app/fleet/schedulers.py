@@ -13,9 +13,9 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any, Protocol, TypeVar
 
-from calibgui.app.kernel_preparation import prepare_finder
-from calibgui.app.missing_library import describe_missing_extra
-from calibgui.app.workers import Crashed, map_in_processes
+from calibgui.app.system.kernel_preparation import prepare_finder
+from calibgui.app.system.missing_library import describe_missing_extra
+from calibgui.app.system.workers import Crashed, map_in_processes
 from calibgui.engine.errors import CalibrationError
 
 if TYPE_CHECKING:

@@ -21,7 +21,7 @@ from typing import TYPE_CHECKING
 from calibgui.engine.faces import load_on_demand
 
 if TYPE_CHECKING:
-    from calibgui.engine.assessment.calibration_check import (
+    from calibgui.engine.assessment.changes.calibration_check import (
         CONFIDENCE as CONFIDENCE,
         DEFAULT_LIMIT as DEFAULT_LIMIT,
         CalibrationCheck as CalibrationCheck,
@@ -30,11 +30,11 @@ if TYPE_CHECKING:
         Weakness as Weakness,
         check_calibration as check_calibration,
     )
-    from calibgui.engine.assessment.comparison import (
+    from calibgui.engine.assessment.changes.comparison import (
         CameraDifference as CameraDifference,
         compare_cameras as compare_cameras,
     )
-    from calibgui.engine.assessment.cross_validation import (
+    from calibgui.engine.assessment.choices.cross_validation import (
         BoardShapeChoice as BoardShapeChoice,
         Bootstrap as Bootstrap,
         CrossValidation as CrossValidation,
@@ -43,18 +43,18 @@ if TYPE_CHECKING:
         choose_board_shape as choose_board_shape,
         cross_validate as cross_validate,
     )
-    from calibgui.engine.assessment.drift import (
+    from calibgui.engine.assessment.changes.drift import (
         SIGNIFICANCE as SIGNIFICANCE,
         Drift as Drift,
         UncertainCamera as UncertainCamera,
         choose_covariance as choose_covariance,
         measure_drift as measure_drift,
     )
-    from calibgui.engine.assessment.error_sources import (
+    from calibgui.engine.assessment.residuals.error_sources import (
         ErrorSources as ErrorSources,
         separate_error_sources as separate_error_sources,
     )
-    from calibgui.engine.assessment.finding import (
+    from calibgui.engine.assessment.causes.finding import (
         MIN_HARM_PX as MIN_HARM_PX,
         REMEDY_OF_LENS as REMEDY_OF_LENS,
         Action as Action,
@@ -63,22 +63,22 @@ if TYPE_CHECKING:
         Finding as Finding,
         find_explanation as find_explanation,
     )
-    from calibgui.engine.assessment.findings import list_findings as list_findings
-    from calibgui.engine.assessment.fleet_spread import (
+    from calibgui.engine.assessment.causes.findings import list_findings as list_findings
+    from calibgui.engine.assessment.changes.fleet_spread import (
         MIN_FLEET as MIN_FLEET,
         OUTLIER_Z as OUTLIER_Z,
         FleetSpread as FleetSpread,
         measure_fleet_spread as measure_fleet_spread,
     )
-    from calibgui.engine.assessment.lens_choice import (
+    from calibgui.engine.assessment.choices.lens_choice import (
         CANDIDATES as CANDIDATES,
         SIMPLEST_MODEL as SIMPLEST_MODEL,
         LensChoice as LensChoice,
         choose_lens as choose_lens,
         choose_lens_stepwise as choose_lens_stepwise,
     )
-    from calibgui.engine.assessment.lens_trial import LensTrial as LensTrial
-    from calibgui.engine.assessment.method_comparison import (
+    from calibgui.engine.assessment.choices.lens_trial import LensTrial as LensTrial
+    from calibgui.engine.assessment.choices.method_comparison import (
         Distortion as Distortion,
         LineTrial as LineTrial,
         MethodComparison as MethodComparison,
@@ -86,17 +86,17 @@ if TYPE_CHECKING:
         compare_methods as compare_methods,
         measure_radial_shift as measure_radial_shift,
     )
-    from calibgui.engine.assessment.outliers import (
+    from calibgui.engine.assessment.residuals.outliers import (
         Rejection as Rejection,
         Screening as Screening,
         screen_outliers as screen_outliers,
     )
-    from calibgui.engine.assessment.residual_checks import (
+    from calibgui.engine.assessment.residuals.residual_checks import (
         NoiseCheck as NoiseCheck,
         NoiseReport as NoiseReport,
         check_residuals as check_residuals,
     )
-    from calibgui.engine.assessment.residual_statistics import (
+    from calibgui.engine.assessment.residuals.residual_statistics import (
         Histogram as Histogram,
         ResidualSummary as ResidualSummary,
         make_component_histogram as make_component_histogram,
@@ -104,7 +104,7 @@ if TYPE_CHECKING:
         stack_residuals as stack_residuals,
         summarise_residuals as summarise_residuals,
     )
-    from calibgui.engine.assessment.series import (
+    from calibgui.engine.assessment.changes.series import (
         MIN_SETTINGS as MIN_SETTINGS,
         SPLINE as SPLINE,
         Series as Series,
@@ -118,12 +118,14 @@ if TYPE_CHECKING:
         Verdict as Verdict,
         judge_calibration as judge_calibration,
     )
-    from calibgui.engine.assessment.view_weights import calibrate_weighted as calibrate_weighted
+    from calibgui.engine.assessment.residuals.view_weights import (
+        calibrate_weighted as calibrate_weighted,
+    )
 
 load_on_demand(
     __name__,
     {
-        "calibration_check": [
+        "changes.calibration_check": [
             "CONFIDENCE",
             "DEFAULT_LIMIT",
             "CalibrationCheck",
@@ -132,8 +134,8 @@ load_on_demand(
             "Weakness",
             "check_calibration",
         ],
-        "comparison": ["CameraDifference", "compare_cameras"],
-        "cross_validation": [
+        "changes.comparison": ["CameraDifference", "compare_cameras"],
+        "choices.cross_validation": [
             "BoardShapeChoice",
             "Bootstrap",
             "CrossValidation",
@@ -142,9 +144,15 @@ load_on_demand(
             "choose_board_shape",
             "cross_validate",
         ],
-        "drift": ["SIGNIFICANCE", "Drift", "UncertainCamera", "choose_covariance", "measure_drift"],
-        "error_sources": ["ErrorSources", "separate_error_sources"],
-        "finding": [
+        "changes.drift": [
+            "SIGNIFICANCE",
+            "Drift",
+            "UncertainCamera",
+            "choose_covariance",
+            "measure_drift",
+        ],
+        "residuals.error_sources": ["ErrorSources", "separate_error_sources"],
+        "causes.finding": [
             "MIN_HARM_PX",
             "REMEDY_OF_LENS",
             "Action",
@@ -153,17 +161,17 @@ load_on_demand(
             "Finding",
             "find_explanation",
         ],
-        "findings": ["list_findings"],
-        "fleet_spread": ["MIN_FLEET", "OUTLIER_Z", "FleetSpread", "measure_fleet_spread"],
-        "lens_choice": [
+        "causes.findings": ["list_findings"],
+        "changes.fleet_spread": ["MIN_FLEET", "OUTLIER_Z", "FleetSpread", "measure_fleet_spread"],
+        "choices.lens_choice": [
             "CANDIDATES",
             "SIMPLEST_MODEL",
             "LensChoice",
             "choose_lens",
             "choose_lens_stepwise",
         ],
-        "lens_trial": ["LensTrial"],
-        "method_comparison": [
+        "choices.lens_trial": ["LensTrial"],
+        "choices.method_comparison": [
             "Distortion",
             "LineTrial",
             "MethodComparison",
@@ -171,9 +179,9 @@ load_on_demand(
             "compare_methods",
             "measure_radial_shift",
         ],
-        "outliers": ["Rejection", "Screening", "screen_outliers"],
-        "residual_checks": ["NoiseCheck", "NoiseReport", "check_residuals"],
-        "residual_statistics": [
+        "residuals.outliers": ["Rejection", "Screening", "screen_outliers"],
+        "residuals.residual_checks": ["NoiseCheck", "NoiseReport", "check_residuals"],
+        "residuals.residual_statistics": [
             "Histogram",
             "ResidualSummary",
             "make_component_histogram",
@@ -181,8 +189,8 @@ load_on_demand(
             "stack_residuals",
             "summarise_residuals",
         ],
-        "series": ["MIN_SETTINGS", "SPLINE", "Series", "Setting", "fit_series"],
+        "changes.series": ["MIN_SETTINGS", "SPLINE", "Series", "Setting", "fit_series"],
         "verdict": ["MIN_VIEWS_TO_BE_GOOD", "Grade", "PixelError", "Verdict", "judge_calibration"],
-        "view_weights": ["calibrate_weighted"],
+        "residuals.view_weights": ["calibrate_weighted"],
     },
 )

@@ -9,11 +9,11 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 from typing import Any, NamedTuple
 
-from calibgui.engine.assessment.cross_validation import choose_board_shape
-from calibgui.engine.assessment.finding import Action, ActionKind
-from calibgui.engine.assessment.lens_choice import choose_lens_stepwise
-from calibgui.engine.assessment.outliers import screen_outliers, select_corners
-from calibgui.engine.assessment.view_weights import calibrate_weighted
+from calibgui.engine.assessment.causes.finding import Action, ActionKind
+from calibgui.engine.assessment.choices.cross_validation import choose_board_shape
+from calibgui.engine.assessment.choices.lens_choice import choose_lens_stepwise
+from calibgui.engine.assessment.residuals.outliers import screen_outliers, select_corners
+from calibgui.engine.assessment.residuals.view_weights import calibrate_weighted
 from calibgui.engine.boards.shape import BoardShapeModel
 from calibgui.engine.calibration.calibrate import calibrate
 from calibgui.engine.calibration.observations import Observation

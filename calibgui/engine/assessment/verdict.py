@@ -41,9 +41,9 @@ import numpy as np
 
 from calibgui.engine.arrays import Array, BoolArray, Size
 from calibgui.engine.assessment.action_trials import Trial, try_action_safely
-from calibgui.engine.assessment.comparison import compare_cameras, find_covered_pixels
-from calibgui.engine.assessment.finding import Action, ActionKind, Cause, Finding
-from calibgui.engine.assessment.findings import list_findings
+from calibgui.engine.assessment.causes.finding import Action, ActionKind, Cause, Finding
+from calibgui.engine.assessment.causes.findings import list_findings
+from calibgui.engine.assessment.changes.comparison import compare_cameras, find_covered_pixels
 from calibgui.engine.assessment.lens_extrapolation import map_disagreement
 from calibgui.engine.calibration.observations import Observation
 from calibgui.engine.calibration.result import Calibration, Status

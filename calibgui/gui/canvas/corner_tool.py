@@ -8,7 +8,7 @@ import numpy as np
 from PySide6.QtCore import QObject, QPointF, QRectF, Qt, Signal
 from PySide6.QtGui import QKeyEvent, QMouseEvent, QPainter
 
-from calibgui.app.marking import find_missing_corners, refine_corner
+from calibgui.app.photographs.marking import find_missing_corners, refine_corner
 from calibgui.engine.arrays import Array, GreyImage
 from calibgui.engine.detection import Corners
 from calibgui.gui.canvas import layers

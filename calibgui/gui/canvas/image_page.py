@@ -10,7 +10,7 @@ from PySide6.QtCore import QEvent, QPointF, QSize, Qt, Signal
 from PySide6.QtGui import QAction, QPolygonF
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QToolBar, QWidget
 
-from calibgui.app.project import Project
+from calibgui.app.projects.project import Project
 from calibgui.dataset import Result, View, ViewStatus
 from calibgui.engine.images import Image
 from calibgui.gui.canvas.canvas import Canvas

@@ -9,8 +9,8 @@ from functools import partial
 import numpy as np
 from PySide6.QtCore import QObject, Signal
 
-from calibgui.app import marking
-from calibgui.app.project import change_views
+from calibgui.app.photographs import marking
+from calibgui.app.projects.project import change_views
 from calibgui.dataset import View, ViewStatus
 from calibgui.engine.arrays import Array, IntArray
 from calibgui.engine.detection import Corners

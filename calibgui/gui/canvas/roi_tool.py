@@ -6,7 +6,7 @@ import numpy as np
 from PySide6.QtCore import QObject, QPointF, QRectF, Qt, Signal
 from PySide6.QtGui import QKeyEvent, QMouseEvent, QPainter
 
-from calibgui.app.marking import find_nearest_corner, project_marked_board
+from calibgui.app.photographs.marking import find_nearest_corner, project_marked_board
 from calibgui.engine.arrays import Array, GreyImage, GridSize
 from calibgui.engine.detection import Corners
 from calibgui.gui.canvas import layers

@@ -9,17 +9,23 @@ from PySide6.QtCore import QObject, Signal
 from PySide6.QtGui import QGuiApplication
 from PySide6.QtWidgets import QFileDialog, QInputDialog, QLineEdit, QWidget
 
-from calibgui.app.autosave import get_discarded_folder
-from calibgui.app.document import Document
-from calibgui.app.moved_images import find_moved_images, list_missing_images
-from calibgui.app.output_folder import ForeignFilesError
-from calibgui.app.paths import (
+from calibgui.app.outputs.output_folder import ForeignFilesError
+from calibgui.app.outputs.resampling import (
+    Undistortion,
+    WrittenImage,
+    rectify_files,
+    undistort_files,
+)
+from calibgui.app.photographs.paths import (
     NoImagesError,
     choose_images,
     describe_unread_folders,
     describe_unread_photographs,
 )
-from calibgui.app.project import (
+from calibgui.app.projects.autosave import get_discarded_folder
+from calibgui.app.projects.document import Document
+from calibgui.app.projects.moved_images import find_moved_images, list_missing_images
+from calibgui.app.projects.project import (
     Project,
     add_images,
     relocate_images,
@@ -27,11 +33,10 @@ from calibgui.app.project import (
     rename_result,
     set_square,
 )
-from calibgui.app.project_file import is_project
-from calibgui.app.recent import remember_project
-from calibgui.app.resampling import Undistortion, WrittenImage, rectify_files, undistort_files
-from calibgui.app.resources import find_resource, find_sample_square
-from calibgui.app.result_project import make_project
+from calibgui.app.projects.project_file import is_project
+from calibgui.app.projects.recent import remember_project
+from calibgui.app.projects.result_project import make_project
+from calibgui.app.system.resources import find_resource, find_sample_square
 from calibgui.dataset import Result, find_orientation
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.images import FORMATS

@@ -18,7 +18,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from calibgui.app.printable_board import (
+from calibgui.app.outputs.printable_board import (
     PAPER_SIZES_MM,
     Page,
     choose_paper,

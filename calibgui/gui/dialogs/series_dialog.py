@@ -23,7 +23,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from calibgui.app.series import (
+from calibgui.app.calibrating.series import (
     AnalysedSeries,
     Scalar,
     analyse_series,
@@ -37,8 +37,8 @@ from calibgui.engine.errors import CalibrationError
 from calibgui.formats import EXPORTERS
 from calibgui.formats.exporter import Exporter, ExportReport
 from calibgui.gui.jobs.jobs import Jobs
-from calibgui.gui.panels.estimates import estimate_columns
 from calibgui.gui.panels.latest import Latest
+from calibgui.gui.panels.parts.estimates import estimate_columns
 from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.actions import add_close_button
 from calibgui.gui.widgets.plots import Plot

@@ -28,7 +28,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from calibgui.app.project import change_views, remove_views
+from calibgui.app.projects.project import change_views, remove_views
 from calibgui.dataset import Result, View
 from calibgui.gui.images.film_view import Cell, FilmView
 from calibgui.gui.images.image_model import Criterion, ImageModel, Role

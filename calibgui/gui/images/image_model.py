@@ -15,8 +15,8 @@ from PySide6.QtCore import (
 )
 from PySide6.QtGui import QColor
 
-from calibgui.app.paths import make_natural_key
-from calibgui.app.project import Project
+from calibgui.app.photographs.paths import make_natural_key
+from calibgui.app.projects.project import Project
 from calibgui.dataset import Result, View, ViewStatus
 from calibgui.engine.boards import Symmetry
 from calibgui.gui.images.thumbnails import Thumbnails

@@ -7,8 +7,13 @@ from collections.abc import Iterable
 from PySide6.QtCore import QObject, QSize, Qt, Signal
 from PySide6.QtGui import QImage, QPixmap
 
-from calibgui.app.image_store import Signature, Thumbnail, read_signature, read_thumbnail
-from calibgui.app.project import Project, add_digests
+from calibgui.app.photographs.image_store import (
+    Signature,
+    Thumbnail,
+    read_signature,
+    read_thumbnail,
+)
+from calibgui.app.projects.project import Project, add_digests
 from calibgui.gui.jobs.jobs import PICTURE
 from calibgui.gui.session.session import Session
 from calibgui.gui.widgets.picture import make_qimage

@@ -24,7 +24,7 @@ from typing import Any, TypedDict, Unpack
 
 from PySide6.QtCore import QObject, QTimer, Signal
 
-from calibgui.app.memory import return_large_blocks
+from calibgui.app.system.memory import return_large_blocks
 from calibgui.engine.errors import Cancelled
 from calibgui.engine.threads import limit_blas_threads
 from calibgui.gui.jobs.garbage import Collector

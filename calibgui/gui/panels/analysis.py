@@ -18,29 +18,29 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from calibgui.app.project import Project
+from calibgui.app.projects.project import Project
 from calibgui.dataset import Result
 from calibgui.engine.calibration import Iteration
-from calibgui.gui.panels.board_shape import BoardShapePanel
-from calibgui.gui.panels.compare import ComparePanel
-from calibgui.gui.panels.convergence import ConvergencePanel
-from calibgui.gui.panels.coverage import CoveragePanel
-from calibgui.gui.panels.distortion import DistortionPanel
+from calibgui.gui.panels.answer.compare import ComparePanel
+from calibgui.gui.panels.answer.result import ResultPanel
+from calibgui.gui.panels.answer.uncertainty import UncertaintyPanel
+from calibgui.gui.panels.answer.undistort import UndistortPanel
+from calibgui.gui.panels.evidence.board_shape import BoardShapePanel
+from calibgui.gui.panels.evidence.coverage import CoveragePanel
+from calibgui.gui.panels.evidence.histograms import HistogramsPanel
+from calibgui.gui.panels.evidence.poses import PosesPanel
+from calibgui.gui.panels.evidence.residuals import ResidualsPanel
 from calibgui.gui.panels.groups import Group, Page
-from calibgui.gui.panels.histograms import HistogramsPanel
-from calibgui.gui.panels.lens_models import LensModelsPanel
-from calibgui.gui.panels.methods import MethodsPanel
+from calibgui.gui.panels.method.convergence import ConvergencePanel
+from calibgui.gui.panels.method.distortion import DistortionPanel
+from calibgui.gui.panels.method.lens_models import LensModelsPanel
+from calibgui.gui.panels.method.methods import MethodsPanel
+from calibgui.gui.panels.method.stage_one import StageOnePanel
+from calibgui.gui.panels.method.synthetic import SyntheticPanel
 from calibgui.gui.panels.panel import Panel
 from calibgui.gui.panels.panel_area import PanelArea
 from calibgui.gui.panels.panel_chooser import PanelChooser, describe_panel, name_panel
-from calibgui.gui.panels.poses import PosesPanel
-from calibgui.gui.panels.residuals import ResidualsPanel
-from calibgui.gui.panels.result import ResultPanel
 from calibgui.gui.panels.services import Services
-from calibgui.gui.panels.stage_one import StageOnePanel
-from calibgui.gui.panels.synthetic import SyntheticPanel
-from calibgui.gui.panels.uncertainty import UncertaintyPanel
-from calibgui.gui.panels.undistort import UndistortPanel
 from calibgui.gui.session.session import Session
 from calibgui.gui.widgets import theme
 

@@ -9,8 +9,8 @@ from functools import partial
 
 from PySide6.QtCore import QObject, Signal
 
-from calibgui.app.project import Project, find_free_name, record_result
-from calibgui.app.redetection import calibrate_twice
+from calibgui.app.calibrating.redetection import calibrate_twice
+from calibgui.app.projects.project import Project, find_free_name, record_result
 from calibgui.dataset import CornerSet, Result, ViewStatus
 from calibgui.engine.calibration import Iteration, Status
 from calibgui.engine.errors import CalibrationError

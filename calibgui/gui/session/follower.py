@@ -6,8 +6,8 @@ from dataclasses import replace
 
 from PySide6.QtCore import QObject
 
-from calibgui.app.calibration import calibrate_views, recall_lens_choice
-from calibgui.app.project import record_result
+from calibgui.app.calibrating.calibration import calibrate_views, recall_lens_choice
+from calibgui.app.projects.project import record_result
 from calibgui.dataset import Result
 from calibgui.gui.jobs.job import Job
 from calibgui.gui.jobs.jobs import PICTURE

@@ -6,7 +6,8 @@ from pathlib import Path
 
 from PySide6.QtCore import QLockFile, QObject, QTimer, Signal
 
-from calibgui.app.autosave import (
+from calibgui.app.photographs.file_state import FileState, read_file_state
+from calibgui.app.projects.autosave import (
     AUTOSAVE_DELAY_S,
     autosave,
     discard_autosave,
@@ -16,12 +17,11 @@ from calibgui.app.autosave import (
     keep_discarded_work,
     read_unsaved_work,
 )
-from calibgui.app.document import Document
-from calibgui.app.file_state import FileState, read_file_state
-from calibgui.app.project import Project
-from calibgui.app.project_file import read_project, write_project
-from calibgui.app.recent import remember_project
-from calibgui.app.state_folder import find_state_folder, is_state_lasting
+from calibgui.app.projects.document import Document
+from calibgui.app.projects.project import Project
+from calibgui.app.projects.project_file import read_project, write_project
+from calibgui.app.projects.recent import remember_project
+from calibgui.app.system.state_folder import find_state_folder, is_state_lasting
 from calibgui.gui.jobs.job import Job
 from calibgui.gui.session.project_lock import ProjectLock
 from calibgui.gui.session.session import Session

@@ -6,11 +6,11 @@ from collections.abc import Hashable
 
 from PySide6.QtCore import QObject, QSettings, Signal
 
-from calibgui.app.document import Change, Document
-from calibgui.app.image_store import ImageStore
-from calibgui.app.project import Project
-from calibgui.app.sensor_frame import choose_orientation
-from calibgui.app.settings import NEW_PROJECT_SETTINGS
+from calibgui.app.calibrating.settings import NEW_PROJECT_SETTINGS
+from calibgui.app.photographs.image_store import ImageStore
+from calibgui.app.photographs.sensor_frame import choose_orientation
+from calibgui.app.projects.document import Change, Document
+from calibgui.app.projects.project import Project
 from calibgui.dataset import Result, View, find_orientation
 from calibgui.engine.images import read_image_header
 from calibgui.gui.jobs.jobs import Jobs

@@ -18,7 +18,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from calibgui.app.project import (
+from calibgui.app.projects.project import (
     GRID_LINES,
     Project,
     Unit,

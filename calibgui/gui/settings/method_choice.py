@@ -6,7 +6,7 @@ from dataclasses import replace
 
 from PySide6.QtCore import Qt
 
-from calibgui.app.settings import DEFAULT_MODEL, Settings
+from calibgui.app.calibrating.settings import DEFAULT_MODEL, Settings
 from calibgui.engine.boards import BoardShapeModel
 from calibgui.engine.calibration import METHODS, Cost
 from calibgui.engine.camera import find_model

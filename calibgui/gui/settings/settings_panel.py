@@ -16,7 +16,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from calibgui.app.settings import (
+from calibgui.app.calibrating.settings import (
     DEFAULT_MODEL,
     MODEL_CHOICES,
     NEW_PROJECT_SETTINGS,

@@ -11,9 +11,9 @@ from PySide6.QtWidgets import QHBoxLayout, QPushButton, QVBoxLayout, QWidget
 
 from calibgui.engine.assessment import CameraDifference, Verdict, compare_cameras
 from calibgui.engine.numbers import format_two_digits
-from calibgui.gui.panels.difference_map import DifferenceMap
-from calibgui.gui.panels.estimates import estimate_columns
 from calibgui.gui.panels.latest import Latest
+from calibgui.gui.panels.parts.difference_map import DifferenceMap
+from calibgui.gui.panels.parts.estimates import estimate_columns
 from calibgui.gui.session.session import Session
 from calibgui.gui.verdict.drop_down import DropDown
 from calibgui.gui.verdict.remedier import Remedied

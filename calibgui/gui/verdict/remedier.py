@@ -7,9 +7,9 @@ from typing import NamedTuple
 
 from PySide6.QtCore import QObject, Signal
 
-from calibgui.app.project import Project, find_free_name, record_result
-from calibgui.app.redetection import calibrate_twice
-from calibgui.app.remedies import apply_action
+from calibgui.app.calibrating.redetection import calibrate_twice
+from calibgui.app.projects.project import Project, find_free_name, record_result
+from calibgui.app.projects.remedies import apply_action
 from calibgui.dataset import Result, View
 from calibgui.dataset.judging import judge_result
 from calibgui.engine.assessment import Action, Verdict

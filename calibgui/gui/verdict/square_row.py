@@ -5,7 +5,7 @@ from __future__ import annotations
 from PySide6.QtCore import Signal
 from PySide6.QtWidgets import QDoubleSpinBox, QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWidget
 
-from calibgui.app.project import Project, confirm_lengths, set_square
+from calibgui.app.projects.project import Project, confirm_lengths, set_square
 from calibgui.dataset import ViewStatus
 from calibgui.engine.boards import AprilGrid, Pattern
 from calibgui.gui.session.session import Session

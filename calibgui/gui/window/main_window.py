@@ -21,7 +21,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from calibgui.app.recent import list_recent
+from calibgui.app.projects.recent import list_recent
 from calibgui.dataset import Result
 from calibgui.engine.calibration import Cost
 from calibgui.engine.errors import CalibrationError

@@ -9,17 +9,17 @@ from typing import NamedTuple
 
 from PySide6.QtCore import QFileInfo, QLocale, QObject
 
-from calibgui.app.autosave import find_unsaved_work
-from calibgui.app.board_recognition import (
+from calibgui.app.photographs.board_recognition import (
     choose_samples,
     find_grid_size,
     find_mirrored_pattern,
     find_other_pattern,
     recognise_pattern,
 )
-from calibgui.app.document import Document
-from calibgui.app.paths import NoImagesError, is_remote
-from calibgui.app.project import Project, set_grid_size, set_pattern
+from calibgui.app.photographs.paths import NoImagesError, is_remote
+from calibgui.app.projects.autosave import find_unsaved_work
+from calibgui.app.projects.document import Document
+from calibgui.app.projects.project import Project, set_grid_size, set_pattern
 from calibgui.dataset import View, ViewStatus
 from calibgui.engine.arrays import GridSize
 from calibgui.engine.boards import CHECKERBOARD, Pattern

@@ -18,8 +18,8 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from calibgui.app.image_store import read_thumbnail
-from calibgui.app.recent import Recent
+from calibgui.app.photographs.image_store import read_thumbnail
+from calibgui.app.projects.recent import Recent
 from calibgui.gui.jobs.jobs import Jobs
 from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.focus_ring import FocusRing

@@ -14,15 +14,15 @@ import numpy as np
 import pytest
 from PIL import Image as Pillow
 
-from calibgui.app.detection import find_views
+from calibgui.app.calibrating.redetection import calibrate_twice
+from calibgui.app.calibrating.settings import Settings
 from calibgui.app.fleet import camera_task
 from calibgui.app.fleet.batch import BatchSummary
 from calibgui.app.fleet.limits import Limits
 from calibgui.app.fleet.manifest import BoardSought, CameraTask, read_manifest
-from calibgui.app.paths import find_images
-from calibgui.app.redetection import calibrate_twice
-from calibgui.app.settings import Settings
-from calibgui.app.workers import Crashed, do_tasks_here
+from calibgui.app.photographs.detection import find_views
+from calibgui.app.photographs.paths import find_images
+from calibgui.app.system.workers import Crashed, do_tasks_here
 from calibgui.dataset import View
 from calibgui.dataset.fleet import FleetStatus
 from calibgui.engine.assessment import (

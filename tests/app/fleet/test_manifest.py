@@ -8,8 +8,8 @@ import pyarrow
 import pytest
 from pyarrow import parquet
 
+from calibgui.app.calibrating.settings import Settings
 from calibgui.app.fleet.manifest import BoardSought, read_board_words, read_manifest
-from calibgui.app.settings import Settings
 from calibgui.dataset.fleet import FleetEntry
 from calibgui.engine.boards.charuco import Charuco
 from calibgui.engine.boards.checkerboard import CHECKERBOARD

@@ -20,7 +20,7 @@ from calibgui.app.fleet import schedulers
 from calibgui.app.fleet.batch import run_batch
 from calibgui.app.fleet.manifest import CameraTask
 from calibgui.app.fleet.schedulers import Scheduler, open_scheduler
-from calibgui.app.workers import Crashed
+from calibgui.app.system.workers import Crashed
 from calibgui.engine.errors import CalibrationError
 from calibgui.formats.fleet_ledger import open_ledger
 from tests.app.fleet.conftest import Here, read_results, read_rows, run

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from calibgui.engine.assessment.comparison import compare_cameras, find_covered_pixels
+from calibgui.engine.assessment.changes.comparison import compare_cameras, find_covered_pixels
 from calibgui.engine.assessment.lens_extrapolation import map_disagreement
 from calibgui.engine.assessment.verdict import judge_calibration
 from calibgui.engine.calibration.calibrate import calibrate

@@ -11,8 +11,8 @@ import pytest
 
 from calibgui.engine.assessment import action_trials
 from calibgui.engine.assessment.action_trials import try_action
-from calibgui.engine.assessment.comparison import compare_cameras
-from calibgui.engine.assessment.finding import Action, ActionKind, Cause
+from calibgui.engine.assessment.causes.finding import Action, ActionKind, Cause
+from calibgui.engine.assessment.changes.comparison import compare_cameras
 from calibgui.engine.assessment.verdict import (
     Grade,
     PixelError,

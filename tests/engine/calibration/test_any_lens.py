@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from calibgui.engine.assessment.cross_validation import resect_views
+from calibgui.engine.assessment.choices.cross_validation import resect_views
 from calibgui.engine.boards.board import Board
 from calibgui.engine.calibration.calibrate import calibrate
 from calibgui.engine.calibration.observations import Observation

@@ -9,7 +9,7 @@ import pytest
 from scipy.io import loadmat
 
 from calibgui.engine.arrays import Array, Size
-from calibgui.engine.assessment.residual_statistics import summarise_residuals
+from calibgui.engine.assessment.residuals.residual_statistics import summarise_residuals
 from calibgui.engine.calibration.calibrate import calibrate
 from calibgui.engine.calibration.observations import Observation
 from calibgui.engine.calibration.refinement.covariances import make_paper_table

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from calibgui.engine.assessment.cross_validation import resect_views
+from calibgui.engine.assessment.choices.cross_validation import resect_views
 from calibgui.engine.calibration.calibrate import calibrate
 from calibgui.engine.calibration.observations import pack_observations
 from calibgui.engine.calibration.resection import estimate_poses

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from calibgui.engine.arrays import Array
-from calibgui.engine.assessment.systematic_errors import prepare_fit
+from calibgui.engine.assessment.residuals.systematic_errors import prepare_fit
 from calibgui.engine.boards.board import Board
 from calibgui.engine.boards.shape import BoardShapeModel
 from calibgui.engine.calibration import score_tests

@@ -58,7 +58,7 @@ def test_kernels_compile_where_nothing_can_be_kept(monkeypatch: pytest.MonkeyPat
 
 _SEARCH_WITHOUT_NUMBA = (
     "from pathlib import Path\n"
-    "from calibgui.app.detection import find_views\n"
+    "from calibgui.app.photographs.detection import find_views\n"
     "from calibgui.engine import kernels\n"
     "sample = Path('resources/sample')\n"
     "assert kernels.COMPILED\n"

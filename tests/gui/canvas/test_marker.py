@@ -9,9 +9,9 @@ from PIL import Image as Pillow
 from PySide6.QtCore import QPoint, Qt
 from pytestqt.qtbot import QtBot
 
-from calibgui.app.document import Document
-from calibgui.app.project import Project
-from calibgui.app.resources import find_resource
+from calibgui.app.projects.document import Document
+from calibgui.app.projects.project import Project
+from calibgui.app.system.resources import find_resource
 from calibgui.dataset import View, ViewStatus
 from calibgui.engine.detection.find_corners import find_corners
 from calibgui.engine.errors import CalibrationError

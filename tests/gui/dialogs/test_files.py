@@ -9,8 +9,8 @@ import pytest
 from PySide6.QtWidgets import QFileDialog, QMessageBox
 from pytestqt.qtbot import QtBot
 
-from calibgui.app.document import Document
-from calibgui.app.resampling import GEOMETRY_FILE, Undistortion
+from calibgui.app.outputs.resampling import GEOMETRY_FILE, Undistortion
+from calibgui.app.projects.document import Document
 from calibgui.engine.images.reading import write_image
 from calibgui.gui.widgets import questions
 from calibgui.gui.window.main_window import MainWindow

@@ -11,7 +11,7 @@ from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QFileDialog
 from pytestqt.qtbot import QtBot
 
-from calibgui.app.project_file import read_project, write_project
+from calibgui.app.projects.project_file import read_project, write_project
 from calibgui.dataset import Result
 from calibgui.dataset.fleet import Estimate, FleetCamera, FleetEntry, FleetFigures, FleetStatus
 from calibgui.engine.assessment import Grade, PixelError

@@ -16,7 +16,7 @@ from PySide6.QtWidgets import QFileDialog
 from pytestqt.qtbot import QtBot
 
 from calibgui import engine
-from calibgui.app.series import Scalar, analyse_series, parse_value
+from calibgui.app.calibrating.series import Scalar, analyse_series, parse_value
 from calibgui.dataset import Result
 from calibgui.formats import EXPORTERS, export, read_camera
 from calibgui.gui.dialogs.series_dialog import SeriesDialog

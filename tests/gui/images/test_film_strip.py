@@ -12,7 +12,7 @@ from PySide6.QtWidgets import (
 )
 from pytestqt.qtbot import QtBot
 
-from calibgui.app.calibration import calibrate_views
+from calibgui.app.calibrating.calibration import calibrate_views
 from calibgui.dataset import CornerSet
 from calibgui.gui.images.image_model import Role
 from calibgui.gui.widgets import theme

@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 from PySide6.QtWidgets import QApplication
 
-from calibgui.app.document import Document
-from calibgui.app.project import Project, add_images, change_views
+from calibgui.app.projects.document import Document
+from calibgui.app.projects.project import Project, add_images, change_views
 from calibgui.dataset import View, ViewStatus
 from calibgui.engine.detection.corners import Corners, OtherBoard
 from calibgui.gui.images import image_model

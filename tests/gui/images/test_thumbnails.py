@@ -9,8 +9,8 @@ import pytest
 from PySide6.QtGui import QImage
 from pytestqt.qtbot import QtBot
 
-from calibgui.app.image_store import compute_file_digest
-from calibgui.app.resources import find_resource
+from calibgui.app.photographs.image_store import compute_file_digest
+from calibgui.app.system.resources import find_resource
 from calibgui.dataset import ViewStatus
 from calibgui.gui.images.image_model import Role
 from calibgui.gui.window.main_window import MainWindow

@@ -9,7 +9,7 @@ import pytest
 from PySide6.QtCore import Qt
 from pytestqt.qtbot import QtBot
 
-from calibgui.app.resources import find_resource
+from calibgui.app.system.resources import find_resource
 from calibgui.dataset import ViewStatus
 from calibgui.gui.window.main_window import MainWindow
 

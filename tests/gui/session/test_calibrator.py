@@ -9,10 +9,10 @@ from pathlib import Path
 import pytest
 from pytestqt.qtbot import QtBot
 
-from calibgui.app.document import Document
-from calibgui.app.settings import NEW_PROJECT_SETTINGS
+from calibgui.app.calibrating.settings import NEW_PROJECT_SETTINGS
+from calibgui.app.projects.document import Document
 from calibgui.dataset import ViewStatus
-from calibgui.engine.assessment import lens_choice
+from calibgui.engine.assessment.choices import lens_choice
 from calibgui.gui.session.calibrator import Calibrator
 from calibgui.gui.session.detector import Detector
 from calibgui.gui.session.session import Session

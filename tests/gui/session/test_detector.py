@@ -14,9 +14,9 @@ import pytest
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
-from calibgui.app.detection import Detection
-from calibgui.app.document import Document
-from calibgui.app.project import (
+from calibgui.app.photographs.detection import Detection
+from calibgui.app.projects.document import Document
+from calibgui.app.projects.project import (
     Project,
     add_images,
     change_views,

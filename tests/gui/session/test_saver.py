@@ -18,16 +18,16 @@ from PySide6.QtCore import QEvent, QLocale
 from PySide6.QtWidgets import QApplication, QFileDialog
 from pytestqt.qtbot import QtBot
 
-from calibgui.app.autosave import (
+from calibgui.app.projects.autosave import (
     AUTOSAVE_DELAY_S,
     autosave,
     find_unsaved_work,
     get_autosave_path,
     get_discarded_folder,
 )
-from calibgui.app.document import Document
-from calibgui.app.project import Project, add_images
-from calibgui.app.project_file import read_project, write_project
+from calibgui.app.projects.document import Document
+from calibgui.app.projects.project import Project, add_images
+from calibgui.app.projects.project_file import read_project, write_project
 from calibgui.gui.session.saver import Saver
 from calibgui.gui.session.session import Session
 from calibgui.gui.widgets import questions
@@ -39,9 +39,9 @@ _WORK = """
 import itertools, os, sys, time
 from pathlib import Path
 from PySide6.QtCore import QCoreApplication, QTimer
-from calibgui.app.document import Document
-from calibgui.app.project import add_images
-from calibgui.app.project_file import read_project
+from calibgui.app.projects.document import Document
+from calibgui.app.projects.project import add_images
+from calibgui.app.projects.project_file import read_project
 from calibgui.gui.session.saver import Saver
 from calibgui.gui.session.session import Session
 

@@ -12,9 +12,9 @@ from PySide6.QtTest import QSignalSpy, QTest
 from PySide6.QtWidgets import QApplication, QComboBox
 from pytestqt.qtbot import QtBot
 
-from calibgui.app.document import Document
-from calibgui.app.project import Project, change_views, set_grid_size
-from calibgui.app.project_file import read_project, write_project
+from calibgui.app.projects.document import Document
+from calibgui.app.projects.project import Project, change_views, set_grid_size
+from calibgui.app.projects.project_file import read_project, write_project
 from calibgui.dataset import ViewStatus
 from calibgui.engine.boards.board import Board
 from calibgui.engine.boards.charuco import Charuco

@@ -15,9 +15,9 @@ from PySide6.QtWidgets import (
 )
 from pytestqt.qtbot import QtBot
 
-from calibgui.app.calibration import calibrate_views
-from calibgui.app.project import change_views
-from calibgui.app.settings import MODEL_CHOICES, Settings, check_settings
+from calibgui.app.calibrating.calibration import calibrate_views
+from calibgui.app.calibrating.settings import MODEL_CHOICES, Settings, check_settings
+from calibgui.app.projects.project import change_views
 from calibgui.dataset import CornerSet
 from calibgui.engine.boards.shape import BoardShape, BoardShapeModel, BoardShapePrior
 from calibgui.engine.calibration.methods import METHODS, check_method

@@ -10,7 +10,7 @@ from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QComboBox
 
-from calibgui.app.project_file import read_project, write_project
+from calibgui.app.projects.project_file import read_project, write_project
 from calibgui.engine.boards.april_grid import AprilGrid
 from calibgui.engine.boards.board import Board
 from calibgui.engine.boards.tagged_checkerboard import TaggedCheckerboard

@@ -12,10 +12,10 @@ import pytest
 from PySide6.QtCore import Qt
 from pytestqt.qtbot import QtBot
 
-from calibgui.app.calibration import calibrate_views
-from calibgui.app.document import Document
-from calibgui.app.project import Project, record_result
-from calibgui.app.settings import Settings
+from calibgui.app.calibrating.calibration import calibrate_views
+from calibgui.app.calibrating.settings import Settings
+from calibgui.app.projects.document import Document
+from calibgui.app.projects.project import Project, record_result
 from calibgui.dataset import CornerSet, View, ViewStatus
 from calibgui.engine.boards.board import Board
 from calibgui.engine.camera.camera import Camera

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 from pytestqt.qtbot import QtBot
 
-from calibgui.app.document import Document
+from calibgui.app.projects.document import Document
 from calibgui.engine.assessment import Action, ActionKind
 from calibgui.engine.boards import BoardShapeModel, BoardShapePrior
 from calibgui.gui.session.session import Session

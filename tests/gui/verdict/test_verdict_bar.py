@@ -14,17 +14,17 @@ from PySide6.QtCore import QPoint, Qt
 from PySide6.QtWidgets import QApplication, QCheckBox, QPushButton
 from pytestqt.qtbot import QtBot
 
-from calibgui.app.calibration import calibrate_views
-from calibgui.app.document import Document
-from calibgui.app.project import Project, record_result
-from calibgui.app.settings import Settings
+from calibgui.app.calibrating.calibration import calibrate_views
+from calibgui.app.calibrating.settings import Settings
+from calibgui.app.projects.document import Document
+from calibgui.app.projects.project import Project, record_result
 from calibgui.dataset import CornerSet, View, ViewStatus
 from calibgui.engine.assessment import Cause, Grade
 from calibgui.engine.boards import AprilGrid, Circles, Pattern
 from calibgui.engine.numbers import format_two_digits
 from calibgui.gui.dialogs.export_dialog import ExportDialog
-from calibgui.gui.panels.coverage import CoveragePanel
-from calibgui.gui.panels.residuals import ResidualsPanel
+from calibgui.gui.panels.evidence.coverage import CoveragePanel
+from calibgui.gui.panels.evidence.residuals import ResidualsPanel
 from calibgui.gui.verdict.before_after import BeforeAndAfter
 from calibgui.gui.verdict.verdict_bar import VerdictBar
 from calibgui.gui.widgets.lengths import describe_condition

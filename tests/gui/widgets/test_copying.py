@@ -6,10 +6,10 @@ from PySide6.QtGui import QAction, QGuiApplication
 from PySide6.QtWidgets import QMenu
 from pytestqt.qtbot import QtBot
 
+from calibgui.gui.panels.evidence.poses import PosesPanel
+from calibgui.gui.panels.evidence.residuals import ResidualsPanel
+from calibgui.gui.panels.method.stage_one import StageOnePanel
 from calibgui.gui.panels.panel import Panel
-from calibgui.gui.panels.poses import PosesPanel
-from calibgui.gui.panels.residuals import ResidualsPanel
-from calibgui.gui.panels.stage_one import StageOnePanel
 from calibgui.gui.widgets.tables import Table
 from calibgui.gui.window.main_window import MainWindow
 

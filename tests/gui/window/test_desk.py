@@ -23,14 +23,14 @@ from PySide6.QtWidgets import (
 )
 from pytestqt.qtbot import QtBot
 
-from calibgui.app.document import Document
+from calibgui.app.projects.document import Document
 from calibgui.engine.errors import CalibrationError
 from calibgui.gui.dialogs.export_dialog import ExportDialog
 from calibgui.gui.panels.analysis import GROUPS, PANELS
-from calibgui.gui.panels.convergence import ConvergencePanel
+from calibgui.gui.panels.answer.result import ResultPanel
 from calibgui.gui.panels.groups import Group
-from calibgui.gui.panels.result import ResultPanel
-from calibgui.gui.panels.stage_one import StageOnePanel
+from calibgui.gui.panels.method.convergence import ConvergencePanel
+from calibgui.gui.panels.method.stage_one import StageOnePanel
 from calibgui.gui.verdict.texts import describe_pixel_error
 from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.elided import ElidedLabel

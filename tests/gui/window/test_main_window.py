@@ -9,8 +9,8 @@ from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
-from calibgui.app.project import remove_result
-from calibgui.gui.panels.coverage import CoveragePanel
+from calibgui.app.projects.project import remove_result
+from calibgui.gui.panels.evidence.coverage import CoveragePanel
 from calibgui.gui.panels.panel import Panel
 from calibgui.gui.window import main_window
 from calibgui.gui.window.main_window import MainWindow

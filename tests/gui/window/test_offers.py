@@ -12,13 +12,13 @@ import pytest
 from PySide6.QtCore import QPoint, Qt
 from pytestqt.qtbot import QtBot
 
-from calibgui.app.board_recognition import find_other_pattern
-from calibgui.app.detection import find_views
-from calibgui.app.document import Document
-from calibgui.app.paths import find_images
-from calibgui.app.project import Project, add_images, set_grid_size, set_pattern
-from calibgui.app.settings import DEFAULT_SETTINGS
-from calibgui.app.workers import do_tasks_here
+from calibgui.app.calibrating.settings import DEFAULT_SETTINGS
+from calibgui.app.photographs.board_recognition import find_other_pattern
+from calibgui.app.photographs.detection import find_views
+from calibgui.app.photographs.paths import find_images
+from calibgui.app.projects.document import Document
+from calibgui.app.projects.project import Project, add_images, set_grid_size, set_pattern
+from calibgui.app.system.workers import do_tasks_here
 from calibgui.dataset import View, ViewStatus
 from calibgui.engine.boards.board import Board
 from calibgui.engine.boards.charuco import Charuco

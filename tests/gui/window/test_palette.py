@@ -10,11 +10,11 @@ from PySide6.QtGui import QAction
 from PySide6.QtWidgets import QApplication, QMenu, QWidget
 from pytestqt.qtbot import QtBot
 
-from calibgui.app.project import add_images
+from calibgui.app.projects.project import add_images
+from calibgui.gui.panels.answer.undistort import UndistortPanel
+from calibgui.gui.panels.evidence.poses import PosesPanel
+from calibgui.gui.panels.method.stage_one import StageOnePanel
 from calibgui.gui.panels.panel import Panel
-from calibgui.gui.panels.poses import PosesPanel
-from calibgui.gui.panels.stage_one import StageOnePanel
-from calibgui.gui.panels.undistort import UndistortPanel
 from calibgui.gui.window.main_window import MainWindow
 from calibgui.gui.window.menus import strip_mnemonic
 from calibgui.gui.window.palette import Palette

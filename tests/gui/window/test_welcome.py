@@ -11,7 +11,7 @@ from PySide6.QtGui import QColor
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
-from calibgui.app.recent import Recent, list_recent
+from calibgui.app.projects.recent import Recent, list_recent
 from calibgui.engine.images.reading import write_image
 from calibgui.gui.jobs.jobs import Jobs
 from calibgui.gui.widgets import theme

@@ -1,0 +1,1 @@
+"""From corners to a result: the calibration itself, and what is tried beside it."""

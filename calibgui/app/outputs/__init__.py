@@ -1,0 +1,1 @@
+"""What is written for others: folders of images, figures, boards to print."""

@@ -1,0 +1,1 @@
+"""Projects: what the user works on, its history, and the files that keep it."""

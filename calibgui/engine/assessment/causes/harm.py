@@ -1,0 +1,103 @@
+"""The harm that a cause does: the part of the error of pixels that is gone without it.
+
+Of the covariance C of the camera's parameters, C0 is what the corners' noise alone makes of them,
+and the rest is there because board and views are not as the model has them. Without a cause that
+explains a share s of the squared residuals that rest is gone, and so is this share of the noise;
+with J as in ``uncertainty/projection_uncertainty.py`` the cause adds
+
+    cov(q) - (1 - s) cov0(q) = J (C - (1 - s) C0) J^T
+
+to the covariance of a pixel q; blur, which moves nothing, only s cov0(q), and a lack of views
+cov(q). Its harm is the root mean square of that over the part of the image that corners cover
+(``comparison.find_covered_pixels``), in the direction where it is largest. What wrong values and
+corners do is measured on the same pixels (``input_errors.py``). Beyond that part a lens model is
+extrapolated, which magnifies any error: this is a lack of coverage, not the fault of the cause, and
+the verdict tells it. What the harm does not measure is how far a single value is off: that is its
+standard deviation, which includes what the board and the views' disagreement do.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import NamedTuple
+
+import numpy as np
+
+from calibgui.engine.arrays import Array
+from calibgui.engine.assessment.changes.comparison import find_covered_pixels
+from calibgui.engine.assessment.residuals.residual_statistics import summarise_residuals
+from calibgui.engine.calibration.observations import Observation
+from calibgui.engine.calibration.result import Calibration
+from calibgui.engine.images.sampling import make_mesh
+from calibgui.engine.uncertainty.projection_uncertainty import (
+    compute_worst_sigma,
+    estimate_projection_uncertainty,
+)
+
+
+class Case(NamedTuple):
+    """A calibration whose given values and corners are sound, and what is known of its pixels."""
+
+    calibration: Calibration
+    """The calibration."""
+    views: Sequence[Observation]
+    """The views that it was made from."""
+    names: Sequence[str]
+    """Their names."""
+    numbers: Sequence[int]
+    """Their indices among the views of the user."""
+    sigma: float
+    """One standard deviation of a pixel, median over the image, px."""
+    worst: float
+    """One standard deviation of the pixel that is known worst, px; the image's size if none is."""
+    total: Array
+    """(n, 2, 2) covariance of the pixels where there are corners, px^2."""
+    by_noise: Array
+    """(n, 2, 2) part of it that the corners' noise explains, px^2."""
+    rms: float
+    """Root mean square residual, px."""
+
+    def measure_harm(self, share: float = 0.0) -> float:
+        """Measure what a cause of a share of the squared residuals does to pixels, px rms.
+
+        It is the image's size where no pixel is known.
+        """
+        return self._take_rms(self.total - (1 - share) * self.by_noise)
+
+    def measure_noise(self, share: float) -> float:
+        """Measure what noise of a share of the squared residuals does to pixels, px rms."""
+        return self._take_rms(share * self.by_noise)
+
+    def _take_rms(self, covariance: Array) -> float:
+        """Return the root mean square standard deviation, px, of covariances (n, 2, 2), px^2."""
+        variance = compute_worst_sigma(covariance) ** 2
+        known = variance[np.isfinite(variance)]
+        return (
+            float(np.sqrt(known.mean())) if known.size else float(max(self.calibration.camera.size))
+        )
+
+
+def prepare_case(
+    calibration: Calibration, views: Sequence[Observation], names: Sequence[str]
+) -> Case:
+    """Prepare a case: find out how well pixels are known, by everything and by noise alone."""
+    total = estimate_projection_uncertainty(calibration, views)
+    over_image = total.worst_direction
+    known = over_image[np.isfinite(over_image)]  # a lens may image nothing in the corners
+    if not known.size:
+        known = np.array(calibration.camera.size)
+    alone = replace(calibration, covariance=calibration.noise_covariance)
+    by_noise = estimate_projection_uncertainty(alone, views)
+    covered = find_covered_pixels(make_mesh(total.u, total.v), views)
+    return Case(
+        calibration,
+        views,
+        names,
+        range(len(views)),
+        sigma=float(np.median(known)),
+        worst=float(known.max()),
+        total=total.covariance[covered],
+        by_noise=by_noise.covariance[covered],
+        rms=summarise_residuals(calibration.residuals).rms,
+    )

@@ -1,0 +1,465 @@
+"""The choice of a lens model: all candidates on the same views, and the one to be trusted.
+
+Every candidate is calibrated from all views; those that are sound, or all if none is, are
+cross-validated (``cross_validation.py``). Neither a low residual nor an information criterion
+chooses well: a model with numerator and denominator lowers the residuals by nonsense, and with
+thousands of corners the Bayesian criterion pays for two parameters that gain a tenth of a
+thousandth of a pixel on unseen views. The choice is made so:
+
+1. A candidate is sound if the views determine its parameters and if its map is one-to-one where
+   corners were seen. One with coefficients that had to be held, as the views leave them open, has
+   more than the lens shows: fewer views of the same camera leave others open, and which of them to
+   hold was seen from the views that its error is measured on. It counts only if it predicts unseen
+   views better by more than 2 % than all that are determined as they are.
+2. It is adequate if no sound candidate predicts unseen views better by more than 1 %; of the
+   paper's model, which others are taken in place of only where the views demand it, also beyond
+   chance. If some adequate candidate is one-to-one over the whole image, and the lens fills it, the
+   others must be.
+3. The richest of the adequate candidates is the reference: what a lens model can leave
+   unexplained, it leaves least. The recommendation is the simplest adequate candidate whose map
+   differs from the reference's by less than the uncertainty of projection, root mean square over
+   the region that the corners cover. The difference is that of ``comparison.py``, what a rotation
+   of the camera makes up for left out; the uncertainty is the larger of the two models'.
+
+All but the first candidate begin at what the best one before them sees, unless they cannot see so:
+to find a start from corners alone takes longer than most of the solves.
+
+Of a model with coefficients that the views leave open, such as the numerator and denominator of the
+rational one, those of the highest powers are held at 0 one by one until the others are determined.
+
+The paper's model counts as the simplest, and as determined; the others follow by their number of
+free parameters.
+
+A coefficient that is not told from 0 does harm where few views extrapolate: what noise makes of it
+grows with a power of the radius. Of the recommended model, the coefficient of the highest power,
+and those that make a lens asymmetric, all of them together, are therefore held at 0 (backward
+elimination), the more harmful first, if they lie within two of their own sigmas of 0 and unseen
+views are predicted better by more than 1 % without them. For less than that they stay: the gain
+would be chance, and the standard deviations of the others would no longer allow for them. With its
+new figures the recommendation is made again, until it stands.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from calibgui.engine.arrays import Array, Size
+from calibgui.engine.assessment.changes.comparison import compare_cameras, find_covered_pixels
+from calibgui.engine.assessment.choices.cross_validation import (
+    DEFAULT_FOLDS,
+    cross_validate,
+    predicts_better,
+)
+from calibgui.engine.assessment.choices.lens_trial import LensTrial, assess_trial
+from calibgui.engine.calibration.calibrate import calibrate
+from calibgui.engine.calibration.methods import DEFAULT_METHOD, find_method
+from calibgui.engine.calibration.methods.method import Method, begin_beside
+from calibgui.engine.calibration.observations import Observation
+from calibgui.engine.calibration.result import Calibration, Iteration, Report
+from calibgui.engine.camera.models import find_model
+from calibgui.engine.errors import CalibrationError, Progress
+from calibgui.engine.images.sampling import make_mesh
+from calibgui.engine.uncertainty.projection_uncertainty import estimate_projection_uncertainty
+
+SIMPLEST_MODEL = "lucchese"
+"""Lens model that is recommended wherever it is as good as any: the paper's."""
+CANDIDATES = (
+    SIMPLEST_MODEL,
+    "brown-conrady-4",
+    "brown-conrady",
+    "rational",
+    "thin-prism",
+    "ucm",
+    "eucm",
+    "double-sphere",
+    "division",
+    "kannala-brandt",
+    "kannala-brandt-decentering",
+    "mei",
+    "scaramuzza",
+)
+"""Lens models that are compared, in the order in which people list them."""
+_FIRST_CANDIDATES = (SIMPLEST_MODEL, "brown-conrady", "kannala-brandt-decentering")
+"""Lens models that are enough to see whether the paper's follows a lens."""
+_MIN_VIEWS = 3
+"""Number of views below which no view can be spared for a comparison."""
+_MAX_LOSS = 0.01
+"""Error on unseen views beyond that of the best candidate, relative to it, that is no loss."""
+_MAX_LOSS_OF_DETERMINED = 0.02
+"""The same, of a candidate that is determined as it is, if the best one is not: all that
+``tests/benchmarks/unseen_views.py`` allows. Of 112 rendered lenses it changed three, whose maps
+were off by 0.18 px on average before and 0.20 px then; of 300 subsets of 3 to 12 of their views 141
+were partial before, and none then."""
+_MAX_RESIDUAL_RATIO = 1.5
+"""Residuals over those of the best candidate, above which unseen views need not be asked."""
+_MAX_ITERATIONS, _LAST_ITERATIONS, _MIN_DESCENT = 25, 10, 2e-3
+"""Number of iterations from which a solve crawls if in the last ones its cost fell by less than
+this part of it. Of 24 random lenses (``tests/benchmarks/lens_choice.py``, seeds from 5000) none got
+another model, nor other coefficients, than with solves to their end."""
+_MIN_TOLD = 2.0
+"""Ratio of a coefficient to its sigma from which on it is told from 0."""
+_MAX_FILLING_DIAGONAL = np.deg2rad(160.0)
+"""Diagonal field of view up to which a lens is taken to fill the image; the image circle of wider
+ones mostly ends inside it, and what a model does beyond is nobody's concern."""
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class LensChoice:
+    """All candidates, and the lens model that is recommended."""
+
+    trials: dict[str, LensTrial]
+    """The candidates that could be calibrated, by their ids."""
+    refused: dict[str, str]
+    """Reasons why the others could not."""
+    model: str
+    """The recommended model."""
+    reference: str
+    """The richest adequate model, which it was compared with."""
+    adequate: tuple[str, ...]
+    """Models that predict unseen views as well as any, the simplest first."""
+    differences: dict[str, float]
+    """Largest difference of each model's map from the recommended one's where corners were seen,
+    px; NaN where the two cannot be compared."""
+    tolerance: float
+    """Uncertainty of projection that the recommended model was allowed to differ by, px."""
+
+    @property
+    def chosen(self) -> LensTrial:
+        """The recommended candidate."""
+        return self.trials[self.model]
+
+
+def choose_lens(
+    views: Sequence[Observation | tuple[Array, Array]],
+    size: Size,
+    candidates: Sequence[str] = CANDIDATES,
+    folds: int = DEFAULT_FOLDS,
+    progress: Progress | None = None,
+    **settings: Any,
+) -> LensChoice:
+    """Try lens models on unseen views and recommend one.
+
+    Args:
+        views, size, settings: as for ``calibrate``, without `model` and `free`; `fix` is a mapping
+            of parameters that all models have.
+        candidates: ids of the models to try.
+        folds: number of folds of the cross-validation, at most one a view.
+        progress: a function that is told how many steps are done, and of how many.
+
+    Raises:
+        CalibrationError: if there are fewer than three views, or no candidate can be calibrated.
+        Cancelled: from `progress`.
+    """
+    attempt = _Attempt(views, size, folds, progress, settings)
+    attempt.try_lenses(candidates)
+    return attempt.recommend()
+
+
+def choose_lens_stepwise(
+    views: Sequence[Observation | tuple[Array, Array]],
+    size: Size,
+    folds: int = DEFAULT_FOLDS,
+    progress: Progress | None = None,
+    **settings: Any,
+) -> LensChoice:
+    """Recommend the paper's model if few others show that it is enough, else choose from all.
+
+    It is enough if the views agree with each other to their corners' noise, or if one of the few
+    predicts unseen views as it does: what formulas of different kinds say alike, they have from the
+    lens. Where they say different things, and the views as well, yet another may follow it.
+
+    Args, raises: as for `choose_lens`, without `candidates`.
+    """
+    attempt = _Attempt(views, size, folds, progress, settings)
+    attempt.try_lenses(_FIRST_CANDIDATES)
+    if attempt.is_paper_enough() and (choice := attempt.recommend()).model == SIMPLEST_MODEL:
+        return choice
+    attempt.try_lenses(CANDIDATES)
+    return attempt.recommend()
+
+
+class _Attempt:
+    """Lens models tried on the same views; what was tried before is not tried again."""
+
+    def __init__(
+        self,
+        views: Sequence[Observation | tuple[Array, Array]],
+        size: Size,
+        folds: int,
+        progress: Progress | None,
+        settings: dict[str, Any],
+    ) -> None:
+        """Take the arguments of `choose_lens`."""
+        if len(views) < _MIN_VIEWS:
+            raise CalibrationError(
+                f"{len(views)} views are too few to compare lens models: none can be left out.",
+                "Add views, or name the lens model.",
+            )
+        self.views, self.size = [Observation(*view) for view in views], size
+        self.settings = {name: value for name, value in settings.items() if name != "fix"}
+        self.held: dict[str, float | None] = dict(settings.get("fix", {}))
+        self.folds = min(folds, len(views))
+        self.trials: dict[str, LensTrial] = {}
+        self.refused: dict[str, str] = {}
+        self.reduced: set[str] = set()
+        """Models whose coefficients were tried one by one."""
+        self.progress = progress
+        self.done = self.total = 0
+
+    def try_lenses(self, candidates: Sequence[str]) -> None:
+        """Calibrate the candidates, and cross-validate those that follow the corners.
+
+        One that is not sound counts only if none is, and takes long: the views leave it a valley.
+        """
+        self.done, self.total = 0, 2 * len(candidates)
+        for model in candidates:
+            self._advance()
+            if model not in self.trials and model not in self.refused:
+                self._calibrate(model)
+        for model in sorted(candidates, key=lambda model: not self._is_sound(model)):
+            self._advance()
+            if self._is_close(model) and self.trials[model].validation is None:
+                others = (t for t in self.trials.values() if t.validation is not None)
+                if self._is_sound(model) or not any(other.is_sound for other in others):
+                    self._validate(model)
+
+    def _advance(self) -> None:
+        """Tell that one more step begins."""
+        if self.progress is not None:
+            self.progress(self.done, self.total)
+        self.done += 1
+
+    def _calibrate(self, model: str) -> None:
+        """Calibrate a candidate, with the coefficients that the views leave open held at 0."""
+        fixed: dict[str, float] = {}
+        has_powers = _find_highest(model, find_model(model).names) is not None
+        try:
+            while True:
+                watch = _CrawlWatch(self.settings.get("report"))
+                trial = self._try(model, fixed, **({"report": watch} if has_powers else {}))
+                name = _find_open_coefficient(trial.calibration)
+                if name is None and watch.is_crawling:
+                    trial = self._try(model, fixed)
+                    name = _find_open_coefficient(trial.calibration)
+                if name is None:
+                    break
+                fixed = {**fixed, name: 0.0}
+        except CalibrationError as error:
+            self.refused[model] = error.message
+            return
+        self.trials[model] = trial
+
+    def _validate(self, model: str) -> None:
+        """Cross-validate a candidate."""
+        try:
+            self.trials[model] = self._predict(self.trials[model])
+        except CalibrationError as error:
+            self.refused[model] = error.message
+            del self.trials[model]
+
+    def _try(self, model: str, fixed: dict[str, float], **other: Any) -> LensTrial:
+        """Calibrate a lens model with some of its coefficients held, and `other` settings."""
+        how = {"fix": self.held | fixed, "method": self._begin_beside_best(), **other}
+        calibration = calibrate(self.views, self.size, model=model, **(self.settings | how))
+        return assess_trial(calibration, fixed, self.views)
+
+    def _begin_beside_best(self) -> Method:
+        """Return the method, which begins at what the model sees that follows the corners best."""
+        method = find_method(self.settings.get("method", DEFAULT_METHOD))
+        best = min(self.trials.values(), key=lambda trial: trial.rms, default=None)
+        return method if best is None else begin_beside(method, best.calibration)
+
+    def _predict(self, trial: LensTrial) -> LensTrial:
+        """Return a trial with its error on unseen views."""
+        how = {"model": trial.model, "fix": self.held | trial.fixed, **self.settings}
+        found = cross_validate(self.views, self.size, self.folds, trial.calibration, **how)
+        return replace(trial, validation=found)
+
+    def is_paper_enough(self) -> bool:
+        """Return whether the paper's model leaves no doubt that it follows the lens."""
+        trials = (t for t in self.trials.values() if t.is_sound and t.validation is not None)
+        others = {trial.model: trial for trial in trials}
+        paper = others.pop(SIMPLEST_MODEL, None)
+        if paper is None or not others:
+            return False
+        if paper.calibration.overdispersion == 0 and paper.calibration.lens_error == 0:
+            return True
+        ratios = [trial.held_out / paper.held_out for trial in others.values()]
+        return bool(np.min(np.abs(np.log(ratios))) <= _MAX_LOSS)
+
+    def _is_sound(self, model: str) -> bool:
+        """Return whether a model could be calibrated, and is sound."""
+        return model in self.trials and self.trials[model].is_sound
+
+    def _is_close(self, model: str) -> bool:
+        """Return whether a model's residuals are of the size of the best one's."""
+        if model not in self.trials:
+            return False
+        least = min(trial.rms for trial in self.trials.values())
+        return self.trials[model].rms <= _MAX_RESIDUAL_RATIO * least
+
+    def recommend(self) -> LensChoice:
+        """Recommend one of the models, without the coefficients that harm its predictions."""
+        while True:
+            choice = _recommend(self.trials, self.refused, self.views)
+            if choice.model in self.reduced:
+                return choice
+            self.reduced.add(choice.model)
+            self.trials[choice.model] = self._reduce(choice.chosen)
+
+    def _reduce(self, whole: LensTrial) -> LensTrial:
+        """Hold coefficients at 0 as long as unseen views are predicted better without them."""
+        best = whole
+        while True:
+            nested = [self._spare(best, names) for names in _list_dispensable(best)]
+            sound = [trial for trial in nested if trial is not None and trial.is_sound]
+            least = min(sound, key=lambda trial: trial.held_out, default=best)
+            if best.held_out <= (1 + _MAX_LOSS) * least.held_out:
+                return best
+            best = replace(least, fuller=whole)
+
+    def _spare(self, trial: LensTrial, names: Sequence[str]) -> LensTrial | None:
+        """Try a lens model with further coefficients held at 0; None if that fails."""
+        self.total += 1
+        self._advance()
+        try:
+            return self._predict(self._try(trial.model, trial.fixed | dict.fromkeys(names, 0.0)))
+        except CalibrationError:
+            return None
+
+
+class _CrawlWatch:
+    """A report of a solve that ends it once its cost has nearly stopped to fall.
+
+    Coefficients that the views leave open make a valley along which a solve creeps through hundreds
+    of iterations and several detours, only for them to be held at 0 afterwards.
+    """
+
+    def __init__(self, report: Report | None) -> None:
+        """Take the report that is told of every iteration."""
+        self._report = report
+        self._costs: list[float] = []
+        self.is_crawling = False
+        """True if the solve was ended."""
+
+    def __call__(self, iteration: Iteration) -> bool:
+        """Hand an iteration on, and return whether to go on."""
+        if self._report is not None and not self._report(iteration):
+            return False
+        self._costs.append(iteration.cost)
+        if iteration.index >= _MAX_ITERATIONS:
+            before, now = self._costs[-_LAST_ITERATIONS], self._costs[-1]
+            self.is_crawling = 0 <= before - now < _MIN_DESCENT * now
+        return not self.is_crawling
+
+
+def _find_open_coefficient(calibration: Calibration) -> str | None:
+    """Find the coefficient of the highest power of those that the views leave open, if any."""
+    return _find_highest(calibration.camera.model, [u.name for u in calibration.undetermined])
+
+
+def _find_highest(model: str, names: Sequence[str]) -> str | None:
+    """Find the coefficient of the highest power among parameters of a lens model, if any."""
+    lens = find_model(model)
+    powers = dict(zip(lens.names, lens.powers, strict=True))
+    coefficients = [name for name in lens.names if name in names and powers[name] > 0]
+    return max(reversed(coefficients), key=powers.__getitem__, default=None)
+
+
+def _list_dispensable(trial: LensTrial) -> list[tuple[str, ...]]:
+    """List what a lens model may do without next, as far as the views do not tell it from 0.
+
+    It is the coefficient of the highest power, and all that make the lens asymmetric together.
+    """
+    calibration = trial.calibration
+    camera, lens = calibration.camera, find_model(trial.model)
+    free = [name for name in lens.names if name not in calibration.fixed]
+    asymmetric = tuple(name for name in free if name in lens.asymmetric)
+    highest = _find_highest(trial.model, [name for name in free if name not in asymmetric])
+    near = np.abs(camera.params) < _MIN_TOLD * calibration.sigma
+    not_told = {name for name, is_near in zip(camera.names, near.tolist(), strict=True) if is_near}
+    groups = [asymmetric, () if highest is None else (highest,)]
+    return [group for group in groups if group and not_told.issuperset(group)]
+
+
+def _recommend(
+    trials: dict[str, LensTrial], refused: dict[str, str], views: Sequence[Observation]
+) -> LensChoice:
+    """Recommend one of the trials."""
+    if all(trial.validation is None for trial in trials.values()):
+        raise CalibrationError(
+            "No lens model can be calibrated from these views. " + next(iter(refused.values()), ""),
+            "Check the corners and the board, and add views in different directions.",
+        )
+    order = sorted(trials.values(), key=lambda t: (t.model != SIMPLEST_MODEL, t.parameters))
+    validated = [trial for trial in order if trial.validation is not None]
+    sound = _prefer_determined([trial for trial in validated if trial.is_sound] or validated)
+    best = min(sound, key=lambda trial: trial.held_out)
+    adequate = [trial for trial in sound if _predicts_as_well(trial, best)]
+    adequate = [trial for trial in adequate if _fills_image(trial)] or adequate
+    reference = max(adequate, key=lambda t: (t.parameters, -t.held_out))
+    chosen, tolerance = reference, 0.0
+    for trial in adequate:
+        tolerance = _measure_tolerance(trial, reference, views)
+        if trial is reference or _compare(trial, reference, views)[0] <= tolerance:
+            chosen = trial
+            break
+    differences = {trial.model: _compare(chosen, trial, views)[1] for trial in order}
+    return LensChoice(
+        trials,
+        refused,
+        chosen.model,
+        reference.model,
+        tuple(trial.model for trial in adequate),
+        differences,
+        tolerance,
+    )
+
+
+def _prefer_determined(sound: list[LensTrial]) -> list[LensTrial]:
+    """Leave out candidates with open coefficients, unless unseen views demand them."""
+    determined = [t for t in sound if t.model == SIMPLEST_MODEL or not t.left_open]
+    bound = (1 + _MAX_LOSS_OF_DETERMINED) * min(trial.held_out for trial in sound)
+    return determined if any(trial.held_out <= bound for trial in determined) else sound
+
+
+def _predicts_as_well(trial: LensTrial, best: LensTrial) -> bool:
+    """Return whether a candidate predicts unseen views as well as the best one."""
+    if trial.held_out <= (1 + _MAX_LOSS) * best.held_out:
+        return True
+    if trial.model != SIMPLEST_MODEL or trial.validation is None or best.validation is None:
+        return False
+    return not predicts_better(best.validation.by_view, trial.validation.by_view)
+
+
+def _fills_image(trial: LensTrial) -> bool:
+    """Return whether a map is one-to-one over an image that the lens fills to its corners."""
+    return trial.valid_share == 1.0 and bool(trial.field_of_view[2] < _MAX_FILLING_DIAGONAL)
+
+
+def _compare(a: LensTrial, b: LensTrial, views: Sequence[Observation]) -> tuple[float, float]:
+    """Return the rms and the largest difference of two maps where corners were seen, px."""
+    if a is b:
+        return 0.0, 0.0
+    try:
+        difference = compare_cameras(a.calibration.camera, b.calibration.camera, views=views)
+    except CalibrationError:
+        return np.inf, np.nan
+    return difference.rms, difference.worst
+
+
+def _measure_tolerance(a: LensTrial, b: LensTrial, views: Sequence[Observation]) -> float:
+    """Measure the larger uncertainty of projection of two models where corners were seen, px."""
+    return max(_measure_uncertainty(trial, views) for trial in (a, b))
+
+
+def _measure_uncertainty(trial: LensTrial, views: Sequence[Observation]) -> float:
+    """Measure the rms length of the error of projection where corners were seen, px."""
+    uncertainty = estimate_projection_uncertainty(trial.calibration, views)
+    covered = find_covered_pixels(make_mesh(uncertainty.u, uncertainty.v), views)
+    variance = np.trace(uncertainty.covariance, axis1=-2, axis2=-1)[covered]
+    return float(np.sqrt(np.nanmean(variance)))

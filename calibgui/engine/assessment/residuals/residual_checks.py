@@ -1,0 +1,387 @@
+"""Tests whether the residuals look like noise, and which cause explains them if they do not.
+
+Standard deviations hold if the corners' errors are independent, equal in all directions and
+views, and Gaussian. Each of these is tested, and so is each usual cause of the contrary by what
+it would explain: first the causes that all views share (``calibration/score_tests.py``), then those
+that each view has of its own (``systematic_errors.py``), and last the one that can look like almost
+anything,
+
+squares     the board's squares are not as wide as high, or askew
+bow         the board is bowed or twisted
+lens        a smooth displacement of the image that all views share
+focus       a focal length of each view's own
+centre      a principal point of each view's own
+bending     a curved board, each view's own
+rows        a steady motion while the rows are read, each view's own, or as in a warped image
+lines       a shift along the rows that wanders from row to row, each view's own
+smooth      any smooth displacement of the image, each view's own
+board       corners of the board that are not where they should be
+
+and then
+
+shape       kurtosis of the residuals over their view's sigma (Anscombe and Glynn 1983)
+views       test of the views' variances (Bartlett 1937), chi^2(K - 1)
+neighbours  correlation of the residuals of neighbouring corners, SD 1 / sqrt(2 pairs)
+directions  covariance C of the residuals is isotropic: -n ln(4 det C / tr^2 C) ~ chi^2(2)
+
+By chance each test fails at most once in a thousand sound calibrations, and any of them once in
+seventy. Several fail together, because a bent board also moves neighbours alike and looks a little
+like a lens. The cause is the first that explains nearly as much as any does.
+
+Many corners reveal harmless deviations, too. A displacement that corners share moves the camera
+however small it is; but least squares stays unbiased, and its standard deviations right on
+average, where views are not equally noisy or tails are heavier than a Gaussian's. These two tests
+fail only where there is something to gain: by weighing the views, or by leaving out corners that
+are far off.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import scipy
+
+from calibgui.engine.arrays import Array, BoolArray, freeze
+from calibgui.engine.assessment.residuals.cause_fits import (
+    CauseFit,
+    fit_board,
+    fit_nothing,
+    fit_own_cause,
+)
+from calibgui.engine.assessment.residuals.residual_statistics import summarise_residuals
+from calibgui.engine.assessment.residuals.systematic_errors import (
+    OWN_CAUSES,
+    measure_dispersion,
+    prepare_fit,
+    step_to_lines,
+    step_to_smooth,
+    weigh_views,
+)
+from calibgui.engine.boards.shape import BoardShapeModel
+from calibgui.engine.calibration.lens_error import outdoes_board
+from calibgui.engine.calibration.observations import (
+    Observation,
+    Observations,
+    measure_pitch,
+    name_views,
+)
+from calibgui.engine.calibration.result import Calibration
+from calibgui.engine.calibration.score_tests import (
+    CURVED,
+    LENS,
+    LinearisedFit,
+    SharedCauses,
+)
+from calibgui.engine.errors import Progress
+
+_MAX_FALSE_ALARM_RATE = 1e-3
+"""Probability under noise below which a test fails."""
+_MIN_SHARE_OF_BEST = 0.8
+"""Share of what the best cause explains, from which an earlier one is taken for the cause."""
+_MIN_GAIN_OF_WEIGHING = 1.1
+"""Ratio by which standard deviations must shrink for weighing the views to be worth it."""
+_MAX_LENGTH_IN_SIGMA = 4.5
+"""Length of a residual, in sigma, that one good corner in 25,000 exceeds."""
+_MAX_RMS_OVER_MEDIAN = 1.5
+"""A view's rms over that from its median, above which few corners are taken to raise it."""
+
+_SHARED_CAUSES = {
+    "squares": BoardShapeModel.AFFINE,
+    "bow": CURVED,
+    "lens": LENS,
+    "board": BoardShapeModel.FREE,
+}
+"""Causes that all views share, by the names of their tests."""
+_STEPS = ("lines", "smooth")
+"""Tests of causes with many unknowns of each view's own, to which one step is taken."""
+_ADVICE_ON_CAUSES = {
+    "squares": "The board's squares are not as wide as high, or askew: measure its sides over many "
+    "squares, or estimate the board's shape (affine).",
+    "bow": "The board is bowed or twisted: mount it on something stiff, or estimate its shape "
+    "(free).",
+    "lens": "The lens model does not follow this lens: free the coefficients that are held, or use "
+    "another model.",
+    "focus": "The focal length differs between the views: switch autofocus and stabilisation off, "
+    "and do not touch zoom and focus.",
+    "centre": "The principal point differs between the views: switch image stabilisation off, and "
+    "do not crop or straighten the photographs.",
+    "bending": "The board bends from view to view, as paper in the hand does: mount it on "
+    "something stiff.",
+    "rows": "Camera or board moved while a rolling shutter read the rows, or a program has warped "
+    "the photographs: put both on a stand, or expose all rows at once, and switch off what "
+    "stabilises or straightens.",
+    "lines": "The image's rows are shifted sideways against each other: an analogue camera's lines "
+    "do not start evenly, or the camera trembled while a rolling shutter read them. Many views "
+    "average it; a digital or steady camera avoids it.",
+    "smooth": "Each view is distorted in its own way, and no single cause explains it: mount the "
+    "board on something stiff, keep board and camera still, and switch off autofocus, "
+    "stabilisation and what edits photographs.",
+    "board": "The board is not flat or not printed true: mount it on glass, or estimate its shape "
+    "(free).",
+}
+"""Meaning and remedy of every cause, in the order in which they are considered."""
+_ADVICE_ON_OUTLIERS = (
+    "A few corners are much farther off than the others: look for misplaced ones, or leave "
+    "outliers out."
+)
+_ADVICE_ON_ROUNDING = (
+    "The errors have sharp limits, as if corners had been rounded: use subpixel corners."
+)
+_ADVICE_ON_BLUR = (
+    "Some views are less sharp than others: motion blur, defocus, bad light or a small board. "
+    "Weight the views by their noise, or take these again."
+)
+_ADVICE_ON_NEIGHBOURS = "Something smooth is left in the views that no cause above explains."
+_ADVICE_ON_DIRECTION = (
+    "The corners scatter more along one direction: motion blur along it, or an interlaced or "
+    "resampled image."
+)
+
+
+@dataclass(frozen=True, slots=True)
+class NoiseCheck:
+    """Result of one test of the residuals."""
+
+    name: str
+    """Name of the test, as in the module's description."""
+    passed: bool
+    """True if the residuals have this property of noise."""
+    finding: str
+    """The figures that were found."""
+    advice: str
+    """Meaning of a failure, and its remedy."""
+    share: float = 0.0
+    """Share of the squared residuals that the cause explains, where the test is of one."""
+    probability: float = 1.0
+    """Probability that noise explains as much, where the test is of a cause."""
+    criterion: float = np.inf
+    """Akaike's criterion of the cause, where the test is of one (``cause_fits.py``); 0 of none."""
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class NoiseReport:
+    """Results of all tests of the residuals."""
+
+    checks: tuple[NoiseCheck, ...]
+    """Results in the order of the module's description."""
+    view_sigma: Array
+    """(K,) standard deviation of a residual coordinate in each view, px; of a median corner
+    where corners are weighted."""
+    are_lens_and_board_alike: bool = False
+    """True if lens and board both explain the residuals, and neither explains anything beyond the
+    other: the views do not tell which of them it is."""
+
+    def __post_init__(self) -> None:
+        freeze(self, "view_sigma")
+
+    @property
+    def passed(self) -> bool:
+        """True if all tests are passed."""
+        return all(check.passed for check in self.checks)
+
+    @property
+    def cause(self) -> NoiseCheck | None:
+        """Failed test to attend to first, by the tests alone; None if all are passed.
+
+        What is to be said to users is in ``cause_choice.py``, where one cause is chosen among all.
+        """
+        failed = [check for check in self.checks if not check.passed]
+        most = max((check.share for check in failed), default=0.0)
+        return next((check for check in failed if check.share >= _MIN_SHARE_OF_BEST * most), None)
+
+
+def check_residuals(
+    calibration: Calibration,
+    views: Sequence[Observation],
+    names: Sequence[str] | None = None,
+    progress: Progress | None = None,
+) -> NoiseReport:
+    """Test the residuals of a calibration, in the image, for the properties of noise.
+
+    Args:
+        calibration: calibration with any cost.
+        views: the views that it was made from.
+        names: names of the views, for messages; numbers by default.
+        progress: function that is called for each cause that is tested.
+
+    Raises:
+        Cancelled: if `progress` raises it.
+    """
+    names = names or name_views(len(views))
+    fit = prepare_fit(calibration, views)
+    r = fit.linearise(slice(0, len(views))).residual
+    sigma = estimate_view_sigma(r, fit)
+    relative = r / sigma[:, None, None]
+    seen = fit.observations.mask > 0
+    weighed = weigh_views(fit, sigma)
+    shared = SharedCauses(weighed, list(_SHARED_CAUSES.values()))
+    causes = tuple(_check_causes(calibration, weighed, shared, progress))
+    return NoiseReport(
+        (
+            *causes,
+            _check_shape(r, sigma, seen),
+            _check_views(sigma, _count_degrees_of_freedom(fit), names),
+            _check_neighbours(relative, fit.observations),
+            _check_directions(r[seen]),
+        ),
+        sigma,
+        _are_lens_and_board_alike(causes, shared),
+    )
+
+
+def _count_degrees_of_freedom(fit: LinearisedFit) -> Array:
+    """Count degrees of freedom (K,): 2 n a view, less its pose and its share of the camera."""
+    n = fit.observations.mask.sum(axis=1)
+    return np.asarray(np.maximum(2 * n - 6 - len(fit.free) * n / n.sum(), 1.0))
+
+
+def estimate_view_sigma(residual: Array, fit: LinearisedFit) -> Array:
+    """Estimate the standard deviation (K,) of a coordinate of each view's residuals (K, N, 2)."""
+    return np.asarray(np.sqrt(np.sum(residual**2, axis=(1, 2)) / _count_degrees_of_freedom(fit)))
+
+
+def _check_causes(
+    calibration: Calibration,
+    fit: LinearisedFit,
+    shared: SharedCauses,
+    progress: Progress | None,
+) -> Iterator[NoiseCheck]:
+    """Test what each cause explains of the residuals, of equally noisy views, against noise."""
+    rms, freedom = summarise_residuals(calibration.residuals).rms, fit.degrees_of_freedom
+    without, squares = fit_nothing(fit), fit_board(fit, BoardShapeModel.AFFINE)
+    fits = {
+        name: without.lower(*shared.reduce_cost(cause)) for name, cause in _SHARED_CAUSES.items()
+    } | {"squares": squares}
+    names, after, left = list(_ADVICE_ON_CAUSES), [], 1.0
+    fits["smooth"], fits["lines"] = step_to_smooth(fit), step_to_lines(fit)
+    dispersion = measure_dispersion(fit, fits["smooth"])
+
+    def compute_criterion(name: str) -> float:
+        return fits[name].compute_akaike(without, freedom, dispersion)
+
+    is_lens_likely = compute_criterion("lens") < compute_criterion("squares")
+    if is_lens_likely and (calibration.lens_error > 0 or outdoes_board(shared)):
+        names.sort(key=lambda name: name != "lens")
+        after, left = [LENS], 1 - shared.reduce_cost(LENS)[0] / shared.cost
+    for done, name in enumerate(names):
+        if progress is not None:
+            progress(done, len(names))
+        share = 1.0
+        if name in OWN_CAUSES:
+            fits[name] = fit_own_cause(fit, OWN_CAUSES[name])
+            found = fits[name].judge(without, freedom)
+        elif name in _STEPS:
+            found = fits[name].judge(CauseFit(shared.cost, 0), freedom)
+        elif name == "squares" and not after:
+            found = squares.judge(without, freedom)
+        elif name == "lens":
+            found = shared.explain(LENS)
+        else:
+            found, share = shared.explain(_SHARED_CAUSES[name], *after), left
+        share *= found.share
+        passed = found.probability >= _MAX_FALSE_ALARM_RATE
+        if name in _SHARED_CAUSES and not passed:
+            before = () if name == "lens" else after
+            passed = not shared.do_views_agree(_SHARED_CAUSES[name], *before)
+        finding = "nothing" if passed else f"{np.sqrt(share) * rms:.2g} px rms"
+        yield NoiseCheck(
+            name,
+            passed,
+            finding,
+            _ADVICE_ON_CAUSES[name],
+            0.0 if passed else share,
+            found.probability,
+            compute_criterion(name),
+        )
+
+
+def _are_lens_and_board_alike(causes: Sequence[NoiseCheck], shared: SharedCauses) -> bool:
+    """Return whether both lens and board are causes that failed, and neither explains anything of
+    what the other leaves, beyond noise."""
+    failed = [c.name for c in causes if not c.passed and c.name in _SHARED_CAUSES]
+    boards = [_SHARED_CAUSES[name] for name in failed if name != "lens"]
+    if not boards or "lens" not in failed:
+        return False
+    beyond = [(board, LENS) for board in boards] + [(LENS, BoardShapeModel.FREE)]
+    return all(shared.explain(*pair).probability >= _MAX_FALSE_ALARM_RATE for pair in beyond)
+
+
+def _check_shape(residual: Array, sigma: Array, seen: BoolArray) -> NoiseCheck:
+    """Test whether residuals (K, N, 2), where `seen`, over their view's `sigma` are Gaussian."""
+    relative = (residual / sigma[:, None, None])[seen]
+    excess = float(np.mean(relative**4) / np.mean(relative**2) ** 2 - 3)
+    square = np.sum(residual**2, axis=-1)
+    # The median's square is 2 ln 2 sigma^2, which outliers do not move as they do a view's rms.
+    median = np.nanmedian(np.where(seen, square, np.nan), axis=1) / (2 * np.log(2))
+    over = square / np.minimum(sigma**2, _MAX_RMS_OVER_MEDIAN**2 * median)[:, None]
+    far = seen & (over > _MAX_LENGTH_IN_SIGMA**2 * np.median(over[seen]) / (2 * np.log(2)))
+    harmless = excess > 0 and not far.any()
+    passed = harmless or bool(
+        scipy.stats.kurtosistest(relative.ravel()).pvalue >= _MAX_FALSE_ALARM_RATE
+    )
+    return NoiseCheck(
+        "shape",
+        passed,
+        f"excess kurtosis {excess:+.2f}",
+        _ADVICE_ON_OUTLIERS if excess > 0 else _ADVICE_ON_ROUNDING,
+        0.0 if passed else float(square[far].sum() / square[seen].sum()),
+    )
+
+
+def _check_views(sigma: Array, freedom: Array, names: Sequence[str]) -> NoiseCheck:
+    """Test whether the views' `sigma` (K,) with degrees of freedom (K,) differ to any use."""
+    total, K = freedom.sum(), len(sigma)
+    if K == 1:
+        return NoiseCheck("views", True, "only one", _ADVICE_ON_BLUR, 0.0)
+    bartlett = total * np.log(np.sum(freedom * sigma**2) / total)
+    bartlett -= np.sum(freedom * np.log(sigma**2))
+    bartlett /= 1 + (np.sum(1 / freedom) - 1 / total) / (3 * (K - 1))
+    share = freedom / total
+    gain = np.sqrt(np.sum(share * sigma**2) * np.sum(share / sigma**2))
+    passed = bool(
+        gain < _MIN_GAIN_OF_WEIGHING
+        or bartlett < scipy.special.chdtri(K - 1, _MAX_FALSE_ALARM_RATE)
+    )
+    finding = f"sigma {sigma.min():.2g} to {sigma.max():.2g} px"
+    if not passed:
+        order = np.argsort(sigma)[::-1][:5].tolist()
+        loud = [k for k in order if sigma[k] > 1.5 * np.median(sigma)] or order[:1]
+        finding += ", most in " + ", ".join(names[k] for k in loud)
+    excess = 1 - np.median(sigma) ** 2 * total / np.sum(freedom * sigma**2)
+    return NoiseCheck(
+        "views", passed, finding, _ADVICE_ON_BLUR, 0.0 if passed else max(float(excess), 0.0)
+    )
+
+
+def _check_neighbours(relative: Array, observations: Observations) -> NoiseCheck:
+    """Test the correlation of residuals `relative` (K, N, 2) of neighbouring corners."""
+    reach = 1.1 * measure_pitch(observations)
+    products, pairs = 0.0, 0
+    for k in range(len(relative)):
+        places = observations.corners_of(k)
+        tree = scipy.spatial.cKDTree(observations.xy[k, places, :2])
+        near = tree.query_pairs(reach, output_type="ndarray")
+        r = relative[k, places]
+        products += float(np.sum(r[near[:, 0]] * r[near[:, 1]]))
+        pairs += len(near)
+    correlation = products / max(2 * pairs, 1)
+    passed = bool(correlation * np.sqrt(2 * pairs) < -scipy.special.ndtri(_MAX_FALSE_ALARM_RATE))
+    return NoiseCheck(
+        "neighbours", passed, f"correlation {correlation:+.2f}", _ADVICE_ON_NEIGHBOURS
+    )
+
+
+def _check_directions(residual: Array) -> NoiseCheck:
+    """Test whether residuals (n, 2) scatter alike in all directions (Mauchly 1940)."""
+    C = residual.T @ residual / len(residual)
+    values, vectors = np.linalg.eigh(C)
+    sphericity = -len(residual) * np.log(4 * np.linalg.det(C) / np.trace(C) ** 2)
+    passed = bool(sphericity < scipy.special.chdtri(2, _MAX_FALSE_ALARM_RATE))
+    low, high = np.sqrt(values)
+    finding = f"sigma {low:.2g} to {high:.2g} px"
+    if not passed:
+        angle = np.degrees(np.arctan2(vectors[1, 1], vectors[0, 1])) % 180
+        finding += f", largest {angle:.0f} deg from the rows"
+    return NoiseCheck("directions", passed, finding, _ADVICE_ON_DIRECTION)

@@ -1,0 +1,270 @@
+"""Causes of systematic residuals that each view has of its own, as columns of derivatives.
+
+A board that bends anew, a camera that moves while its rows are read: such causes add columns to
+the derivatives in each view. How much they explain is measured by a fit (``cause_fits.py``), but
+for that of any smooth displacement, whose many columns follow the camera's: there it is a score
+test (``calibration/score_tests.py``) without the camera's parameters. The products of columns with
+each other, after the views' poses are eliminated, serve to part views (``mixed_views.py``).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import NamedTuple
+
+import numpy as np
+
+from calibgui.engine.arrays import Array
+from calibgui.engine.assessment.residuals.cause_fits import CauseFit, Columns
+from calibgui.engine.calibration.observations import Observation, slice_views
+from calibgui.engine.calibration.problem import (
+    find_free_parameters,
+    make_state,
+    prepare_observations,
+)
+from calibgui.engine.calibration.refinement.residuals import Linearised
+from calibgui.engine.calibration.result import Calibration, Cost
+from calibgui.engine.calibration.score_tests import LinearisedFit
+
+_KNOT_SPACING = 1 / 16
+"""Distance of the knots between which rows are shifted, over the image's longer side."""
+_KNOTS = np.arange(-16, 17)
+"""Knots along the rows, counted from the board's mean row."""
+_MIN_EIGENVALUE = 1e-9
+"""Eigenvalue of normal equations of unit diagonal, below which a direction is undetermined."""
+
+
+class ViewProducts(NamedTuple):
+    """Products of columns that each view has of its own, after its pose is eliminated."""
+
+    N: Array
+    """(K, m, m) products of the columns with each other."""
+    b: Array
+    """(K, m) products of the columns with the residuals."""
+    shared: Array
+    """(K, P, P) products of the camera's free columns with each other."""
+    between: Array
+    """(K, P, m) products of the camera's columns with those of the view's own."""
+    gradient: Array
+    """(K, P) products of the camera's columns with the residuals."""
+    cost: float
+    """The sum of squares r^T r."""
+    freedom: int
+    """Number of residual coordinates beyond that of the fitted unknowns."""
+
+
+def prepare_fit(calibration: Calibration, views: Sequence[Observation]) -> LinearisedFit:
+    """Prepare a calibration and the views that it was made from for the tests."""
+    observations = prepare_observations(calibration, views)
+    if calibration.cost is Cost.PAPER:  # its board is stretched, see ``refinement/residuals.py``
+        fx, fy = calibration.camera.focal
+        stretched = observations.xy * np.array([1.0, fx / fy])
+        observations = replace(observations, xy=stretched)
+    return LinearisedFit(
+        calibration.camera,
+        make_state(calibration.camera, calibration.poses),
+        observations,
+        find_free_parameters(calibration),
+    )
+
+
+def weigh_views(fit: LinearisedFit, sigma: Array) -> LinearisedFit:
+    """Return a fit with every view's residuals divided by its standard deviation (K,)."""
+    return fit.weigh(fit.get_weight(slice(0, len(sigma))) / sigma[:, None, None, None])
+
+
+def step_to_lines(fit: LinearisedFit) -> CauseFit:
+    """Take a step to a shift along the rows that wanders from row to row in each view."""
+    return _take_own_step(fit, _make_line_columns)
+
+
+def step_to_smooth(fit: LinearisedFit) -> CauseFit:
+    """Take a step to any smooth displacement of each view's own, cubic over the board.
+
+    It follows all of `OWN_CAUSES`, and many that have no test.
+    """
+    return _take_own_step(fit, _make_cubic_displacements)
+
+
+def measure_dispersion(fit: LinearisedFit, smooth: CauseFit) -> float:
+    """Measure how much more than independent noise each further unknown of a view explains.
+
+    It is the mean square that shifts from row to row explain of what smooth displacements leave,
+    over the variance that both leave; at least 1. Rows that do not start evenly have errors that
+    are alike along them, of which any cause with many unknowns takes more than its share.
+    """
+
+    def make_columns(fit: LinearisedFit, linear: Linearised, views: slice) -> Array:
+        parts = [
+            make(fit, linear, views) for make in (_make_cubic_displacements, _make_line_columns)
+        ]
+        return np.concatenate(parts, axis=-1)
+
+    both = _take_own_step(fit, make_columns)
+    further, rest = both.unknowns - smooth.unknowns, fit.degrees_of_freedom - both.unknowns
+    if further < 1 or rest < 1 or not both.cost > 0:
+        return 1.0
+    return max((smooth.cost - both.cost) / further / (both.cost / rest), 1.0)
+
+
+def _take_own_step(fit: LinearisedFit, columns: Columns) -> CauseFit:
+    """Take a step to columns of each view's own, beside the poses."""
+    found = _multiply_own_columns(fit, columns)
+    T, rank = np.sum([_compute_reduction(N, b) for N, b in zip(found.N, found.b, strict=True)], 0)
+    return CauseFit(found.cost, 0).lower(float(T), int(rank))
+
+
+def _make_focus_columns(fit: LinearisedFit, _: Linearised, views: slice) -> Array:
+    """Make the column of a focal length of each view's own."""
+    from_centre = fit.predict_corners(views) - fit.camera.centre
+    return np.asarray(fit.get_weight(views) @ from_centre[..., None])
+
+
+def _make_distortion_columns(fit: LinearisedFit, _: Linearised, views: slice) -> Array:
+    """Make the columns of displacements along the radius, as its third and its fifth power."""
+    from_centre = fit.predict_corners(views) - fit.camera.centre
+    r2 = np.sum(from_centre**2, axis=-1, keepdims=True) / max(fit.camera.size) ** 2
+    columns = np.stack([r2 * from_centre, r2 * r2 * from_centre], axis=-1)
+    return np.asarray(fit.get_weight(views) @ columns)
+
+
+def _make_centre_columns(_: LinearisedFit, linear: Linearised, __: slice) -> Array:
+    """Make the columns of a principal point of each view's own.
+
+    A rotation of the camera hides most of it; what is left is that of an image in perspective, so
+    that an image that was straightened is explained as well as one that was shifted or cropped.
+    """
+    return linear.by_params[..., 2:4]
+
+
+def _make_bending_columns(fit: LinearisedFit, linear: Linearised, views: slice) -> Array:
+    """Make the columns of a board that bends anew in each view, quadratically."""
+    x, y = np.moveaxis(_scale_places(fit, views), -1, 0)
+    by_height = linear.by_pose[..., 3:] @ fit.state.R[views, None, :, 2:]
+    return np.asarray(by_height * np.stack([x * x, x * y, y * y], axis=-1)[..., None, :])
+
+
+def _make_row_columns(fit: LinearisedFit, linear: Linearised, views: slice) -> Array:
+    """Make the columns of a steady motion while the rows are read: a rolling shutter's."""
+    return np.asarray(linear.by_pose * _measure_rows(fit, views)[..., None, None])
+
+
+def _make_line_columns(fit: LinearisedFit, _: Linearised, views: slice) -> Array:
+    """Make the columns of a shift along the rows that wanders from row to row in each view."""
+    rows = _measure_rows(fit, views)[..., None]
+    hats = np.maximum(1 - np.abs(rows / _KNOT_SPACING - _KNOTS), 0.0)
+    return np.asarray(fit.get_weight(views)[..., :1] * hats[..., None, :])
+
+
+OWN_CAUSES: dict[str, Columns] = {
+    "focus": _make_focus_columns,
+    "centre": _make_centre_columns,
+    "bending": _make_bending_columns,
+    "rows": _make_row_columns,
+}
+"""Columns of the causes with few unknowns of each view's own, by the names of their tests
+(``residual_checks.py``)."""
+
+
+def _measure_rows(fit: LinearisedFit, views: slice) -> Array:
+    """Return the rows (k, N) of corners from their view's mean, over the image's longer side."""
+    row = fit.predict_corners(views)[..., 1] / max(fit.camera.size)
+    return np.asarray(row - row.mean(axis=1, keepdims=True))
+
+
+def multiply_by_focus(fit: LinearisedFit) -> ViewProducts:
+    """Multiply the column of a focal length of each view's own."""
+    return _multiply_own_columns(fit, _make_focus_columns)
+
+
+def multiply_by_distortion(fit: LinearisedFit) -> ViewProducts:
+    """Multiply the columns of a radial distortion of each view's own."""
+    return _multiply_own_columns(fit, _make_distortion_columns)
+
+
+def multiply_by_camera(fit: LinearisedFit) -> ViewProducts:
+    """Multiply the columns of a camera (fx, fy, cx, cy, distortion) of each view's own."""
+
+    def make_columns(fit: LinearisedFit, linear: Linearised, views: slice) -> Array:
+        distortion = _make_distortion_columns(fit, linear, views)
+        return np.concatenate([linear.by_params[..., :4], distortion], axis=-1)
+
+    return _multiply_own_columns(fit, make_columns)
+
+
+def multiply_by_board(fit: LinearisedFit) -> ViewProducts:
+    """Multiply the columns of a board of each view's own, with unequal sides and shear."""
+    y = fit.observations.xy[..., 1]
+    y = y / np.abs(y).max()
+
+    def make_columns(fit: LinearisedFit, linear: Linearised, views: slice) -> Array:
+        by_place = linear.by_pose[..., 3:] @ fit.state.R[views, None, :, :2]
+        return np.asarray(by_place * y[views, :, None, None])
+
+    return _multiply_own_columns(fit, make_columns)
+
+
+def _multiply_own_columns(fit: LinearisedFit, columns: Columns) -> ViewProducts:
+    """Multiply columns that each view has of its own, and the camera's, without the view's pose."""
+    parts, cost, P = [], 0.0, len(fit.free)
+    for views in slice_views(len(fit.state.R)):
+        linear = fit.linearise(views)
+        k = len(linear.residual)
+        X = columns(fit, linear, views)
+        stacked = (linear.by_params[..., fit.free], X, linear.residual[..., None])
+        X = np.concatenate(stacked, axis=-1).reshape(k, -1, P + X.shape[-1] + 1)
+        # Columns that no corner depends on would be divided by 0.
+        Jp = linear.by_pose.reshape(k, -1, 6)
+        Jp = Jp / np.maximum(np.linalg.norm(Jp, axis=1, keepdims=True), 1e-12)
+        Q = np.linalg.qr(Jp)[0]
+        left = X - Q @ (np.swapaxes(Q, 1, 2) @ X)
+        parts.append(np.swapaxes(left[..., :-1], 1, 2) @ left)
+        cost += float(np.sum(linear.residual**2))
+    G = np.concatenate(parts)
+    return ViewProducts(
+        G[:, P:, P:-1], G[:, P:, -1], G[:, :P, :P], G[:, :P, P:-1], G[:, :P, -1], cost,
+        fit.degrees_of_freedom,
+    )  # fmt: skip
+
+
+def _compute_reduction(N: Array, b: Array) -> tuple[float, int]:
+    """Return b^T N^+ b and the rank of N (m, m)."""
+    unit = 1 / np.sqrt(np.maximum(np.diag(N), 1e-24))  # columns may depend on no corner at all
+    values, vectors = np.linalg.eigh(N * np.outer(unit, unit))
+    good = values > _MIN_EIGENVALUE
+    return float(np.sum(((unit * b) @ vectors[:, good]) ** 2 / values[good])), int(good.sum())
+
+
+def make_smooth_columns(fit: LinearisedFit) -> Array:
+    """Make orthonormal columns (K, 2N, m) of what a view may have of its own, poses among them.
+
+    They are the pose's derivatives and cubic displacements of the image over the board, which
+    follow a board that bends, a lens that breathes and a camera that moves. Columns that depend on
+    each other, as in views of few corners, leave zeros at the end.
+    """
+    K = len(fit.observations.xy)
+    linear = fit.linearise(slice(0, K))
+    smooth = _make_cubic_displacements(fit, linear, slice(0, K))
+    smooth = smooth.reshape(K, -1, smooth.shape[-1])
+    # Columns that no corner depends on would be divided by 0.
+    smooth /= np.maximum(np.linalg.norm(smooth, axis=1, keepdims=True), 1e-300)
+    pose = np.linalg.qr(linear.by_pose.reshape(K, -1, 6))[0]
+    left, values, _ = np.linalg.svd(smooth - pose @ (np.swapaxes(pose, 1, 2) @ smooth), False)
+    left *= (values > np.sqrt(_MIN_EIGENVALUE))[:, None, :]
+    return np.concatenate([pose, left], axis=-1)
+
+
+def _make_cubic_displacements(fit: LinearisedFit, _: Linearised, views: slice) -> Array:
+    """Make columns (k, N, 2, 20): weighted displacements of the image, cubic over the board."""
+    x, y = np.moveaxis(_scale_places(fit, views), -1, 0)
+    terms = np.stack([x**i * y**j for i in range(4) for j in range(4 - i)], axis=-1)
+    columns = fit.get_weight(views)[..., None] * terms[..., None, None, :]
+    return np.asarray(columns.reshape(*terms.shape[:2], 2, -1))
+
+
+def _scale_places(fit: LinearisedFit, views: slice) -> Array:
+    """Return the places (k, N, 2) of corners on the board, from -1 to 1 over all that were seen."""
+    xy, mask = fit.observations.xy[..., :2], fit.observations.mask > 0
+    low, high = xy[mask].min(axis=0), xy[mask].max(axis=0)
+    return np.asarray((2 * xy[views] - low - high) / (high - low))

@@ -1,0 +1,1 @@
+"""The panels of the group Answer: the camera, and how well it is known."""

@@ -1,0 +1,160 @@
+"""The uncertainty of projection over the image."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pyqtgraph as pg
+from PySide6.QtCore import QT_TRANSLATE_NOOP, QPointF
+from PySide6.QtWidgets import QDoubleSpinBox, QHBoxLayout, QLabel, QVBoxLayout
+
+from calibgui.dataset import Result
+from calibgui.engine.numbers import format_two_digits
+from calibgui.engine.uncertainty import ProjectionUncertainty, estimate_projection_uncertainty
+from calibgui.gui.panels.latest import Latest
+from calibgui.gui.panels.panel import Panel
+from calibgui.gui.panels.parts.contours import Contours
+from calibgui.gui.panels.parts.heat import CORNERS, HeatMap, surround_places
+from calibgui.gui.panels.services import Services
+from calibgui.gui.widgets.lengths import describe_condition
+from calibgui.gui.widgets.point_cloud import PointCloud
+from calibgui.gui.widgets.wrapped_label import WrappedLabel
+from calibgui.report.quality import describe_distance
+
+_LIMIT = 0.1
+"""Uncertainty that a user can live with, until another is stated, px."""
+_TOP = 4.0
+"""Multiple of the median at which colours end: places without data would hide the rest."""
+
+
+class UncertaintyPanel(Panel):
+    """Shows one standard deviation of projection, without what moving the camera would undo.
+
+    Args:
+        jobs: that do the work.
+    """
+
+    title = str(QT_TRANSLATE_NOOP("UncertaintyPanel", "Uncertainty"))
+    purpose = str(
+        QT_TRANSLATE_NOOP(
+            "UncertaintyPanel",
+            "How well it is known where points are imaged, over the whole image.",
+        )
+    )
+
+    def __init__(self, services: Services) -> None:
+        super().__init__(services)
+        self._work = Latest(services.jobs, self)
+        self.found: ProjectionUncertainty | None = None
+        """The uncertainty that is drawn; None while it is being computed."""
+        self.distance = QDoubleSpinBox(
+            decimals=0, maximum=1e7, singleStep=100, suffix=self.tr(" mm")
+        )
+        self.distance.setSpecialValueText(self.tr("far away"))
+        self.distance.setToolTip(
+            self.tr("Of the points that the camera will look at; 0 for points far away.")
+        )
+        self.limit = QDoubleSpinBox(
+            decimals=3, minimum=0.001, maximum=100, singleStep=0.01, suffix=self.tr(" px")
+        )
+        self.limit.setValue(_LIMIT)
+        self.limit.setToolTip(
+            self.tr("The uncertainty that you can live with: the red line goes around it.")
+        )
+        bar = QHBoxLayout()
+        for text, box in ((self.tr("P&oints"), self.distance), (self.tr("Limi&t"), self.limit)):
+            box.setKeyboardTracking(False)
+            label = QLabel(text)
+            label.setBuddy(box)
+            bar.addWidget(label)
+            bar.addWidget(box)
+        bar.addStretch(1)
+        self.distance.valueChanged.connect(self._refresh_now)
+        self.limit.valueChanged.connect(self._draw_limit)
+        self.words = WrappedLabel()
+        self.plot = HeatMap(self.tr("one σ, worst direction [px]"))
+        self.plot.setToolTip(
+            self.tr(
+                "A point of the scene is imaged this far from where the calibration says (1σ).\n"
+                "What turning and shifting the camera would undo is taken out.\n"
+                "It is what the calibration says of itself. The verdict's error may be another:\n"
+                "where the remedy of a finding was tried, it is measured against the camera that\n"
+                "the remedy gives."
+            )
+        )
+        self.plot.scene().sigMouseMoved.connect(self._hover)
+        self.region = Contours(self.plot, pg.mkPen("#ff3b30", width=2.5))
+        self.corners = PointCloud(size=2)
+        self.plot.addItem(self.corners)
+        self.under_cursor = QLabel()
+        layout = QVBoxLayout(self.body)
+        layout.addLayout(bar)
+        layout.addWidget(self.words)
+        layout.addWidget(self.plot, 1)
+        layout.addWidget(self.under_cursor)
+        layout.addStretch()
+
+    def _refresh(self, result: Result) -> None:
+        self.found = None
+        self.words.setText(self.tr("Working…"))
+        views = result.observations()
+        self.corners.show_points([np.concatenate([view.uv for view in views])], [CORNERS])
+        distance = self.distance.value() or math.inf
+        self._work.start(
+            self.tr("Propagating the uncertainty"),
+            lambda _: estimate_projection_uncertainty(result.calibration, views, distance),
+            self._show,
+            lambda error: self.words.setText(str(error)),
+        )
+
+    def _show(self, found: ProjectionUncertainty) -> None:
+        self.found = found
+        u, v, sigma = found.u, found.v, found.worst_direction
+        self.plot.show_values(sigma, surround_places(u, v), self._find_top(found))
+        self.plot.fit(found.size)
+        self._draw_limit()
+        self._hover(None)
+
+    def _find_top(self, found: ProjectionUncertainty) -> float:
+        """Return what the brightest colour stands for, px; a few places far beyond share it."""
+        return min(found.worst, _TOP * found.median)
+
+    def _draw_limit(self) -> None:
+        found, limit = self.found, self.limit.value()
+        if found is None or self._result is None:
+            return
+        self.region.show(found.u, found.v, found.worst_direction, [limit])
+        share = found.fraction(limit)
+        inside = self.tr(" (inside the red line)") if 0 < share < 1 else ""
+        text = self.tr(
+            "Points {0} are imaged to {1} px at the centre, {2} px in the median, "
+            "{3} px at worst (1σ). {4:.0f} % of the image is known to {5:g} px or "
+            "better{6}."
+        ).format(
+            describe_distance(found.distance)
+            + (describe_condition(self._result) if math.isfinite(found.distance) else ""),
+            *map(format_two_digits, (found.centre, found.median, found.worst)),
+            100 * share,
+            limit,
+            inside,
+        )
+        if (top := self._find_top(found)) < found.worst:
+            text += self.tr(" The brightest colour is {0} px or more.").format(
+                format_two_digits(top)
+            )
+        self.words.setText(text)
+
+    def _hover(self, position: QPointF | None) -> None:
+        """Say the uncertainty under the cursor."""
+        found = self.found
+        uv = None if found is None else self.plot.pixel_at(position, found.size)
+        if found is None or uv is None:
+            self.under_cursor.setText(self.tr("Point at the map to read it."))
+            return
+        column, row = np.abs(found.u - uv[0]).argmin(), np.abs(found.v - uv[1]).argmin()
+        self.under_cursor.setText(
+            self.tr("u {0:.0f}, v {1:.0f}: σ = {2:.3f} px, in all directions {3:.3f} px").format(
+                *uv, found.worst_direction[row, column], found.rms[row, column]
+            )
+        )

@@ -1,0 +1,1 @@
+"""The panels of the group Evidence: what the views say for and against the camera."""

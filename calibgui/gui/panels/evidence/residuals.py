@@ -1,0 +1,144 @@
+"""Residuals of all corners (figure 10)."""
+
+from __future__ import annotations
+
+from html import escape
+
+from PySide6.QtCore import QT_TRANSLATE_NOOP, Qt
+from PySide6.QtWidgets import QVBoxLayout
+
+from calibgui.app.calibrating.calibration import shorten_names
+from calibgui.dataset import Result
+from calibgui.dataset.judging import judge_result
+from calibgui.engine.assessment import (
+    NoiseReport,
+    Verdict,
+    check_residuals,
+    find_explanation,
+    summarise_residuals,
+)
+from calibgui.gui.panels.evidence.plane import PlaneChoice
+from calibgui.gui.panels.latest import Latest
+from calibgui.gui.panels.panel import Panel
+from calibgui.gui.panels.parts.scatter import ResidualScatter
+from calibgui.gui.panels.services import Services
+from calibgui.gui.widgets.wrapped_label import WrappedLabel
+
+_MARKS = {True: "✓", False: "✗"}
+
+
+class ResidualsPanel(Panel):
+    """Shows what the calibration leaves unexplained; a click shows the corner in its image.
+
+    Args:
+        jobs: that examine whether it looks like noise.
+    """
+
+    title = str(QT_TRANSLATE_NOOP("ResidualsPanel", "Residuals"))
+    purpose = str(
+        QT_TRANSLATE_NOOP(
+            "ResidualsPanel",
+            "Measured minus predicted corners: the reprojection errors, one dot each.",
+        )
+    )
+
+    def __init__(self, services: Services) -> None:
+        super().__init__(services)
+        self._work = Latest(services.jobs, self)
+        self._examined: Result | None = None
+        self.plane = PlaneChoice()
+        self.plane.currentIndexChanged.connect(self._refresh_now)
+        self.scatter = ResidualScatter()
+        self.scatter.setToolTip(self.tr("Click a point to see its corner in the image."))
+        self.scatter.picked.connect(self._pick)
+        self.verdict = WrappedLabel()
+        layout = QVBoxLayout(self.body)
+        layout.addWidget(self.verdict)
+        layout.addWidget(self.plane, 0, Qt.AlignmentFlag.AlignLeft)
+        layout.addWidget(self.scatter, 1)
+
+    def _refresh(self, result: Result) -> None:
+        self._examine(result)
+        calibration = result.calibration
+        summary = summarise_residuals(calibration.residuals)
+        x, y, e = self.plane.names
+        self.scatter.show_residuals(
+            self.plane.residuals(calibration), self._indices, x, y, self.plane.unit
+        )
+        self.scatter.set_title(
+            self.tr("{0}: mean {1:.3f}, SD {2:.3f} {3}").format(
+                e, summary.reference_mean, summary.reference_sd, self.plane.unit
+            )
+            if self.plane.on_reference
+            else self.tr("σ: {0} {1:.3f}, {2} {3:.3f} px").format(
+                x, summary.sigma_x, y, summary.sigma_y
+            )
+        )
+
+    def _examine(self, result: Result) -> None:
+        if result is self._examined:
+            return
+        self._examined = result
+        self.verdict.setText(self.tr("Do the residuals look like noise? Working…"))
+        self.verdict.setToolTip("")
+        self._work.start(
+            self.tr("Examining the residuals"),
+            lambda job: check_residuals(
+                result.calibration, result.observations(), shorten_names(result.used), job.advance
+            ),
+            lambda report: self._show_report(report, result),
+            lambda error: self.verdict.setText(str(error)),
+            self._forgo,
+        )
+
+    def _forgo(self) -> None:
+        """The user does not want to wait; it is tried again when the panel is drawn anew."""
+        self._examined = None
+        self.verdict.setText(self.tr("Whether the residuals look like noise was not examined."))
+
+    def _show_report(self, report: NoiseReport, result: Result) -> None:
+        """Say what the residuals look like; what every test found is in the tooltip.
+
+        One trouble makes several tests fail, so the cause is taken from the verdict.
+        """
+        rows = "".join(
+            f"<tr><td>{_MARKS[check.passed]}&nbsp;</td><td>{escape(check.name)}&nbsp;</td>"
+            f"<td>{escape(check.finding)}</td></tr>"
+            for check in report.checks
+        )
+        self.verdict.setToolTip(f"<table>{rows}</table>")
+        if report.passed:
+            self.verdict.setText(
+                self.tr(
+                    "The residuals look like noise: nothing speaks against the ± of the result."
+                )
+            )
+            return
+        self.verdict.setText(self.tr("The residuals are not just noise. Why? Working…"))
+        self._work.start(
+            self.tr("Judging the calibration"),
+            lambda job: judge_result(result, job.check),
+            self._explain,
+            lambda error: self.verdict.setText(str(error)),
+            self._forgo,
+        )
+
+    def _explain(self, verdict: Verdict) -> None:
+        """Name the cause that the verdict singles out, or none."""
+        finding = find_explanation(verdict.findings)
+        self.verdict.setText(
+            self.tr("The residuals are not just noise, but no cause of it stands out that matters.")
+            if finding is None
+            else self.tr("The residuals are not just noise. {0} {1}").format(
+                finding.message, finding.remedy
+            )
+        )
+
+    def _select(self, k: int, corner: int) -> None:
+        self.scatter.select(k, corner)
+
+    def _hover_view(self, k: int) -> None:
+        if k >= 0:
+            self.scatter.select(k)
+        else:
+            self.scatter.select(*self._selected)

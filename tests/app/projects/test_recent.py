@@ -1,0 +1,64 @@
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+
+from calibgui.app.projects.recent import (
+    Recent,
+    list_recent,
+    list_recent_projects,
+    remember_project,
+)
+from calibgui.app.system.state_folder import find_state_folder
+
+
+@pytest.fixture(autouse=True)
+def home(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    for name in ("XDG_STATE_HOME", "LOCALAPPDATA", "HOME"):
+        monkeypatch.setenv(name, str(tmp_path / "home"))
+
+
+def test_newest_first_each_once_and_only_what_exists(tmp_path: Path) -> None:
+    assert list_recent_projects() == []
+    paths = [tmp_path / f"{i}.json" for i in range(12)]
+    for path in paths:
+        path.touch()
+        remember_project(path)
+    remember_project(paths[5])
+    assert list_recent_projects()[:2] == [paths[5], paths[11]]
+    assert len(list_recent_projects()) == 10
+    paths[11].unlink()
+    assert paths[11] not in list_recent_projects()
+
+
+def test_damaged_notes_are_no_obstacle(tmp_path: Path) -> None:
+    (find_state_folder() / "recent.json").write_text('{"no": ', encoding="utf-8")
+    assert list_recent_projects() == []
+    project = tmp_path / "a.json"
+    project.touch()
+    remember_project(project)
+    assert list_recent_projects() == [project]
+
+
+def test_folders_and_first_images_are_remembered(tmp_path: Path) -> None:
+    project, folder = tmp_path / "a.json", tmp_path / "images"
+    project.touch()
+    folder.mkdir()
+    remember_project(project, "/photographs/1.png")
+    remember_project(folder, str(folder / "1.png"))
+    assert list_recent() == [
+        Recent(folder, str(folder / "1.png")),
+        Recent(project, "/photographs/1.png"),
+    ]
+    assert list_recent_projects() == [project]
+    folder.rmdir()
+    assert [entry.path for entry in list_recent()] == [project]
+
+
+def test_notes_of_earlier_versions_are_read(tmp_path: Path) -> None:
+    project = tmp_path / "a.json"
+    project.touch()
+    (find_state_folder() / "recent.json").write_text(json.dumps([str(project)]), "utf-8")
+    assert list_recent() == [Recent(project, "")]
