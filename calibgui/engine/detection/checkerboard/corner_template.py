@@ -308,21 +308,32 @@ _PLAIN, _PLAIN_IF_PRINTED = 0.5, 0.25
 something is printed in them."""
 
 
-def check_crossing(corners: OrientedCorners, image: GreyImage) -> tuple[bool, bool]:
+def check_crossing(
+    corners: OrientedCorners, image: GreyImage, plain: float = _PLAIN
+) -> tuple[bool, bool]:
     """Check whether the typical one of the corners is the crossing of two edges.
+
+    Args:
+        corners: those of a lattice.
+        image: (h, w) grey levels.
+        plain: how far from their edges squares are known to be of one colour, squares: where what
+            is printed begins nearer than elsewhere, corners count that are crossings so far.
 
     Returns:
         Whether it is, as far as squares are of one colour; and whether they are throughout, with
         nothing printed in them.
     """
-    near = _compute_typical_patch(corners.shorten_steps(_PLAIN_IF_PRINTED), image)
     limit = _THRESHOLDS.max_crossing_dissimilarity
-    if _measure_dissimilarity(near, _model_crossings(_PLAIN_IF_PRINTED)) > limit:
-        return False, False
-    whole = _compute_typical_patch(corners, image)
-    bare = _measure_dissimilarity(whole, _model_crossings(_PLAIN)) <= limit
-    plain = _measure_dissimilarity(near, _model_crossings(_PLAIN_IF_PRINTED, overlap=False))
-    return bare or plain <= _THRESHOLDS.max_printed_dissimilarity, bare
+    for reach in sorted({_PLAIN_IF_PRINTED, min(plain, _PLAIN_IF_PRINTED)}, reverse=True):
+        near = _compute_typical_patch(corners.shorten_steps(reach), image)
+        if _measure_dissimilarity(near, _model_crossings(reach)) > limit:
+            continue
+        whole = _compute_typical_patch(corners, image)
+        bare = _measure_dissimilarity(whole, _model_crossings(_PLAIN)) <= limit
+        off = _measure_dissimilarity(near, _model_crossings(reach, overlap=False))
+        if bare or off <= _THRESHOLDS.max_printed_dissimilarity:
+            return True, bare
+    return False, False
 
 
 def is_plain_crossing(corners: OrientedCorners, image: GreyImage, is_printed: bool) -> bool:

@@ -124,7 +124,7 @@ def _judge_edges(
     """Find the rule by which the edges at some corners of a lattice are no board's; arguments and
     result as `find_objection`."""
     limits = THRESHOLDS.prefilter
-    is_crossing, is_bare = check_crossing(corners, image)
+    is_crossing, is_bare = check_crossing(corners, image, plain)
     if not is_crossing:
         return _NO_CROSSING
     edges = _measure_edges(corners, image, plain)

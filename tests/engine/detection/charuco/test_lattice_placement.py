@@ -104,3 +104,11 @@ def test_squares_without_any_print_say_nothing() -> None:
     image = np.pad(np.where(squares == 1, 220, 30), 60, constant_values=220).astype(np.uint8)
     with pytest.raises(NoBoardError):
         find_corners(image, (8, 11), pattern=Charuco("DICT_5X5_250", 0.7))
+
+
+def test_markers_begin_nearer_than_corners_are_looked_at_elsewhere() -> None:
+    scene = replace(SMALL, rvec=(0.5, 0.4, 0.2), distance=540.0)
+    image = scene.image(1.2, NOISE)
+    corners = find_corners(image, scene.board.grid_size, pattern=scene.board.pattern)
+    assert corners.complete
+    assert_at_bound(scene, corners, (0.6, 1.6))
