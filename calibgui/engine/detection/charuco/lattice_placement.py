@@ -30,7 +30,7 @@ _MIN_SQUARES = 5
 """Least number of squares that are read together."""
 _MIN_LEAD = 4.0
 """Least lead of the best place over the second, standard errors. On 38 rendered boards with cells
-of 1 to 4 px and blurs of 0.5 to 1.6 px it is 4.1 to 33, and 2.6 at most on 1547 boards that are not
+of 1 to 4 px and blurs of 0.5 to 1.6 px it is 4.1 to 33, and 2.9 at most on 1902 boards that are not
 theirs."""
 _MIN_SHARE_INSIDE = 0.5
 """Least share of a lattice that lies on the board: it may have stray lines."""
