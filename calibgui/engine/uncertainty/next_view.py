@@ -42,6 +42,9 @@ _PLACES_IN_IMAGE = ((0.2, 0.35, 0.5, 0.65, 0.8), (0.25, 0.5, 0.75))
 """Places of the board's middle, in widths and in heights of the image."""
 _TILTS_DEG = (25.0, 45.0)
 """Tilts beside none, degrees; beyond 45 the corners of a printed board are hard to locate."""
+_MIN_SPACING_OF_TILTED = 0.5
+"""Least distance between corners of the first tilted board, over that of those held parallel: less
+than 45 degrees make of it."""
 _WIDTHS_IN_IMAGE = (0.3, 0.45, 0.6, 0.75, 0.9)
 """Widths of the untilted board, in widths of the image."""
 _MARGIN_IN_WIDTHS = 0.01
@@ -170,8 +173,11 @@ def _list_candidates(
     scale = measure_axis_scale(camera)
     upright = np.diag([1.0, 1.0, 1.0] if _is_y_down(calibration) else [1.0, -1.0, -1.0])
     found = []
-    # No information tells what a partial calibration assumes; tilted views determine it.
-    tilts = _list_tilts(is_tilted=calibration.diagnosis is not None)
+    is_partial = calibration.diagnosis is not None
+    # No information tells what a partial calibration assumes; tilted views determine it. Their
+    # corners lie closer to each other than those of a board that was held parallel.
+    tilts = _list_tilts(is_tilted=is_partial)
+    finest *= _MIN_SPACING_OF_TILTED if is_partial else 1.0
     tried = list(product(*_PLACES_IN_IMAGE, _WIDTHS_IN_IMAGE, tilts))
     for done, (x, y, fill, (tilt, side)) in enumerate(tried):
         if progress is not None:
