@@ -19,6 +19,13 @@ def test_visible_corners_are_found_in_their_places() -> None:
         assert total.wrong == 0
 
 
+@pytest.mark.parametrize(("kind", "seed"), [("hand", 9), ("hand, off 1 side", 5)])
+def test_where_a_finger_crosses_an_edge_is_no_corner(kind: str, seed: int) -> None:
+    """It looked like one, a quarter of a square from where the corner is covered."""
+    scene = scenes(kind, seed + 1)[seed]
+    assert count(scene, known=True).wrong == 0
+
+
 def test_the_count_sees_displaced_and_misplaced_corners() -> None:
     (scene,) = scenes("off 1 side", 1)
     corners = find_corners(scene.photograph(0), scene.conditions.grid_size)

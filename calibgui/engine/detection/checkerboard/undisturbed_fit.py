@@ -72,10 +72,12 @@ def fit_undisturbed(
     kept = undisturbed[lattice.found]
     fit = replace_fits(fit, part, rest.found[lattice.found], np.ones(len(rest), np.bool_))
     off = verification.measure_displacements(fit.uv, cells, kept)
-    # What the model describes near a corner is the corner, however paper or shutter bend the lines.
+    # What the model describes near a corner is the corner, however paper or shutter bend the lines,
+    # if its edges run along them: those of a finger do not.
     poor = verification.find_suspect_corners(fit.residual)
+    is_corner = ~(poor | verification.find_askew_corners(fit, lattice, lattice.found))
     farthest = verification.limit_fit_shift(lattice.spacing()[lattice.found])
-    off = np.where(poor, off, np.minimum(off, farthest))
+    off = np.where(is_corner, np.minimum(off, farthest), off)
     return fit, np.where(kept & ~poor, 0.0, off)
 
 

@@ -243,6 +243,18 @@ def does_pattern_continue(lattice: Lattice, image: GreyImage) -> bool:
     return bool(np.count_nonzero(alternate) > limit)
 
 
+def find_askew_corners(fit: XCornerFit, around: Lattice, found: BoolArray) -> BoolArray:
+    """Find the corners (n,), those under the mask `found`, whose fitted edges do not point to the
+    neighbours in the lattice `around`: not even bent paper has such, but what lies over it has."""
+    limits = THRESHOLDS.verification
+    steps = np.stack([step[found] for step in around.steps()], axis=1)
+    sine = np.abs(np.sum(fit.model.normals() * steps, axis=2)) / compute_lengths(steps)
+    max_sine = np.maximum(
+        limits.max_edge_angle_sine, limits.max_relative_edge_angle * np.median(sine, axis=0)
+    )
+    return np.asarray((sine > max_sine).any(axis=1))
+
+
 def find_described_corners(
     fit: XCornerFit,
     lattice: Lattice,
@@ -265,19 +277,12 @@ def find_described_corners(
         A mask (n,).
     """
     limits = THRESHOLDS.verification
-    found = lattice.found
-    shift = compute_lengths(fit.uv - lattice.uv[found])
+    shift = compute_lengths(fit.uv - lattice.uv[lattice.found])
     typical = float(compute_median(fit.residual))
-    around = lattice.uv if expected is None else expected
-    right, down = (step[found] for step in estimate_steps(around))
-    steps = np.stack([right, down], axis=1)
-    spacing = np.fmin(compute_lengths(right), compute_lengths(down))
-    sine = np.abs(np.sum(fit.model.normals() * steps, axis=2)) / compute_lengths(steps)
-    max_sine = np.maximum(
-        limits.max_edge_angle_sine, limits.max_relative_edge_angle * np.median(sine, axis=0)
-    )
+    around = lattice if expected is None else Lattice(expected, lattice.dark)
+    spacing = around.spacing()[lattice.found]
     is_wide = np.zeros(len(fit.uv), np.bool_) if displacement is None else displacement > 0
-    askew = (sine > max_sine).any(axis=1) & ~is_wide
+    askew = find_askew_corners(fit, around, lattice.found) & ~is_wide
     to_contrast = np.where(is_wide, limits.max_residual_if_widened, limits.max_residual_to_contrast)
     max_residual = np.maximum(limits.max_relative_residual * typical, to_contrast * fit.contrast)
     return np.asarray(
