@@ -9,9 +9,11 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 from typing import Any, NamedTuple
 
+from calibgui.engine.arrays import Size
 from calibgui.engine.assessment.causes.finding import Action, ActionKind
 from calibgui.engine.assessment.choices.cross_validation import choose_board_shape
 from calibgui.engine.assessment.choices.lens_choice import choose_lens_stepwise
+from calibgui.engine.assessment.choices.lens_trial import LensTrial
 from calibgui.engine.assessment.residuals.outliers import screen_outliers, select_corners
 from calibgui.engine.assessment.residuals.view_weights import calibrate_weighted
 from calibgui.engine.boards.shape import BoardShapeModel
@@ -41,9 +43,10 @@ def try_action_safely(
     check: Callable[[], None] | None,
 ) -> Trial | None:
     """Carry out an action; None if the views do not allow it, or it does not determine one."""
-    is_chosen = "model_reason" in calibration.settings  # from all of them already
-    if action is not None and action.kind is ActionKind.CHOOSE_LENS_MODEL and is_chosen:
-        return Trial(action, calibration, list(views))
+    if action is None:
+        return None
+    if action.kind is ActionKind.CHOOSE_LENS_MODEL and _is_lens_chosen(calibration):
+        return Trial(action, calibration, list(views))  # from all of them already
     try:
         trial = try_action(action, calibration, views, check)
     except CalibrationError:
@@ -86,14 +89,7 @@ def try_action(
             board = choose_board_shape(given, size, nominal=nominal, **settings)
             return Trial(replace(action, model=board.model), board.chosen, given)
         case ActionKind.CHOOSE_LENS_MODEL:
-            settings["fix"] = {n: v for n, v in settings["fix"].items() if n in PINHOLE}
-            shape = {name: settings.pop(name) for name in ("board_shape", "prior")}
-            del settings["model"], settings["free"]
-            lens = choose_lens_stepwise(given, size, **settings).chosen
-            camera = lens.calibration
-            if shape["board_shape"] != BoardShapeModel.NOMINAL:  # it is estimated or given again
-                settings |= {"model": lens.model, "fix": {**settings["fix"], **lens.fixed}}
-                camera = calibrate(given, size, **settings, **shape)
+            lens, camera = _choose_lens(given, size, settings)
             held = tuple(lens.fixed)
             return Trial(replace(action, model=lens.model, parameters=held), camera, given)
         case ActionKind.LEAVE_OUT_CORNERS:
@@ -106,12 +102,36 @@ def try_action(
             return Trial(action, screening.calibration, kept)
         case ActionKind.LEAVE_OUT_VIEWS:
             kept = [view for k, view in enumerate(given) if k not in action.views]
+            if _is_lens_chosen(calibration):  # what followed two kinds of views is hardly the best
+                return Trial(action, _choose_lens(kept, size, settings)[1], kept)
             return Trial(action, calibrate(kept, size, **settings), kept)
         case ActionKind.WEIGH_VIEWS:
             return Trial(action, *calibrate_weighted(given, size, **settings))
         case _:
             changed = _change_held(settings, action)
             return Trial(action, calibrate(given, size, **changed), given)
+
+
+def _is_lens_chosen(calibration: Calibration) -> bool:
+    """Return whether the lens model was chosen automatically."""
+    return "model_reason" in calibration.settings
+
+
+def _choose_lens(
+    views: list[Observation], size: Size, settings: dict[str, Any]
+) -> tuple[LensTrial, Calibration]:
+    """Choose the lens model for views; return it, and the calibration with it and the board's shape
+    of the settings."""
+    fix = {name: value for name, value in settings["fix"].items() if name in PINHOLE}
+    of_lens = ("model", "free", "fix", "board_shape", "prior")
+    others = {name: value for name, value in settings.items() if name not in of_lens}
+    lens = choose_lens_stepwise(views, size, fix=fix, **others).chosen
+    if settings["board_shape"] == BoardShapeModel.NOMINAL:
+        return lens, lens.calibration
+    # It is estimated or given again.
+    shape = {name: settings[name] for name in ("board_shape", "prior")}
+    fix |= lens.fixed
+    return lens, calibrate(views, size, model=lens.model, fix=fix, **others, **shape)
 
 
 def _make_report(check: Callable[[], None]) -> Report:

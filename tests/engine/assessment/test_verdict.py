@@ -268,3 +268,15 @@ def test_trying_can_be_abandoned() -> None:
 
     with pytest.raises(Cancelled):
         judge_calibration(found, fault.views, check=abandon)
+
+
+def test_the_lens_model_is_chosen_anew_for_the_views_that_are_left() -> None:
+    """So it is in the calibration that comes of it; two kinds of views may have chosen another."""
+    found = calibrate(CLEAN, VGA, model="pinhole")
+    action = Action(ActionKind.LEAVE_OUT_VIEWS, (0,))
+    named = try_action(action, found, CLEAN)
+    chosen = replace(found, settings={**found.settings, "model_reason": "It was chosen."})
+    anew = try_action(action, chosen, CLEAN)
+    assert named is not None and named.calibration.camera.model == "pinhole"
+    assert anew is not None and anew.calibration.camera.model == "lucchese"
+    assert len(anew.views) == len(CLEAN) - 1
