@@ -10,6 +10,7 @@ from calibgui.app.outputs.resampling import GEOMETRY_FILE, WrittenImage
 from calibgui.cli.console import Console
 from calibgui.cli.outputs import add_overwrite_option
 from calibgui.engine.errors import CalibrationError
+from calibgui.engine.images import FORMATS
 from calibgui.report.numbers import format_count
 
 
@@ -18,12 +19,22 @@ def add_output_folder(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "-o",
         "--output",
-        type=Path,
+        type=_parse_folder,
         required=True,
         metavar="DIR",
         help="folder for the new images, created if missing; not that of the photographs",
     )
     add_overwrite_option(parser)
+
+
+def _parse_folder(text: str) -> Path:
+    """Return the folder of that name, unless it is that of an image."""
+    folder = Path(text)
+    if folder.suffix.lower() in FORMATS and not folder.is_dir():
+        raise argparse.ArgumentTypeError(
+            f"{text!r} is an image's name: name a folder for the new ones"
+        )
+    return folder
 
 
 def report_written(

@@ -26,6 +26,14 @@ def test_undistort_writes_a_folder(
     assert len(list(out.iterdir())) == COUNT + 1
 
 
+def test_an_image_is_no_folder(result_file: Path, tmp_path: Path, capsys: Capture) -> None:
+    out = tmp_path / "straight.png"
+    with pytest.raises(SystemExit):
+        main(["undistort", str(result_file), "view1.png", "-o", str(out)])
+    assert "name a folder for the new ones" in capsys.readouterr().err
+    assert not out.exists()
+
+
 def test_the_field_of_view_is_passed_on(
     result_file: Path, photographs: Path, tmp_path: Path
 ) -> None:
