@@ -1,1 +1,1 @@
-"""From corners to a result: the calibration itself, and what is tried beside it."""
+"""The way from corners to a result: calibrations, and the comparisons and checks beside them."""

@@ -1,1 +1,1 @@
-"""What is written for others: folders of images, figures, boards to print."""
+"""Files that are written for others: folders of images, figures, boards to print."""

@@ -84,7 +84,8 @@ class Project:
 
     @property
     def corner_set(self) -> CornerSet | None:
-        """What is calibrated: the views on the board; None while no image's size is known."""
+        """The views and the board that a calibration is made from; None while no image's size is
+        known."""
         if self.size is None:
             return None
         return CornerSet(self.size, self.views, self.board, self.lengths_confirmed)

@@ -1,1 +1,1 @@
-"""What the program needs of the machine: processes, memory, libraries and places for files."""
+"""The machine that the program runs on: processes, memory, libraries and places for files."""

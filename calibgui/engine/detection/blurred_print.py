@@ -1,4 +1,4 @@
-"""What is printed beside corners, as a camera blurs it, taken out of an image.
+"""Dots, markers and tags beside corners, as a camera blurs them, taken out of an image.
 
 Place, size, colour and blur of dots and tags are known once the corners are, so that they can be
 computed and subtracted: what is blurred then does not draw the corners of small squares aside.

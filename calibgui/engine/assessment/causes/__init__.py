@@ -1,4 +1,4 @@
-"""What is wrong with a calibration, told in reading order.
+"""The causes of what is wrong with a calibration, told in reading order.
 
 ``list_findings`` is the entry: it lists each ``finding``, the most harmful first. ``cause_choice``
 chooses the one cause of residuals that are not noise; among the causes are ``mixed_views`` and a

@@ -83,7 +83,7 @@ _SOUGHT = {
     "these"
 }
 _SOUGHT_AT_LARGE = "another camera, zoom, focus or board in these photographs"
-"""What to look for where views are of two kinds, by what differs between these."""
+"""The things to look for where views are of two kinds, by the name of their difference."""
 _CHECKS_OF_BOARD = ("squares", "bow", "board")
 """Tests of a board that is the same in all views."""
 _CHECKS_OF_VIEWS = ("focus", "centre", "bending", "rows")

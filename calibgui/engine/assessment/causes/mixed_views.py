@@ -41,7 +41,7 @@ from calibgui.engine.assessment.residuals.systematic_errors import (
 from calibgui.engine.calibration.score_tests import LinearisedFit
 
 DISTORTION = "lens distortion"
-"""What differs between two kinds of which one was corrected by the camera or a program."""
+"""Name of the difference of two kinds of views of which a camera or a program corrected one."""
 _MAX_FALSE_ALARM_RATE = 1e-3
 """Probability under noise that any way to part the views explains as much."""
 _MIN_EIGENVALUE = 1e-9

@@ -1,4 +1,4 @@
-"""What the residuals say of a calibration, told in reading order.
+"""Tests and measures of a calibration's residuals, told in reading order.
 
 ``residual_statistics`` states their size, ``residual_checks`` whether they are noise; if they are
 not, ``systematic_errors`` are what views may have of their own, and ``cause_fits`` fits such causes

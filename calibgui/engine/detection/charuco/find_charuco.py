@@ -64,8 +64,8 @@ from calibgui.engine.errors import NoBoardError, UnknownPartError
 _FEW_CORNERS = 0.5
 """Share of a board's corners up to which all of its markers are read together."""
 _PLAIN = 1 / 8
-"""How far from the corners nothing is printed, squares: the margin of markers of 3/4 of a
-square."""
+"""Distance from the corners within which nothing is printed, squares: the margin of markers of 3/4
+of a square."""
 _SIDES = (0.75, 0.6)
 """Sides of a marker that are tried where none is stated, squares: they miss others by less than a
 cell."""

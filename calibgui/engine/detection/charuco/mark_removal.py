@@ -48,7 +48,7 @@ _SQUARE = np.array([(0, 0), (0, 1), (1, 1), (1, 0)])
 
 
 class Marks(NamedTuple):
-    """What is printed in n squares of a board."""
+    """The markers or tags that are printed in n squares of a board."""
 
     squares: IntArray
     """(n, 2) row and column of the inner corner that is the upper left one of the square; one less

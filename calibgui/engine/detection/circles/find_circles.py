@@ -59,17 +59,17 @@ _OPEN = (
     "The picture ends before the next row or column of circles would be seen: state the numbers of"
     " rows and columns if the grid has more."
 )
-"""What is said of a grid whose end is not seen."""
+"""Remark on a grid whose end is not seen."""
 _BESIDE = (
     "Single discs lie where the next row or column would be: state the numbers of rows and columns"
     " if these are circles of the grid."
 )
-"""What is said of a grid that may have lines of which almost all circles are covered."""
+"""Remark on a grid that may have lines of which almost all circles are covered."""
 _UNSEEN = (
     "No circle of a row or column at the grid's border is seen well: which of the rows and columns"
     " are seen is not certain."
 )
-"""What is said of a grid with gaps whose extent rests on circles that are not trusted."""
+"""Remark on a grid with gaps whose extent rests on circles that are not trusted."""
 _MAX_SCATTER_SIGMAS = 3.0
 """Greatest excess of the variance about the map over the stated one that counts as chance, standard
 deviations of the former."""
