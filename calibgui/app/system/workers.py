@@ -90,7 +90,8 @@ def map_in_processes(
 
     Raises:
         Cancelled: if `stop` was set.
-        CalibrationError: if a process could not be started.
+        CalibrationError: if a process could not be started, or two in a row ended before they
+            could begin, or the first did.
         Exception: any that `task` raised, with the traceback in the worker as a note.
     """
     waiting = list(enumerate(items))[::-1]
@@ -105,6 +106,8 @@ def map_in_processes(
         return
     team: list[tuple[Connection, BaseProcess]] = []
     is_prepared = prepare is None
+    # One that is killed before it begins costs nothing where others can begin.
+    can_begin = False
     try:
         team.extend(
             _start_worker(task, None if k else prepare)
@@ -127,8 +130,10 @@ def map_in_processes(
                         preparing()
                         preparing = None
                     continue
-                if lost and index is None:
-                    raise _explain_failed_start()
+                if index is None:
+                    if lost and not can_begin:
+                        raise _explain_failed_start()
+                    can_begin = not lost
                 if prepare is not None:
                     _prepared.add(prepare)
                     is_prepared = True

@@ -96,6 +96,23 @@ def test_a_process_that_dies_costs_its_item_only() -> None:
     assert results == {0: 1, 3: 2, 4: 3}
 
 
+def test_a_process_that_dies_before_it_begins_costs_nothing() -> None:
+    """It follows the only one that has begun, which is killed at its second item."""
+    work = map_in_processes(eval, ["1", "__import__('time').sleep(3600)", "3"], count=1)
+    assert next(work) == (0, 1)
+    (first,) = multiprocessing.active_children()
+    first.kill()
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(workers, "_run_worker", _end_at_once)
+        index, crashed = next(work)
+    assert index == 1 and isinstance(crashed, Crashed)
+    assert list(work) == [(2, 3)]
+
+
+def _end_at_once(*_: object) -> None:
+    os._exit(3)
+
+
 def test_an_exception_comes_through_with_its_traceback() -> None:
     with pytest.raises(ZeroDivisionError) as caught:
         list(map_in_processes(eval, ["1 / 0"]))
