@@ -8,7 +8,7 @@ from collections.abc import Callable
 import numpy as np
 from PySide6.QtCore import QEvent, QPointF, QSize, Qt, Signal
 from PySide6.QtGui import QAction, QPolygonF
-from PySide6.QtWidgets import QHBoxLayout, QLabel, QToolBar, QWidget
+from PySide6.QtWidgets import QHBoxLayout, QToolBar, QWidget
 
 from calibgui.app.projects.project import Project
 from calibgui.dataset import Result, View, ViewStatus
@@ -27,6 +27,7 @@ from calibgui.gui.widgets.actions import enable_action, make_action
 from calibgui.gui.widgets.icons import Icon, draw_icon
 from calibgui.gui.widgets.overlay import Overlay
 from calibgui.gui.widgets.picture import Levels, stretch_levels
+from calibgui.gui.widgets.reserved_label import ReservedLabel
 from calibgui.gui.widgets.wrapped_label import WrappedLabel
 
 
@@ -51,10 +52,8 @@ class ImagePage(QWidget):
         self.reason.setMargin(theme.SPACING)
         self.reason.hide()
         Overlay(self.reason, self.canvas, at_bottom=True)
-        self.facts = QLabel()
+        self.facts = ReservedLabel(2)
         """What is known of the image, or of its chosen corner; for the inspector."""
-        self.facts.setMinimumHeight(2 * self.facts.fontMetrics().lineSpacing())
-        self.facts.setAlignment(Qt.AlignmentFlag.AlignTop)
         self.marker = Marker(session, self.canvas)
         self.layer_list = LayerList(self.canvas)
         self.layers = self.layer_list.actions_by_layer
@@ -210,7 +209,7 @@ class ImagePage(QWidget):
         if view is None:
             self.caption.show_name("")
             self.canvas.show_marks(Marks())
-            self.facts.clear()
+            self.facts.setText("")
             return
         self.caption.show_name(view.name)
         measured, predicted = _find_residuals(session.result, view)

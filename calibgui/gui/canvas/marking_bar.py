@@ -16,7 +16,10 @@ from PySide6.QtWidgets import (
 
 from calibgui.engine.arrays import GridSize
 from calibgui.gui.widgets import theme
-from calibgui.gui.widgets.wrapped_label import WrappedLabel
+from calibgui.gui.widgets.reserved_label import ReservedLabel
+
+_LINES = 4
+"""Lines of the words: nothing must move between two clicks."""
 
 
 class _Bar(QFrame):
@@ -28,10 +31,7 @@ class _Bar(QFrame):
         self.setFrameShape(QFrame.Shape.NoFrame)
         self.setAutoFillBackground(True)
         self.setBackgroundRole(self.backgroundRole().AlternateBase)
-        self.words = WrappedLabel()
-        # Room for three lines: nothing must move between two clicks.
-        self.words.setMinimumHeight(3 * self.words.fontMetrics().lineSpacing())
-        self.words.setAlignment(Qt.AlignmentFlag.AlignTop)
+        self.words = ReservedLabel(_LINES)
         self._rows = QVBoxLayout(self)
         self._rows.setContentsMargins(0, theme.SPACING, 0, 0)
         self._rows.addWidget(self.words)

@@ -11,7 +11,7 @@ from calibgui.engine.boards import AprilGrid, Pattern
 from calibgui.gui.session.session import Session
 from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.number_box import fit_width
-from calibgui.gui.widgets.wrapped_label import WrappedLabel
+from calibgui.gui.widgets.reserved_label import ReservedLabel
 
 
 class SquareRow(QWidget):
@@ -23,7 +23,7 @@ class SquareRow(QWidget):
     def __init__(self, session: Session) -> None:
         super().__init__()
         self._session = session
-        self.counted = WrappedLabel()
+        self.counted = ReservedLabel(1)
         self.side = QLabel()
         self.square = QDoubleSpinBox(decimals=3, minimum=0.001, maximum=100_000.0)
         fit_width(self.square, "100000.00 mm")
@@ -42,13 +42,19 @@ class SquareRow(QWidget):
         answer.addStretch(1)
         for widget in (self.side, self.square, self.confirm):
             answer.addWidget(widget)
-        column = QVBoxLayout(self)
+        column = self._column = QVBoxLayout(self)
         column.setContentsMargins(theme.SPACING, 0, theme.SPACING, theme.SPACING)
         column.setSpacing(theme.SPACING // 2)
         column.addWidget(self.counted)
         column.addLayout(answer)
         session.changed.connect(lambda _, after: self._show(after))
         self._show(session.project)
+
+    def reserve(self, lines: int) -> None:
+        """Take the height of so many lines of the question from now on, hidden or not."""
+        self.counted.reserve(lines)
+        self._column.invalidate()  # a hidden widget's layout is not told
+        self.updateGeometry()
 
     def answer(self) -> None:
         """Take the length as it is shown."""
@@ -61,6 +67,10 @@ class SquareRow(QWidget):
 
     def _show(self, project: Project) -> None:
         is_found = any(view.status is ViewStatus.FOUND for view in project.views)
+        policy = self.sizePolicy()
+        # Its place is kept from the first image on: nothing below moves when a board is found.
+        policy.setRetainSizeWhenHidden(bool(project.views) and not project.lengths_confirmed)
+        self.setSizePolicy(policy)
         self.setVisible(is_found and not project.lengths_confirmed)
         if self.isHidden():
             return
@@ -79,7 +89,7 @@ class SquareRow(QWidget):
         if not pattern.has_squares:
             known = self.tr(
                 "How far apart are the circles? The board has {0} × {1} circles as counted; "
-                "lengths hold if circles are {2:g} {3} apart."
+                "lengths hold if they are {2:g} {3} apart."
             )
             counting = self.tr("How far apart are the circles? The board is being counted.")
             parts = self.tr(

@@ -21,6 +21,8 @@ from calibgui.gui.widgets.lengths import describe_condition
 from calibgui.report.verdict import format_times, join_names
 
 translate = QCoreApplication.translate
+_FINEST = 0.01
+"""Error of a pixel below which it is stated to 0.001 px, px."""
 
 
 def describe_grade(grade: Grade, times_better: float) -> str:
@@ -46,7 +48,12 @@ def describe_pixel_error(error: PixelError) -> str:
         "Error: centre {0}, covered {1}, edge {2}, worst {3} px",
     )
     figures = error.centre, error.covered, error.edge, error.worst
-    return text.format(*map(format_two_digits, figures))
+    return text.format(*map(_format_pixels, figures))
+
+
+def _format_pixels(error: float) -> str:
+    """Format an error, px: below 0.01 px its second digit tells nobody anything."""
+    return format_two_digits(error) if error >= _FINEST else f"{error:.3f}"
 
 
 def describe_figures(verdict: Verdict, result: Result) -> list[str]:

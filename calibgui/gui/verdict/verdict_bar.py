@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import PurePath
 
-from PySide6.QtCore import QCoreApplication, QEvent, Qt, Signal
+from PySide6.QtCore import QCoreApplication, QEvent, Signal
 from PySide6.QtGui import QColor, QPainter, QPaintEvent, QResizeEvent
 from PySide6.QtWidgets import (
     QBoxLayout,
@@ -39,9 +39,10 @@ from calibgui.gui.verdict.texts import (
     describe_fit,
     describe_grade,
 )
+from calibgui.gui.verdict.words import Words
 from calibgui.gui.widgets import theme
+from calibgui.gui.widgets.elided import elide_name
 from calibgui.gui.widgets.lengths import state_condition
-from calibgui.gui.widgets.wrapped_label import WrappedLabel
 from calibgui.report.summary import describe_lost_images
 from calibgui.report.verdict import describe_reason
 
@@ -58,15 +59,18 @@ _PLACES = "CoveragePanel"
 """The panel that shows where to hold the board."""
 _WIDE = 640
 """Width from which the buttons stand beside the words, device-independent px."""
-_LINES_OF_REASON, _LINES_OF_FIGURES = 2, 3
-"""Lines that are reserved in a narrow bar, so that another verdict moves nothing below it."""
+_WIDEST = 1100
+"""Width from which all figures stand in one line, device-independent px."""
+_LINES, _LINES_IF_LOW, _LINES_IF_WIDE, _LINES_IF_WIDEST = 6, 3, 3, 2
+"""Lines that are reserved for reason and figures, so that another verdict moves nothing below."""
+_LINES_OF_QUESTION = 2
+"""Lines that are reserved for the question how long the squares are."""
 _LOW = 600
 """Height of the window below which the first figure stands for all, device-independent px."""
+_NAME_LENGTH = 16
+"""Letters of a name that have room on a button in the least width."""
 _STRIPE = 5
 """Width of the stripe in the grade's colour, device-independent px."""
-_SIZE_OF_FIGURES = 0.9
-"""Size of the figures' letters, of the others': each figure has one line, in the least width if
-errors are of 0.01 px or more, else in a window of 1280 px."""
 
 
 class VerdictBar(QFrame):
@@ -95,10 +99,8 @@ class VerdictBar(QFrame):
         font.setBold(True)
         font.setPointSizeF(1.25 * font.pointSizeF())
         self.headline.setFont(font)
-        self.reason, self.figures = WrappedLabel(), WrappedLabel()
-        font = self.figures.font()
-        font.setPointSizeF(_SIZE_OF_FIGURES * font.pointSizeF())
-        self.figures.setFont(font)
+        self._words = Words()
+        self.reason, self.figures = self._words.reason, self._words.figures
         self._fit = ""
         """The words on the residuals, which are made once for each calibration."""
         self._figures: list[str] = []
@@ -134,9 +136,7 @@ class VerdictBar(QFrame):
         words = QVBoxLayout()
         words.setSpacing(theme.SPACING // 2)
         words.addLayout(top)
-        for label in (self.reason, self.figures):
-            label.setAlignment(Qt.AlignmentFlag.AlignTop)
-            words.addWidget(label)
+        words.addWidget(self._words)
         buttons = QHBoxLayout()
         buttons.setSpacing(theme.SPACING)
         buttons.addStretch(1)
@@ -159,10 +159,12 @@ class VerdictBar(QFrame):
         is_wide = event.size().width() >= _WIDE
         direction = QBoxLayout.Direction
         self._row.setDirection(direction.LeftToRight if is_wide else direction.TopToBottom)
-        lines_of_figures = 1 if self._is_low else _LINES_OF_FIGURES
-        for label, lines in ((self.reason, _LINES_OF_REASON), (self.figures, lines_of_figures)):
-            line = label.fontMetrics().lineSpacing()
-            label.setMinimumHeight(line * (1 if is_wide else lines))
+        if is_wide:
+            lines = _LINES_IF_WIDE if event.size().width() < _WIDEST else _LINES_IF_WIDEST
+        else:
+            lines = _LINES_IF_LOW if self._is_low else _LINES
+        self._words.reserve(lines)
+        self.square.reserve(1 if is_wide else _LINES_OF_QUESTION)
         self._show_figures()
 
     def show_running(self, running: bool) -> None:
@@ -190,7 +192,7 @@ class VerdictBar(QFrame):
             "own uncertainty, as in the panel Uncertainty. Where there are no corners, how far "
             "another lens model that fits as well goes apart from this one counts, too."
         )
-        self.figures.setToolTip("\n".join([*self._figures, meaning]))
+        self.figures.explain("\n".join([*self._figures, meaning]))
 
     def _judge(self, result: Result | None) -> None:
         """Find out what the shown result is worth, beside the window."""
@@ -250,11 +252,11 @@ class VerdictBar(QFrame):
         verdict, result = self.verdict, self._result
         self._age = self._session.describe_age(result)
         if result is None:
-            self.reason.setText(self._describe_start())
+            self._words.give_reason(self._describe_start())
         elif verdict is None:
-            self.reason.setText(self.tr("What makes it better is being tried."))
+            self._words.give_reason(self.tr("What makes it better is being tried."))
         else:
-            self.reason.setText(f"{self._age} {_describe_reason(verdict, result)}".lstrip())
+            self._words.give_reason(f"{self._age} {_describe_reason(verdict, result)}".lstrip())
         theme.set_text_colour(
             self.reason, theme.current().warning if self._age else theme.current().text
         )
@@ -296,7 +298,7 @@ class VerdictBar(QFrame):
 
     def _list_names(self) -> list[str]:
         used = () if self._result is None else self._result.used
-        return [PurePath(view.image).stem for view in used]
+        return [elide_name(PurePath(view.image).stem, _NAME_LENGTH) for view in used]
 
     def _unfold(self, shown: bool) -> None:
         if shown:

@@ -10,14 +10,14 @@ _NAME_LENGTH = 30
 """Characters of a name that leave room for some words in the narrowest panel (chosen)."""
 
 
-def elide_name(name: str) -> str:
-    """Return a file's name, "…" for its middle if it is too long for a panel.
+def elide_name(name: str, most: int = _NAME_LENGTH) -> str:
+    """Return a file's name, "…" for its middle if it has more letters than there is room for.
 
     Qt breaks a line between words only: a name is one, and would be cut or widen a plot.
     """
-    if len(name) <= _NAME_LENGTH:
+    if len(name) <= most:
         return name
-    kept = (_NAME_LENGTH - 1) // 2
+    kept = (most - 1) // 2
     return f"{name[:kept]}…{name[-kept:]}"
 
 

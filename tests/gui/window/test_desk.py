@@ -31,10 +31,8 @@ from calibgui.gui.panels.answer.result import ResultPanel
 from calibgui.gui.panels.groups import Group
 from calibgui.gui.panels.method.convergence import ConvergencePanel
 from calibgui.gui.panels.method.stage_one import StageOnePanel
-from calibgui.gui.verdict.texts import describe_pixel_error
-from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.elided import ElidedLabel
-from calibgui.gui.window.inspector import Inspector
+from calibgui.gui.widgets.reserved_label import ReservedLabel
 from calibgui.gui.window.main_window import MainWindow
 from tests.app import examples
 from tests.gui.hand import Hand
@@ -61,6 +59,8 @@ def find_clipped(root: QWidget) -> Iterator[str]:
             case QCheckBox() if widget.text():
                 text, needed = widget.text(), widget.sizeHint()
                 clipped = widget.width() < needed.width() or widget.height() < needed.height()
+            case ReservedLabel():
+                text, clipped = widget.text(), widget.is_cut
             case QLabel() if widget.text():
                 text = widget.text()
                 height = (
@@ -89,7 +89,7 @@ def find_clipped(root: QWidget) -> Iterator[str]:
 
 def list_clipped(root: QWidget, qtbot: QtBot) -> list[str]:
     """What stays clipped once the layouts have settled."""
-    with contextlib.suppress(TimeoutError):
+    with contextlib.suppress(qtbot.TimeoutError):
         qtbot.waitUntil(lambda: not list(find_clipped(root)), timeout=1000)
     return list(find_clipped(root))
 
@@ -297,20 +297,6 @@ def test_another_verdict_moves_nothing(full: MainWindow, qtbot: QtBot) -> None:
     for _ in range(3):
         QApplication.processEvents()
     assert (full.inspector.tabs.geometry(), full.calibrate.geometry()) == places
-
-
-@pytest.mark.parametrize(("width", "error"), [(960, 0.088), (1280, 0.0088)])
-def test_every_figure_has_a_line(full: MainWindow, qtbot: QtBot, width: int, error: float) -> None:
-    bar = full.verdict
-    qtbot.waitUntil(lambda: bar.verdict is not None)
-    resize(full, qtbot, width, 720)
-    assert bar.verdict is not None
-    errors = dict.fromkeys(("centre", "covered", "edge", "worst"), error)
-    line = describe_pixel_error(replace(bar.verdict.error, **errors))
-    bar.figures.setText("\n".join([line] * 3))
-    beside = bar.width() - bar.figures.width()
-    room = min(bar.width(), Inspector.WIDTH - 2 * theme.SPACING) if width == 960 else bar.width()
-    assert bar.figures.heightForWidth(room - beside) == bar.figures.minimumHeight()
 
 
 def test_a_low_window_leaves_its_height_to_what_is_below_the_verdict(

@@ -26,9 +26,9 @@ from calibgui.gui.panels.parts.divided_images import DividedImages, Grey
 from calibgui.gui.panels.parts.estimates import estimate_columns
 from calibgui.gui.panels.services import Services
 from calibgui.gui.widgets.narrow_combo import NarrowCombo
+from calibgui.gui.widgets.reserved_label import ReservedLabel
 from calibgui.gui.widgets.tab_bar import TabWidget
 from calibgui.gui.widgets.tables import Column, Table, with_decimals, with_digits
-from calibgui.gui.widgets.wrapped_label import WrappedLabel
 from calibgui.report.comparison import ParameterChange, compare_parameters
 
 _MUCH_SIGMAS = 3.0
@@ -58,7 +58,7 @@ class ComparePanel(Panel):
         self._difference: CameraDifference | None = None
         self.left = self._make_choice(self.tr("Left result"))
         self.right = self._make_choice(self.tr("Right result"))
-        self.words = WrappedLabel()
+        self.words = ReservedLabel(3)
         self.parameters = Table()
         self.parameters.setAccessibleName(self.tr("Parameters of both results"))
         self.map = DifferenceMap()

@@ -19,7 +19,7 @@ from calibgui.gui.panels.parts.heat import CORNERS, HeatMap, surround_places
 from calibgui.gui.panels.services import Services
 from calibgui.gui.widgets.lengths import describe_condition
 from calibgui.gui.widgets.point_cloud import PointCloud
-from calibgui.gui.widgets.wrapped_label import WrappedLabel
+from calibgui.gui.widgets.reserved_label import ReservedLabel
 from calibgui.report.quality import describe_distance
 
 _LIMIT = 0.1
@@ -72,7 +72,7 @@ class UncertaintyPanel(Panel):
         bar.addStretch(1)
         self.distance.valueChanged.connect(self._refresh_now)
         self.limit.valueChanged.connect(self._draw_limit)
-        self.words = WrappedLabel()
+        self.words = ReservedLabel(4)
         self.plot = HeatMap(self.tr("one σ, worst direction [px]"))
         self.plot.setToolTip(
             self.tr(

@@ -28,7 +28,7 @@ from calibgui.gui.panels.parts.divided_images import DividedImages, Grey
 from calibgui.gui.panels.services import Services
 from calibgui.gui.widgets.elided import elide_name
 from calibgui.gui.widgets.narrow_combo import NarrowCombo
-from calibgui.gui.widgets.wrapped_label import WrappedLabel
+from calibgui.gui.widgets.reserved_label import ReservedLabel
 from calibgui.report.coverage import find_shown_extent, measure_natural_scale
 
 RECTIFIED = "rectified"
@@ -83,7 +83,7 @@ class UndistortPanel(Panel):
         self.save_one.clicked.connect(lambda: self._save((self._indices[self._shown],)))
         self.save_all.clicked.connect(lambda: self._save(self._indices))
         self.images = DividedImages(self.tr("as taken"), self.tr("undistorted"))
-        self.lost, self.words = WrappedLabel(), WrappedLabel()
+        self.lost, self.words = ReservedLabel(2), ReservedLabel(2)
         above = QHBoxLayout()
         above.addWidget(self.way, 3)
         above.addWidget(self.view, 2)

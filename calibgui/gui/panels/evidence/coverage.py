@@ -19,7 +19,7 @@ from calibgui.gui.panels.parts.heat import HeatMap, image_rectangle
 from calibgui.gui.panels.parts.split import Split
 from calibgui.gui.panels.services import Services
 from calibgui.gui.widgets.lengths import name_unit
-from calibgui.gui.widgets.wrapped_label import WrappedLabel
+from calibgui.gui.widgets.reserved_label import ReservedLabel
 from calibgui.report.coverage import count_corners_per_cell, measure_attitudes
 
 _CELLS = (24, 18)
@@ -57,7 +57,7 @@ class CoveragePanel(Panel):
         self.next_board = self.density.plot(pen=pg.mkPen("#ff3b30", width=2.5))
         self.next_corners = pg.ScatterPlotItem(size=3, pen=None, brush="#ff3b30")
         self.density.addItem(self.next_corners)
-        self.advice = WrappedLabel()
+        self.advice = ReservedLabel(4)
         self.tilts = ViewScatter(
             self.tr("tilt to the right"), self.tr("tilt upwards"), "°", "°", square=True
         )

@@ -14,7 +14,7 @@ from calibgui.gui.panels.services import Services
 from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.elided import elide_name
 from calibgui.gui.widgets.lengths import describe_condition, state_condition
-from calibgui.gui.widgets.wrapped_label import WrappedLabel
+from calibgui.gui.widgets.reserved_label import ReservedLabel
 from calibgui.report.coverage import measure_attitudes
 from calibgui.report.names import number_names
 from calibgui.report.scene3d import SceneCentre, build_scene
@@ -53,7 +53,7 @@ class PosesPanel(Panel):
         self.space.picked.connect(self._pick)
         self.space.hovered.connect(self._point_at)
         self.home.clicked.connect(self.space.go_home)
-        self.words = WrappedLabel()
+        self.words = ReservedLabel(2)
         bar = QHBoxLayout()
         bar.addWidget(self.centre)
         bar.addStretch(1)

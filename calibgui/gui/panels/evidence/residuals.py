@@ -22,7 +22,7 @@ from calibgui.gui.panels.latest import Latest
 from calibgui.gui.panels.panel import Panel
 from calibgui.gui.panels.parts.scatter import ResidualScatter
 from calibgui.gui.panels.services import Services
-from calibgui.gui.widgets.wrapped_label import WrappedLabel
+from calibgui.gui.widgets.reserved_label import ReservedLabel
 
 _MARKS = {True: "✓", False: "✗"}
 
@@ -51,7 +51,7 @@ class ResidualsPanel(Panel):
         self.scatter = ResidualScatter()
         self.scatter.setToolTip(self.tr("Click a point to see its corner in the image."))
         self.scatter.picked.connect(self._pick)
-        self.verdict = WrappedLabel()
+        self.verdict = ReservedLabel(3)
         layout = QVBoxLayout(self.body)
         layout.addWidget(self.verdict)
         layout.addWidget(self.plane, 0, Qt.AlignmentFlag.AlignLeft)
@@ -80,7 +80,7 @@ class ResidualsPanel(Panel):
             return
         self._examined = result
         self.verdict.setText(self.tr("Do the residuals look like noise? Working…"))
-        self.verdict.setToolTip("")
+        self.verdict.explain("")
         self._work.start(
             self.tr("Examining the residuals"),
             lambda job: check_residuals(
@@ -106,7 +106,7 @@ class ResidualsPanel(Panel):
             f"<td>{escape(check.finding)}</td></tr>"
             for check in report.checks
         )
-        self.verdict.setToolTip(f"<table>{rows}</table>")
+        self.verdict.explain(f"<table>{rows}</table>")
         if report.passed:
             self.verdict.setText(
                 self.tr(

@@ -13,8 +13,8 @@ from calibgui.gui.panels.panel import Panel
 from calibgui.gui.panels.services import Services
 from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.plots import Plot
+from calibgui.gui.widgets.reserved_label import ReservedLabel
 from calibgui.gui.widgets.tables import format_seconds
-from calibgui.gui.widgets.wrapped_label import WrappedLabel
 
 
 class ConvergencePanel(Panel):
@@ -30,7 +30,7 @@ class ConvergencePanel(Panel):
 
     def __init__(self, services: Services) -> None:
         super().__init__(services)
-        self.words = WrappedLabel()
+        self.words = ReservedLabel(3)
         self.plot = Plot(self.tr("iteration"), self.tr("cost c"), logarithmic=True, counts=True)
         self.plot.setToolTip(
             self.tr("The sum of squared residuals that Stage II minimises, after each step.")

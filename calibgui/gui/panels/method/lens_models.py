@@ -12,7 +12,7 @@ from calibgui.engine.errors import Progress
 from calibgui.gui.panels.method.lens_tables import LensTables
 from calibgui.gui.panels.on_demand import OnDemandPanel, have_same_views
 from calibgui.gui.panels.services import Services
-from calibgui.gui.widgets.wrapped_label import WrappedLabel
+from calibgui.gui.widgets.reserved_label import ReservedLabel
 from calibgui.report.lens_choice import LensRow, describe_lens_choice, list_lens_rows
 from calibgui.report.lens_models import describe_lens_model, get_lens_title
 from calibgui.report.numbers import format_count
@@ -51,7 +51,7 @@ class LensModelsPanel(OnDemandPanel[LensChoice]):
         self.use.clicked.connect(self._use)
         self.tables = LensTables()
         self.tables.picked.connect(self._show_row)
-        self.remarks = WrappedLabel()
+        self.remarks = ReservedLabel(5)
         compared = QWidget()
         layout = QVBoxLayout(compared)
         layout.setContentsMargins(0, 0, 0, 0)
