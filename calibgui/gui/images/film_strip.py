@@ -87,6 +87,8 @@ class FilmStrip(QWidget):
     def __init__(self, session: Session) -> None:
         super().__init__()
         self._session = session
+        self._chosen_above: set[str] = set()
+        """Images that the threshold has selected."""
         self._model = ImageModel(session)
         self.thumbnails = self._model.thumbnails
         self._order = _Order(self._model)
@@ -245,7 +247,11 @@ class FilmStrip(QWidget):
             self.exclude([v.image for v in views], enabled=not any(v.enabled for v in views))
 
     def _result_changed(self, _: Result | None) -> None:
-        """Put the threshold above all errors again."""
+        """Put the threshold above all errors again, and select none by it."""
+        if self._chosen_above and set(self.chosen) == self._chosen_above:
+            flags = QItemSelectionModel.SelectionFlag.ClearAndSelect
+            self.list.selectionModel().select(self.list.currentIndex(), flags)
+        self._chosen_above = set()
         top = self.list.top
         self.list.set_threshold(None)
         if top > 0:  # three digits of the largest error are as fine as it can be dragged
@@ -275,7 +281,7 @@ class FilmStrip(QWidget):
     def _threshold_dragged(self, error: float) -> None:
         """Select the images above the threshold."""
         self._show_threshold(error)
-        above = set(self.above)
+        above = self._chosen_above = set(self.above)
         chosen = QItemSelection()
         for row in range(self._order.rowCount()):
             index = self._order.index(row, 0)

@@ -142,6 +142,27 @@ def test_a_result_with_other_errors_puts_the_threshold_above_them(full: MainWind
     assert strip.above == [] and strip.chosen == chosen
 
 
+def test_what_the_threshold_selected_is_not_selected_without_it(
+    full: MainWindow, qtbot: QtBot
+) -> None:
+    strip, session = full.images, full.session
+    first, before = session.result, strip.chosen
+    errors = sorted(error for error in listed(full, Role.RMS) if isinstance(error, float))
+    strip.threshold.setValue(errors[3])
+    assert set(strip.chosen) == set(strip.above) != set(before)
+    qtbot.mouseClick(strip.exclude_above, LEFT)
+    qtbot.waitUntil(lambda: session.result is not first)
+    assert not strip.above and strip.chosen == before
+    session.document.undo()
+    assert session.result is first and strip.chosen == before
+    # What the user selects stays.
+    strip.threshold.setValue(errors[3])
+    strip.list.selectAll()
+    strip.exclude(strip.above)
+    qtbot.waitUntil(lambda: session.result is not first)
+    assert len(strip.chosen) == 7
+
+
 def test_a_bar_is_as_high_as_its_error_in_the_colour_of_its_view(full: MainWindow) -> None:
     view = full.images.list
     QApplication.processEvents()
