@@ -48,6 +48,10 @@ class Calibrator(QObject):
         """Return whether the calibration under way has been asked to end."""
         return self._job is not None and self._job.stopping
 
+    def is_cancelled_by_stop(self, job: Job) -> bool:
+        """Return whether `stop` would cancel this very job: the search that is waited for."""
+        return self._wanted and self._detector.is_search(job)
+
     def calibrate(self) -> None:
         """Search what has not been searched, and solve for a new result."""
         if not self.running:

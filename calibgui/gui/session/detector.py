@@ -47,6 +47,10 @@ class Detector(QObject):
         """Return whether a search is under way."""
         return self._job is not None
 
+    def is_search(self, job: Job) -> bool:
+        """Return whether a job is the search that is under way."""
+        return job is self._job
+
     def search(self) -> None:
         """Search every image that waits, if that is not being done already.
 

@@ -8,7 +8,7 @@ from PySide6.QtWidgets import QVBoxLayout, QWidget
 from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.reserved_label import ReservedLabel
 
-_LEAST_REASON = 3
+_LEAST_REASON = 2
 """Lines that the reason has at least, or half of all."""
 _SIZE_OF_FIGURES = 0.9
 """Size of the figures' letters, of the others': each figure has one line in the least width."""

@@ -122,9 +122,8 @@ class MainWindow(QMainWindow):
         self.setCentralWidget(centre)
         # Over the picture: what one points at must not move when a message comes.
         Overlay(self.banner, self.pages)
-        self.inspector = Inspector(
-            self.page, self.board, self.settings, Progress(self.session.jobs), self.calibrate
-        )
+        progress = Progress(self.session.jobs, self.calibrator.is_cancelled_by_stop)
+        self.inspector = Inspector(self.page, self.board, self.settings, progress, self.calibrate)
         self.inspector_dock = Dock(self.tr("Inspector"), "inspector", self.inspector, self)
         self.addDockWidget(Qt.DockWidgetArea.RightDockWidgetArea, self.inspector_dock)
         self.setCorner(Qt.Corner.BottomRightCorner, Qt.DockWidgetArea.RightDockWidgetArea)
@@ -378,7 +377,9 @@ class MainWindow(QMainWindow):
             else self.tr("C&alibrate")
         )
         self.calibrate.setToolTip(
-            self.tr("End with the best camera so far")
+            self.tr("End the search; what has been found stays")
+            if running and self.detector.running
+            else self.tr("End with the best camera so far")
             if running
             else self.tr("Find the corners still missing, then estimate the camera")
         )

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 from PySide6.QtWidgets import QHBoxLayout, QProgressBar, QToolButton, QVBoxLayout, QWidget
 
 from calibgui.gui.jobs.job import Job
@@ -13,11 +15,16 @@ _BAR_HEIGHT = 8
 
 
 class Progress(QWidget):
-    """Shows the oldest job that has a name; n of m and the time left where they are known."""
+    """Shows the oldest job that has a name; n of m and the time left where they are known.
 
-    def __init__(self, jobs: Jobs) -> None:
+    Args:
+        jobs: the jobs.
+        has_button: says whether a button beside this cancels a job, which needs no second one.
+    """
+
+    def __init__(self, jobs: Jobs, has_button: Callable[[Job], bool] = lambda _: False) -> None:
         super().__init__()
-        self._jobs = jobs
+        self._jobs, self._has_button = jobs, has_button
         self.label = ElidedLabel()
         self.bar = QProgressBar()
         self.bar.setFixedHeight(_BAR_HEIGHT)
@@ -36,9 +43,10 @@ class Progress(QWidget):
         shown.addStretch(1)
         row.addLayout(shown, 1)
         row.addWidget(self.cancel)
-        keeping = self.sizePolicy()
-        keeping.setRetainSizeWhenHidden(True)  # what stands beside it must not move
-        self.setSizePolicy(keeping)
+        for widget in (self, self.cancel):
+            keeping = widget.sizePolicy()
+            keeping.setRetainSizeWhenHidden(True)  # what stands beside it must not move
+            widget.setSizePolicy(keeping)
         jobs.changed.connect(self._refresh)
         self._refresh()
 
@@ -50,6 +58,7 @@ class Progress(QWidget):
         self.setVisible(job is not None)
         if job is None:
             return
+        self.cancel.setVisible(not self._has_button(job))
         text = job.label
         if job.total > 1:
             text += self.tr(": {0} of {1}").format(job.finished, job.total)

@@ -2,14 +2,24 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+from pathlib import Path
 from threading import Event
+from typing import Any
 
+import pytest
+from PySide6.QtCore import Qt
 from PySide6.QtGui import QPaintEvent
 from PySide6.QtWidgets import QVBoxLayout, QWidget
 from pytestqt.qtbot import QtBot
 
+from calibgui.app.photographs.detection import Detection
+from calibgui.app.projects.document import Document
+from calibgui.dataset import ViewStatus
 from calibgui.gui.jobs.jobs import Jobs
+from calibgui.gui.window.main_window import MainWindow
 from calibgui.gui.window.progress import Progress
+from tests.app import examples
 
 
 class Painted(QWidget):
@@ -44,3 +54,34 @@ def test_a_job_has_nothing_painted_before_what_starts_it_ends(qtbot: QtBot) -> N
     qtbot.waitUntil(lambda: beside.count > before)
     go_on.set()
     jobs.close()
+
+
+def test_one_button_ends_a_search(
+    window: MainWindow, qtbot: QtBot, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Stop and Cancel would do the same while a calibration waits for the search."""
+
+    def search(*arguments: Any, **_: Any) -> Detection:
+        arguments[4].wait(60)
+        return Detection((), None)
+
+    monkeypatch.setattr("calibgui.gui.session.detector.find_views", search)
+    cancel = window.inspector.findChildren(Progress)[0].cancel
+    project = examples.calibrated(tmp_path)
+    waiting = tuple(replace(v, status=ViewStatus.WAITING, corners=None) for v in project.views)
+    window.session.begin(Document(replace(project, views=waiting, results={})))
+    window.detector.search()
+    qtbot.waitUntil(cancel.isVisible)
+    place = cancel.geometry()
+    qtbot.mouseClick(window.calibrate, Qt.MouseButton.LeftButton)
+    qtbot.waitUntil(lambda: not cancel.isVisible())
+    assert (
+        window.calibrate.text() == "&Stop" and "what has been found" in window.calibrate.toolTip()
+    )
+    assert cancel.geometry() == place
+    qtbot.mouseClick(window.calibrate, Qt.MouseButton.LeftButton)
+    qtbot.waitUntil(lambda: not window.session.jobs.running)
+    assert "search was stopped" in window.banner.text.text()
+    job = window.session.jobs.start("Working", lambda job: job.cancelling.wait(60))
+    qtbot.waitUntil(cancel.isVisible)
+    job.cancel()
