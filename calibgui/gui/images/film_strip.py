@@ -266,6 +266,10 @@ class FilmStrip(QWidget):
         self.threshold.blockSignals(True)
         self.threshold.setValue(error)
         self.threshold.blockSignals(False)
+        self._offer_exclusion()
+
+    def _offer_exclusion(self) -> None:
+        """Say how many images are above the threshold; all of them cannot be excluded."""
         count = len(self.above)
         usable = sum(view.usable for view in self._session.project.views)
         self.exclude_above.setEnabled(0 < count < usable)
@@ -276,11 +280,15 @@ class FilmStrip(QWidget):
 
     def _threshold_typed(self, error: float) -> None:
         self.list.set_threshold(error)
-        self._threshold_dragged(error)
+        self._offer_exclusion()  # the box is left alone: more digits may be about to come
+        self._select_above()
 
     def _threshold_dragged(self, error: float) -> None:
-        """Select the images above the threshold."""
         self._show_threshold(error)
+        self._select_above()
+
+    def _select_above(self) -> None:
+        """Select the images above the threshold."""
         above = self._chosen_above = set(self.above)
         chosen = QItemSelection()
         for row in range(self._order.rowCount()):

@@ -61,7 +61,7 @@ _WIDE = 640
 """Width from which the buttons stand beside the words, device-independent px."""
 _WIDEST = 1100
 """Width from which all figures stand in one line, device-independent px."""
-_LINES, _LINES_IF_LOW, _LINES_IF_WIDE, _LINES_IF_WIDEST = 6, 3, 3, 2
+_LINES, _LINES_IF_LOW, _LINES_IF_WIDE, _LINES_IF_WIDEST = 5, 3, 3, 2
 """Lines that are reserved for reason and figures, so that another verdict moves nothing below."""
 _LINES_OF_QUESTION = 2
 """Lines that are reserved for the question how long the squares are."""

@@ -130,6 +130,19 @@ def test_the_threshold_can_be_typed(full: MainWindow, qtbot: QtBot) -> None:
     assert not strip.exclude_above.isEnabled(), "nothing would be left"
 
 
+def test_every_digit_of_a_threshold_can_be_typed(full: MainWindow, qtbot: QtBot) -> None:
+    strip = full.images
+    errors = sorted(error for error in listed(full, Role.RMS) if isinstance(error, float))
+    typed = f"{errors[3]:.4f}"
+    strip.threshold.setFocus()
+    strip.threshold.selectAll()
+    for k, key in enumerate(typed, start=1):
+        qtbot.keyClicks(strip.threshold, key)
+        assert strip.threshold.cleanText() == typed[:k]
+    assert strip.list.threshold == float(typed)
+    assert set(strip.chosen) == set(strip.above) and 1 <= len(strip.above) <= 3
+
+
 def test_a_result_with_other_errors_puts_the_threshold_above_them(full: MainWindow) -> None:
     session, strip = full.session, full.images
     assert session.result is not None
