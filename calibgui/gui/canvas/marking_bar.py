@@ -18,7 +18,7 @@ from calibgui.engine.arrays import GridSize
 from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.reserved_label import ReservedLabel
 
-_LINES = 4
+_LINES = 3
 """Lines of the words: nothing must move between two clicks."""
 
 
