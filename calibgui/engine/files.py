@@ -120,7 +120,9 @@ def open_replacement(path: str | os.PathLike[str]) -> Iterator[IO[bytes]]:
         raise describe_write_error(path, error) from error
     finally:
         if temporary is not None:
-            temporary.unlink(missing_ok=True)
+            # Where nothing can be written it was never made, nor can it be removed.
+            with contextlib.suppress(OSError):
+                temporary.unlink()
 
 
 def _remove_abandoned(folder: Path) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import os
 import stat
 import time
@@ -47,6 +48,20 @@ def test_a_failure_leaves_the_old_file_alone(
         write_atomically(file, b"new")
     assert file.read_bytes() == b"old"
     assert [path.name for path in tmp_path.iterdir()] == ["file"]
+
+
+def test_a_file_system_that_is_read_only_is_named(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Linux says so of a file that is not there as well, when it is to be removed."""
+
+    def refuse(*_: object, **__: object) -> None:
+        raise OSError(errno.EROFS, "Read-only file system")
+
+    monkeypatch.setattr(os, "open", refuse)
+    monkeypatch.setattr(os, "unlink", refuse)
+    with pytest.raises(CalibrationError, match="cannot be written: Read-only file system"):
+        write_atomically(tmp_path / "file", b"new")
 
 
 def test_a_name_may_be_as_long_as_the_system_allows(tmp_path: Path) -> None:
