@@ -10,10 +10,11 @@ import contextlib
 import ctypes
 import os
 import sys
-from collections.abc import Iterator
+from collections.abc import Generator, Iterator
 from pathlib import Path
 
 import pytest
+from _pytest.doctest import DoctestModule
 from hypothesis import HealthCheck, settings
 
 from calibgui.app.system.workers import do_tasks_here
@@ -68,6 +69,16 @@ def pytest_ignore_collect(collection_path: Path) -> bool | None:
     needs_numba = collection_path.parent.name == "kernels" and name != "test_fallback.py"
     is_test = name.startswith("test_") and (COMPILED or not needs_numba)
     return None if is_test else True
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_collect_file() -> Generator[None, list[pytest.Collector], list[pytest.Collector]]:
+    """Look for no examples in tests.
+
+    The search for examples imports a module first, and passes over one that cannot be imported; the
+    search for tests then takes what is left of it for a module without tests, and nobody is told.
+    """
+    return [collector for collector in (yield) if not isinstance(collector, DoctestModule)]
 
 
 def find_data_dir() -> Path:

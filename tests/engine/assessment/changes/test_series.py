@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from tests.engine.assessment.test_drift import photograph
 
 from calibgui.engine.arrays import Array
 from calibgui.engine.assessment.changes.drift import UncertainCamera, choose_covariance
@@ -12,6 +11,7 @@ from calibgui.engine.assessment.changes.series import Series, Setting, fit_serie
 from calibgui.engine.calibration.calibrate import calibrate
 from calibgui.engine.camera.camera import Camera
 from calibgui.engine.errors import CalibrationError
+from tests.engine.assessment.changes.test_drift import photograph
 from tests.engine.scenes import VGA
 
 ZOOMS = np.linspace(18.0, 55.0, 12)
