@@ -104,7 +104,7 @@ def find_views(
         grid_size: rows and columns of inner corners; inferred from the whole set if None.
         rois: (4, 2) px, regions to search in some of the images.
         progress: called after each image; images of other sizes and those searched again add to
-            the total.
+            the total, of which it is told before the first of them.
         stop: abandons the search within 0.2 s when set.
         size: width and height of the camera's images; if None, those of most images that show the
             board, or of most images if none does.
@@ -128,6 +128,8 @@ def find_views(
         nonlocal searches
         total = searches + len(which)
         items = [unsearched[k] for k in which]
+        if searches and items and progress is not None:
+            progress(searches, total, views[which[0]])  # it takes longer than it seemed
         results = map_in_processes(
             partial(
                 search_image or search_view, grid_size=grid_size, method=method, pattern=pattern

@@ -10,9 +10,10 @@ from threading import Event
 import numpy as np
 import pytest
 
-from calibgui.app.photographs import detection, workers
+from calibgui.app.photographs import detection
 from calibgui.app.photographs.detection import Detection, find_views, infer_grid_size, search_view
 from calibgui.app.photographs.paths import find_images
+from calibgui.app.system import workers
 from calibgui.dataset import View, ViewStatus
 from calibgui.engine.arrays import GridSize, freeze_array
 from calibgui.engine.boards.board import Board
@@ -111,7 +112,7 @@ def test_the_size_is_that_of_the_photographs_that_show_the_board(
             find_images([str(tmp_path)]), progress=lambda done, total, _: told.append((done, total))
         )
     assert found.size == CAMERA.size
-    assert told[:9] == [*((k, 6) for k in range(1, 7)), *((k, 9) for k in range(7, 10))]
+    assert told[:10] == [*((k, 6) for k in range(1, 7)), *((k, 9) for k in range(6, 10))]
     for view in found.views:
         if view.name.startswith("view"):
             assert view.status is ViewStatus.FOUND
