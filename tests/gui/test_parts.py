@@ -22,7 +22,7 @@ from pytestqt.qtbot import QtBot
 from calibgui.app.projects.document import Document
 from calibgui.app.projects.project import Unit, change_views
 from calibgui.app.projects.project_file import write_project
-from calibgui.app.projects.recent import list_recent_projects
+from calibgui.app.projects.recent import list_recent
 from calibgui.dataset import View, ViewStatus
 from calibgui.engine.calibration.result import Status
 from calibgui.engine.errors import CalibrationError
@@ -398,7 +398,8 @@ def test_missing_images_are_found_again(
     assert window.session.project.views[1].image == str(new / "1.png")
     assert window.session.result is not None
     assert window.session.project.is_current(window.session.result)
-    assert list_recent_projects() == [tmp_path / "project.json", tmp_path / "empty.json"]
+    recent = [entry.path for entry in list_recent() if entry.path.is_file()]
+    assert recent == [tmp_path / "project.json", tmp_path / "empty.json"]
 
 
 @pytest.mark.parametrize("answer", ["Save", "Discard", "Cancel"])

@@ -38,11 +38,6 @@ def list_recent() -> list[Recent]:
         return []
 
 
-def list_recent_projects() -> list[Path]:
-    """Return the projects opened or saved lately that still exist, the newest first."""
-    return [entry.path for entry in list_recent() if entry.path.is_file()]
-
-
 def remember_project(path: Path, image: str = "") -> None:
     """Put a project, or a folder of images, first among the recent ones.
 

@@ -157,16 +157,6 @@ def judge_explanation(T: float, rank: int, cost: float, freedom: int) -> Explana
     return Explanation(probability, max(T - rank * variance, 0.0) / cost)
 
 
-def explain_by_lens(fit: LinearisedFit) -> Explanation:
-    """Explain the residuals by a smooth displacement of the image, the same in all views."""
-    return SharedCauses(fit, [LENS]).explain(LENS)
-
-
-def explain_by_board_shape(fit: LinearisedFit, model: BoardShapeModel) -> Explanation:
-    """Explain the residuals by a board of another shape."""
-    return SharedCauses(fit, [model]).explain(model)
-
-
 class SharedCauses:
     """Causes that all views share, side by side.
 

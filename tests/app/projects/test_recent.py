@@ -5,12 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from calibgui.app.projects.recent import (
-    Recent,
-    list_recent,
-    list_recent_projects,
-    remember_project,
-)
+from calibgui.app.projects.recent import Recent, list_recent, remember_project
 from calibgui.app.system.state_folder import find_state_folder
 
 
@@ -21,25 +16,25 @@ def home(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def test_newest_first_each_once_and_only_what_exists(tmp_path: Path) -> None:
-    assert list_recent_projects() == []
+    assert list_recent() == []
     paths = [tmp_path / f"{i}.json" for i in range(12)]
     for path in paths:
         path.touch()
         remember_project(path)
     remember_project(paths[5])
-    assert list_recent_projects()[:2] == [paths[5], paths[11]]
-    assert len(list_recent_projects()) == 10
+    assert list_recent()[:2] == [Recent(paths[5], ""), Recent(paths[11], "")]
+    assert len(list_recent()) == 10
     paths[11].unlink()
-    assert paths[11] not in list_recent_projects()
+    assert Recent(paths[11], "") not in list_recent()
 
 
 def test_damaged_notes_are_no_obstacle(tmp_path: Path) -> None:
     (find_state_folder() / "recent.json").write_text('{"no": ', encoding="utf-8")
-    assert list_recent_projects() == []
+    assert list_recent() == []
     project = tmp_path / "a.json"
     project.touch()
     remember_project(project)
-    assert list_recent_projects() == [project]
+    assert list_recent() == [Recent(project, "")]
 
 
 def test_folders_and_first_images_are_remembered(tmp_path: Path) -> None:
@@ -52,7 +47,6 @@ def test_folders_and_first_images_are_remembered(tmp_path: Path) -> None:
         Recent(folder, str(folder / "1.png")),
         Recent(project, "/photographs/1.png"),
     ]
-    assert list_recent_projects() == [project]
     folder.rmdir()
     assert [entry.path for entry in list_recent()] == [project]
 

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from calibgui.app.projects.recent import list_recent_projects, remember_project
+from calibgui.app.projects.recent import Recent, list_recent, remember_project
 from calibgui.app.system.state_folder import find_state_folder, is_state_lasting
 
 
@@ -26,7 +26,7 @@ def test_without_a_home_notes_are_temporary(tmp_path: Path) -> None:
     project = tmp_path / "a.json"
     project.touch()
     remember_project(project)
-    assert list_recent_projects() == [project]
+    assert list_recent() == [Recent(project, "")]
 
 
 def test_notes_last_where_the_system_says(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -15,7 +15,7 @@ from calibgui.engine.calibration import score_tests
 from calibgui.engine.calibration.calibrate import calibrate
 from calibgui.engine.calibration.observations import Observation
 from calibgui.engine.calibration.result import Calibration
-from calibgui.engine.calibration.score_tests import LENS, LinearisedFit, SharedCauses
+from calibgui.engine.calibration.score_tests import LENS, Explanation, LinearisedFit, SharedCauses
 from tests.engine.scenes import BOARD, barrel, looking, scene, seen, uneven
 
 SIZE = barrel().size
@@ -24,6 +24,10 @@ FREE = BoardShapeModel.FREE
 
 def _cost(result: Calibration) -> float:
     return sum(float(np.sum(view.image**2)) for view in result.residuals)
+
+
+def _explain(fit: LinearisedFit, cause: str) -> Explanation:
+    return SharedCauses(fit, [cause]).explain(cause)
 
 
 def _stretched(count: int = 8) -> list[Observation]:
@@ -38,7 +42,7 @@ def test_a_board_shape_explains_what_estimating_it_gains(model: BoardShapeModel)
     nominal, fitted = (
         calibrate(views, SIZE, board_shape=board_shape) for board_shape in ("nominal", model)
     )
-    found = score_tests.explain_by_board_shape(prepare_fit(nominal, views), model)
+    found = _explain(prepare_fit(nominal, views), model)
     gained = 1 - _cost(fitted) / _cost(nominal)
     two_columns = 2 / prepare_fit(nominal, views).degrees_of_freedom
     assert found.share == pytest.approx(max(gained - two_columns, 0.0), abs=0.001)
@@ -48,7 +52,7 @@ def test_a_board_shape_that_was_estimated_explains_no_more() -> None:
     views = _stretched()
     for model in (BoardShapeModel.AFFINE, BoardShapeModel.FREE):
         result = calibrate(views, SIZE, board_shape=model)
-        found = score_tests.explain_by_board_shape(prepare_fit(result, views), model)
+        found = _explain(prepare_fit(result, views), model)
         assert found.probability > 0.5
         assert found.share == 0.0
 
@@ -64,9 +68,9 @@ def test_no_causes_explain_nothing() -> None:
 def test_a_lens_explains_what_its_held_coefficients_would() -> None:
     views = scene(barrel(), 10, 1).noisy(0.1, np.random.default_rng(2))
     held, freed = calibrate(views, SIZE, fix=["k2", "k3"]), calibrate(views, SIZE)
-    found = score_tests.explain_by_lens(prepare_fit(held, views))
+    found = _explain(prepare_fit(held, views), LENS)
     assert found.share == pytest.approx(1 - _cost(freed) / _cost(held), abs=0.05)
-    assert score_tests.explain_by_lens(prepare_fit(freed, views)).probability > 0.001
+    assert _explain(prepare_fit(freed, views), LENS).probability > 0.001
 
 
 def _dense_columns(fit: LinearisedFit, cause: str) -> Array:
@@ -183,11 +187,8 @@ def test_probabilities_are_uniform_on_noise() -> None:
         views = true.noisy(0.2, np.random.default_rng(seed))
         fit = prepare_fit(calibrate(views, SIZE), views)
         found.append(
-            [
-                score_tests.explain_by_board_shape(fit, model).probability
-                for model in list(BoardShapeModel)[1:]
-            ]
-            + [score_tests.explain_by_lens(fit).probability]
+            [_explain(fit, model).probability for model in list(BoardShapeModel)[1:]]
+            + [_explain(fit, LENS).probability]
         )
     p: Array = np.array(found)
     assert ((p < 0.05).mean(axis=0) <= 0.15).all()  # 0.05 + 3.5 standard errors

@@ -43,7 +43,7 @@ from dataclasses import dataclass
 import numpy as np
 import scipy
 
-from calibgui.engine.arrays import Array, BoolArray, freeze
+from calibgui.engine.arrays import Array, BoolArray
 from calibgui.engine.assessment.residuals.cause_fits import (
     CauseFit,
     fit_board,
@@ -166,15 +166,9 @@ class NoiseReport:
 
     checks: tuple[NoiseCheck, ...]
     """Results in the order of the module's description."""
-    view_sigma: Array
-    """(K,) standard deviation of a residual coordinate in each view, px; of a median corner
-    where corners are weighted."""
     are_lens_and_board_alike: bool = False
     """True if lens and board both explain the residuals, and neither explains anything beyond the
     other: the views do not tell which of them it is."""
-
-    def __post_init__(self) -> None:
-        freeze(self, "view_sigma")
 
     @property
     def passed(self) -> bool:
@@ -226,7 +220,6 @@ def check_residuals(
             _check_neighbours(relative, fit.observations),
             _check_directions(r[seen]),
         ),
-        sigma,
         _are_lens_and_board_alike(causes, shared),
     )
 

@@ -108,11 +108,6 @@ def measure_precision(
     return Precision(sigma2, shared, undetermined, reduced)
 
 
-def compute_shared_covariance(reduced: Reduced, sigma2: float) -> Array:
-    """Compute the covariance (P, P) of the free shared parameters, without lost combinations."""
-    return sigma2 * invert_information(reduced)[0]
-
-
 def invert_information(reduced: Reduced) -> tuple[Array, float]:
     """Invert S (P, P) without the combinations that are lost, and measure the information left.
 

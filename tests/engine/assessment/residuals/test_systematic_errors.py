@@ -10,7 +10,7 @@ from calibgui.engine.assessment.residuals.cause_fits import CauseFit, fit_nothin
 from calibgui.engine.calibration.calibrate import calibrate
 from calibgui.engine.calibration.observations import Observation
 from calibgui.engine.calibration.result import Cost
-from calibgui.engine.calibration.score_tests import explain_by_lens
+from calibgui.engine.calibration.score_tests import LENS, SharedCauses
 from tests.engine.scenes import barrel, relative, scene
 
 SIZE = barrel().size
@@ -22,7 +22,7 @@ def test_every_cost_can_be_examined(cost: Cost) -> None:
     fit = systematic_errors.prepare_fit(calibrate(views, SIZE, cost=cost), views)
     residual = fit.linearise(slice(0, 8)).residual
     assert np.sqrt(np.mean(residual**2)) == pytest.approx(0.1, rel=0.1)
-    assert explain_by_lens(fit).probability > 0.001
+    assert SharedCauses(fit, [LENS]).explain(LENS).probability > 0.001
     without = fit_nothing(fit)
     for columns in systematic_errors.OWN_CAUSES.values():
         found = fit_own_cause(fit, columns).judge(without, fit.degrees_of_freedom)
