@@ -181,7 +181,7 @@ def format_storage(
 def list_dictionaries() -> Mapping[str, int]:
     """Return the names of the predefined dictionaries of markers with their numbers of markers."""
     names = {name.upper() for name in vars(cv2.aruco) if name.startswith("DICT_")}
-    return MappingProxyType({name: len(_dictionary(name).bytesList) for name in sorted(names)})
+    return MappingProxyType({name: len(_load_dictionary(name).bytesList) for name in sorted(names)})
 
 
 def detect_markers(image: GreyImage, dictionary: str) -> tuple[IntArray, Array]:
@@ -192,7 +192,7 @@ def detect_markers(image: GreyImage, dictionary: str) -> tuple[IntArray, Array]:
     """
     parameters = _marker_parameters(image)
     parameters.cornerRefinementMethod = cv2.aruco.CORNER_REFINE_SUBPIX
-    detector = cv2.aruco.ArucoDetector(_dictionary(dictionary), parameters)
+    detector = cv2.aruco.ArucoDetector(_load_dictionary(dictionary), parameters)
     corners, ids, *_ = detector.detectMarkers(image)
     if ids is None or not len(corners):
         return np.zeros(0, np.int64), np.zeros((0, 4, 2))
@@ -245,17 +245,17 @@ def _marker_parameters(image: GreyImage) -> Any:
 
 def count_correctable_cells(dictionary: str) -> int:
     """Return the number of a marker's cells that may be misread without a confusion."""
-    return int(_dictionary(dictionary).maxCorrectionBits * _CORRECTED_SHARE)
+    return int(_load_dictionary(dictionary).maxCorrectionBits * _CORRECTED_SHARE)
 
 
 def draw_marker_cells(dictionary: str, number: int) -> BoolArray:
     """Return (k, k) true for the dark cells of a marker, its border of one cell included."""
-    source = _dictionary(dictionary)
+    source = _load_dictionary(dictionary)
     side = source.markerSize + 2
     return np.asarray(cv2.aruco.generateImageMarker(source, number, side)) == 0
 
 
-def _dictionary(name: str) -> Any:
+def _load_dictionary(name: str) -> Any:
     known = {key.upper(): value for key, value in vars(cv2.aruco).items() if key[:5] == "DICT_"}
     return cv2.aruco.getPredefinedDictionary(known[name])
 

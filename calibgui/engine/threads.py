@@ -14,7 +14,7 @@ _T = TypeVar("_T")
 
 
 @cache
-def _controller() -> ThreadpoolController:
+def _find_blas() -> ThreadpoolController:
     """Return the controller of the libraries that are loaded; finding them takes milliseconds."""
     import scipy.linalg  # noqa: F401 - brings a BLAS of its own, which has to be there to be found
 
@@ -23,7 +23,7 @@ def _controller() -> ThreadpoolController:
 
 def limit_blas_threads() -> AbstractContextManager[Any]:
     """Limit NumPy's and SciPy's BLAS to one thread from now on, or to the end of a `with` block."""
-    return _controller().limit(limits=1, user_api="blas")
+    return _find_blas().limit(limits=1, user_api="blas")
 
 
 def with_one_blas_thread(function: Callable[_P, _T]) -> Callable[_P, _T]:

@@ -20,7 +20,7 @@ from pathlib import Path
 import numpy as np
 
 from calibgui.dataset import Result
-from calibgui.engine.camera import PINHOLE, Camera, parameter_names, rays_from_pixels
+from calibgui.engine.camera import PINHOLE, Camera, list_parameter_names, rays_from_pixels
 from calibgui.formats.camera_refit import write_in_models
 from calibgui.formats.exporter import Exporter, ExportReport
 from calibgui.formats.importer import CameraText, ImportedCamera, Importer
@@ -98,7 +98,9 @@ def read_basalt(source: CameraText) -> ImportedCamera:
         source.refuse_model(stated, list(_READABLE))
     model = _READABLE[stated]
     entries = node["intrinsics"]
-    values = {name: entries[name].number() for name in parameter_names(model) if name != "skew"}
+    values = {
+        name: entries[name].number() for name in list_parameter_names(model) if name != "skew"
+    }
     sizes = content["resolution"].items()
     if int(name) >= len(sizes):
         content["resolution"].fail(f"a list with the size of camera {name}")

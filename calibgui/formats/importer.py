@@ -15,7 +15,7 @@ from typing import NoReturn, TypeVar
 import numpy as np
 
 from calibgui.engine.arrays import Array, Size
-from calibgui.engine.camera import Camera, find_model, parameter_names
+from calibgui.engine.camera import Camera, find_model, list_parameter_names
 from calibgui.engine.errors import CalibrationError
 
 _Entry = TypeVar("_Entry")
@@ -106,7 +106,7 @@ class CameraText:
             CalibrationError: if there is no such model: there are limits to splined ones.
         """
         try:
-            return parameter_names(model)
+            return list_parameter_names(model)
         except CalibrationError as error:
             raise CalibrationError(f"{self.file}: {error.message}", error.hint) from error
 

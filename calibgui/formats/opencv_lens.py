@@ -17,7 +17,7 @@ from __future__ import annotations
 import numpy as np
 
 from calibgui.engine.arrays import Array, Size
-from calibgui.engine.camera import Camera, parameter_names
+from calibgui.engine.camera import Camera, list_parameter_names
 from calibgui.formats.importer import CameraText
 
 FISHEYE = "kannala-brandt"
@@ -74,11 +74,11 @@ def make_opencv_camera(
     if zero != 0 or last != [0, 0, 1]:
         source.fail("has a camera matrix that is not [fx s cx; 0 fy cy; 0 0 1].")
     model = _find_model(source, coefficients, fisheye)
-    names = [name for name in parameter_names(model)[4:] if name != "skew"]
+    names = [name for name in list_parameter_names(model)[4:] if name != "skew"]
     values = {"fx": fx, "fy": fy, "cx": cx, "cy": cy}
     values |= dict(zip(names, coefficients.tolist(), strict=False))
     if skew != 0:
-        if "skew" not in parameter_names(model):
+        if "skew" not in list_parameter_names(model):
             source.fail(
                 f"has a camera matrix with the skew {skew:g} px, which the lens model {model} "
                 "does not have.",

@@ -43,7 +43,7 @@ from calibgui.engine.camera import (
     Camera,
     Lucchese,
     find_model,
-    parameter_names,
+    list_parameter_names,
     resolve_model_id,
 )
 from calibgui.engine.errors import CalibrationError
@@ -262,7 +262,7 @@ def decode_model(node: Node) -> str:
 def _decode_calibration(node: Node, used: list[Node]) -> Calibration:
     camera = node["camera"]
     model = decode_model(camera["model"])
-    names = parameter_names(model)
+    names = list_parameter_names(model)
     added = _find_added_coefficients(camera["params"], model)
     residuals = node["residuals"]
     return Calibration(
@@ -330,7 +330,7 @@ def _decode_camera(node: Node, model: str, added: Mapping[str, float]) -> Camera
     for name in ("fx", "fy"):
         if not params[name].number() > 0:
             params[name].fail("a focal length above 0")
-    names = parameter_names(model)
+    names = list_parameter_names(model)
     values = [added[name] if name in added else params[name].number() for name in names]
     return Camera(decode_size(node["size"]), np.array(values), model)
 

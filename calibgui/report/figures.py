@@ -47,13 +47,12 @@ def _make_single_axes(height: float = 4.2) -> tuple[Figure, Axes]:
     return figure, figure.subplots()
 
 
-def draw_cosines_equation(stage_one: StageOne, view: int, literal: bool) -> Figure:
-    """Draw figure 4: g(r) of one view (counted from 1) with its root."""
+def draw_cosines_equation(stage_one: StageOne, view: int) -> Figure:
+    """Draw figure 4: g(r) of one view (counted from 1) on the paper's grid, with its root."""
     figure, axes = _make_single_axes()
     axes.axhline(0, color="0.7", linewidth=0.8)
-    axes.plot(
-        _SEARCHED_ASPECTS, evaluate_cosines_equation(stage_one.backward, _SEARCHED_ASPECTS, literal)
-    )
+    g = evaluate_cosines_equation(stage_one.backward, _SEARCHED_ASPECTS, on_paper_grid=True)
+    axes.plot(_SEARCHED_ASPECTS, g)
     root = stage_one.aspect
     if np.isfinite(root):
         axes.plot(root, 0, "o", color="tab:red", fillstyle="none", label=f"$r_0$ = {root:.4f}")

@@ -48,7 +48,7 @@ def draw_paper_figures(real: Result, synthetic: Result, errors: Array) -> dict[s
     rectified = rectify_image(photograph, a.camera, pose, extent, a.reference_scale).image
     return {
         f"Figure 4: the cosines' equation of view {number}": figures.draw_cosines_equation(
-            row, number, literal=True
+            row, number
         ),
         "Figure 5: pixel aspect ratio from each view": figures.draw_aspect_ratios(a.stage_one),
         f"Figure 6: corners of view {number}": figures.draw_corners(photograph, view.corners),

@@ -43,7 +43,7 @@ from calibgui.engine.calibration.methods.plumb_line import LINE_METHODS, PlumbLi
 from calibgui.engine.calibration.observations import Observation
 from calibgui.engine.calibration.result import Calibration
 from calibgui.engine.camera.camera import Camera
-from calibgui.engine.camera.models import find_model, parameter_names
+from calibgui.engine.camera.models import find_model, list_parameter_names
 from calibgui.engine.geometry.frames import centre_of_array
 from calibgui.engine.geometry.rotations import rotation_from_vector
 from tests.engine.scenes import VGA, Scene, scene, seen
@@ -81,7 +81,7 @@ class Row:
 
 def make_camera(model: str, k1: float = K1) -> Camera:
     """Make the true camera in a lens model, with a barrel's k1."""
-    names = parameter_names(model)
+    names = list_parameter_names(model)
     params = np.zeros(len(names))
     params[:4] = FOCAL, FOCAL, *centre_of_array(VGA)
     params[names.index("k1")] = k1 if model == "lucchese" else -k1

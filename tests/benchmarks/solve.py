@@ -55,7 +55,7 @@ from calibgui.engine.calibration.refinement import residuals as residuals_module
 from calibgui.engine.calibration.refinement.levenberg_marquardt import minimise
 from calibgui.engine.calibration.refinement.residuals import State
 from calibgui.engine.calibration.result import Cost
-from calibgui.engine.camera.models import find_model, parameter_names
+from calibgui.engine.camera.models import find_model, list_parameter_names
 from calibgui.engine.geometry import rotations
 from calibgui.engine.kernels import common
 from tests.engine.scenes import VGA, brown, looking, seen
@@ -110,7 +110,7 @@ def solve(observations: Observations, start: State, model: str) -> float:
     normal_at = residuals_module.build_stage_two(observations, model, Cost.IMAGE, 1.0, free)
     square = float(np.sum(observations.uv**2))
     solution = minimise(normal_at, start, free, observations.count, square)
-    names = tuple(parameter_names(model)[:9])
+    names = tuple(list_parameter_names(model)[:9])
     found = covariances.measure_precision(
         solution.normal, names, observations.count, np.full(9, np.inf)
     )

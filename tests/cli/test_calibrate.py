@@ -18,7 +18,7 @@ from calibgui.cli.arguments import parse_length
 from calibgui.cli.main import main
 from calibgui.engine.boards.shape import BoardShapeModel, BoardShapePrior
 from calibgui.engine.calibration.result import Cost
-from calibgui.engine.camera.models import parameter_names
+from calibgui.engine.camera.models import list_parameter_names
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.images.reading import write_image
 from calibgui.formats.result_json import read_result
@@ -253,7 +253,7 @@ def test_parameters_are_held_and_freed(corners_file: Path, tmp_path: Path, capsy
     options = ["--fix", "k3,p1=0.001,fx=330", "--free", "p3", "-o", str(file)]
     assert main(["calibrate", str(corners_file), *options]) == 0
     calibration = read_result(file).calibration
-    value = dict(zip(parameter_names("lucchese"), calibration.camera.params, strict=True))
+    value = dict(zip(list_parameter_names("lucchese"), calibration.camera.params, strict=True))
     assert (value["k3"], value["p1"], value["fx"]) == (0.0, 0.001, 330.0)
     assert calibration.fixed == ("fx", "k3", "p1")
     assert "330 (held)" in capsys.readouterr().out

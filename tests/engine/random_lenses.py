@@ -23,7 +23,7 @@ from calibgui.engine.calibration.refinement.levenberg_marquardt import Solution
 from calibgui.engine.calibration.refinement.residuals import State
 from calibgui.engine.calibration.result import Cost, Status
 from calibgui.engine.camera.camera import Camera
-from calibgui.engine.camera.models import find_model, parameter_names
+from calibgui.engine.camera.models import find_model, list_parameter_names
 from calibgui.engine.camera.plane import PlaneLens
 from calibgui.engine.camera.projection import pixels_from_rays, rays_from_pixels
 from calibgui.engine.errors import CalibrationError
@@ -271,7 +271,7 @@ def solve_from_truth(scene: Scene, views: list[Observation]) -> Solution:
     """The minimum that a solve from the truth ends in."""
     model = scene.camera.model
     held = resolve_held_parameters((), (), model, scene.size)
-    free = np.flatnonzero([name not in held for name in parameter_names(model)])
+    free = np.flatnonzero([name not in held for name in list_parameter_names(model)])
     return solve_stage_two(
         pack_observations(views),
         true_state(scene),

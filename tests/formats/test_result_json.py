@@ -47,7 +47,7 @@ def _content(result: Result) -> Any:
 
 @pytest.fixture(scope="module")
 def paper_result() -> Result:
-    """The printed method, on its literal grid."""
+    """The printed method, on its own grid."""
     return solved(scenes.barrel(), cost=Cost.PAPER)
 
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 
 from calibgui.engine.boards import BoardShape, BoardShapeModel, BoardShapePrior
 from calibgui.engine.calibration import DEFAULT_METHOD, METHODS, Cost, check_method
-from calibgui.engine.camera import MODELS, PINHOLE, parameter_names, resolve_model_id
+from calibgui.engine.camera import MODELS, PINHOLE, list_parameter_names, resolve_model_id
 from calibgui.engine.errors import CalibrationError
 
 DEFAULT_MODEL = "lucchese"
@@ -150,7 +150,7 @@ def list_parameters(model: str | None) -> tuple[str, ...]:
 
     If the lens model is yet to be chosen (None), these are the ones that every model has.
     """
-    return PINHOLE if model is None else parameter_names(model)
+    return PINHOLE if model is None else list_parameter_names(model)
 
 
 def check_parameter(name: str, model: str | None) -> None:

@@ -69,7 +69,12 @@ from calibgui.engine.calibration.result_assembly import (
     tabulate_stage_one,
 )
 from calibgui.engine.camera.camera import Camera, check_image_size
-from calibgui.engine.camera.models import PINHOLE, find_model, parameter_names, resolve_model_id
+from calibgui.engine.camera.models import (
+    PINHOLE,
+    find_model,
+    list_parameter_names,
+    resolve_model_id,
+)
 from calibgui.engine.camera.models.splined_stereographic import PREFIX
 from calibgui.engine.errors import CalibrationError, parse_choice
 from calibgui.engine.threads import with_one_blas_thread
@@ -108,7 +113,7 @@ def calibrate(
             board.
         size: width and height of the images, px.
         cost: the cost to minimise, see `Cost`. `Cost.PAPER` is the printed method: the
-            literal reference grid, radius in pixels and p3 free.
+            reference grid of equal pixels, radius in pixels and p3 free.
         fix: names of intrinsics to hold, with their values; without a value (or with None)
             coefficients are held at 0, the centre at the array's and focal lengths at the
             closed form.
@@ -182,7 +187,7 @@ def calibrate(
     _check_size(observations, size, names)
     if model == PREFIX:
         model = choose_knots(observations, size)
-    lens, parameters = find_model(model), parameter_names(model)
+    lens, parameters = find_model(model), list_parameter_names(model)
     if lens.control_points is not None and not as_drawn:
         raise CalibrationError(
             "A splined lens model is not estimated together with the shape of a board.",
@@ -245,7 +250,7 @@ def calibrate(
 
 def _tabulate_stage_one(given: Given, cost: Cost) -> tuple[StageOne, ...]:
     """Tabulate Stage I of all views, which the start may have done with fewer of."""
-    return tabulate_stage_one(given.registration, literal=cost is Cost.PAPER)
+    return tabulate_stage_one(given.registration, on_paper_grid=cost is Cost.PAPER)
 
 
 def _name_misfits(given: Given, names: Sequence[str]) -> list[str]:
@@ -343,13 +348,13 @@ def _check_size(observations: Observations, size: Size, names: Sequence[str]) ->
             "the middle of the image must be moved there.",
         )
 
-    def outside(size: Size, margin: float) -> BoolArray:
+    def find_views_outside(size: Size, margin: float) -> BoolArray:
         beyond = (low < -margin) | (high > np.array(size)[:, None] + margin)
         return np.asarray(beyond.any(axis=0))
 
-    far, swapped = outside(size, _MAX_OUTSIDE * max(size)), outside(size, 0.0)
+    far, swapped = find_views_outside(size, _MAX_OUTSIDE * max(size)), find_views_outside(size, 0.0)
     if swapped.any():
-        swapped &= not outside(size[::-1], 0.0).any()
+        swapped &= not find_views_outside(size[::-1], 0.0).any()
     if (wrong := far | swapped).any():
         raise CalibrationError(
             f"{names[int(np.argmax(wrong))]} has corners {'far ' if far.any() else ''}outside an "

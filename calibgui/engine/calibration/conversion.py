@@ -30,7 +30,7 @@ from calibgui.engine.calibration.initialisation.lens_fit import fit_lens
 from calibgui.engine.calibration.refit import measure_displacement
 from calibgui.engine.camera.camera import Camera
 from calibgui.engine.camera.model import Lens
-from calibgui.engine.camera.models import find_model, parameter_names, resolve_model_id
+from calibgui.engine.camera.models import find_model, list_parameter_names, resolve_model_id
 from calibgui.engine.camera.projection import measure_axis_scale, project, rays_from_pixels
 from calibgui.engine.camera.validity import find_valid_pixels, measure_angles
 from calibgui.engine.errors import CalibrationError
@@ -173,7 +173,7 @@ def _make_image_mesh(camera: Camera, steps: int) -> Array:
 
 def _fit_model(camera: Camera, model: str, uv: Array, rays: Array) -> Camera:
     """Fit a model to pixels (n, 2) and their rays (n, 3), from several starts."""
-    lens, names = find_model(model), parameter_names(model)
+    lens, names = find_model(model), list_parameter_names(model)
     scale = measure_axis_scale(camera) * np.array([1.0, camera.params[1] / camera.params[0]])
     k = lens.fit_to_rays(rays, (uv - camera.centre) / scale)
     if k is not None:

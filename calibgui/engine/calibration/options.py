@@ -10,7 +10,7 @@ import numpy as np
 from calibgui.engine.arrays import IntArray, Size
 from calibgui.engine.boards.shape import BoardShape
 from calibgui.engine.calibration.result import Cost, StageOneTable
-from calibgui.engine.camera.models import find_model, parameter_names
+from calibgui.engine.camera.models import find_model, list_parameter_names
 from calibgui.engine.errors import CalibrationError
 
 _MAX_HELD = 100.0
@@ -65,7 +65,7 @@ def resolve_held_parameters(
         CalibrationError: if a parameter does not exist, is both held and freed, or is held at a
             value that no camera has.
     """
-    names = parameter_names(model)
+    names = list_parameter_names(model)
     fix, freed = ([given] if isinstance(given, str) else given for given in (fix, free))
     wanted = dict(fix) if isinstance(fix, Mapping) else dict.fromkeys(fix)
     freed = set(freed)

@@ -154,15 +154,17 @@ def compute_view_residuals(
     return tuple(ViewResiduals(image[k, :n], reference[k, :n]) for k, n in enumerate(counts))
 
 
-def tabulate_stage_one(registration: StageOneRegistration, literal: bool) -> tuple[StageOne, ...]:
+def tabulate_stage_one(
+    registration: StageOneRegistration, on_paper_grid: bool
+) -> tuple[StageOne, ...]:
     """Tabulate Stage I (the paper's Table 1), with the roots of each view's cosines' equation.
 
     Args:
         registration: Stage I of the views.
-        literal: whether the reference grid is the paper's, equal in pixels along both axes.
+        on_paper_grid: whether the reference grid is the paper's, equal in pixels along both axes.
     """
     backward = freeze_array(homography.invert_homography(registration.forward))
-    geometry = single_view_pose.estimate_view_geometry(backward, literal)
+    geometry = single_view_pose.estimate_view_geometry(backward, on_paper_grid)
     columns = (
         *registration.centre.T.tolist(),
         registration.k1.tolist(),

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
         MODELS as MODELS,
         PINHOLE as PINHOLE,
         find_model as find_model,
-        parameter_names as parameter_names,
+        list_parameter_names as list_parameter_names,
         resolve_model_id as resolve_model_id,
     )
     from calibgui.engine.camera.models.lucchese import Lucchese as Lucchese
@@ -50,7 +50,7 @@ load_on_demand(
             "undistort_points",
         ],
         "model": ["Lens"],
-        "models": ["MODELS", "PINHOLE", "find_model", "parameter_names", "resolve_model_id"],
+        "models": ["MODELS", "PINHOLE", "find_model", "list_parameter_names", "resolve_model_id"],
         "models.lucchese": ["Lucchese"],
         "models.splined_stereographic": ["SplinedStereographic"],
         "projection": ["pixels_from_rays", "rays_from_pixels"],

@@ -8,7 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from calibgui.engine.arrays import Array, Size, freeze
-from calibgui.engine.camera.models import find_model, parameter_names, resolve_model_id
+from calibgui.engine.camera.models import find_model, list_parameter_names, resolve_model_id
 from calibgui.engine.errors import CalibrationError
 
 
@@ -77,7 +77,7 @@ class Camera:
     @property
     def names(self) -> tuple[str, ...]:
         """(P,) names of the parameters."""
-        return parameter_names(self.model)
+        return list_parameter_names(self.model)
 
     @property
     def focal(self) -> Array:
@@ -104,7 +104,7 @@ class Camera:
 def _fill_held_coefficients(params: npt.ArrayLike, model: str) -> Array:
     """Return the parameters, with defaults of held ones that were left out at the end."""
     given, lens = np.asarray(params, dtype=np.float64), find_model(model)
-    left_out = parameter_names(model)[given.size :]
+    left_out = list_parameter_names(model)[given.size :]
     if given.ndim != 1 or not left_out or not set(left_out) <= set(lens.held):
         return given
     return np.concatenate([given, lens.defaults[-len(left_out) :]])

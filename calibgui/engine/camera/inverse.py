@@ -17,7 +17,7 @@ from typing import NamedTuple
 import numpy as np
 
 from calibgui.engine.arrays import Array
-from calibgui.engine.camera.plane import Mapped
+from calibgui.engine.camera.plane import PlanePoints
 
 _MAX_ITERATIONS = 50
 """Number of Newton steps, at most."""
@@ -65,7 +65,9 @@ def find_radii(polynomial: Array) -> Array:
     return np.sort(1 / np.sqrt(real[real > 0]))
 
 
-def invert_map(forward: Callable[[Array], Mapped], b: Array, radial: RadialCurve) -> Mapped:
+def invert_map(
+    forward: Callable[[Array], PlanePoints], b: Array, radial: RadialCurve
+) -> PlanePoints:
     """Solve forward(a) = b for a, inside the fold or pole around the origin.
 
     Args:
@@ -103,7 +105,9 @@ def invert_map(forward: Callable[[Array], Mapped], b: Array, radial: RadialCurve
         inverse[bad] = np.nan
     by_k = -inverse @ mapped.by_coefficients
     count = by_k.shape[-1]
-    return Mapped(a.reshape(b.shape), inverse.reshape(*b.shape, 2), by_k.reshape(*b.shape, count))
+    return PlanePoints(
+        a.reshape(b.shape), inverse.reshape(*b.shape, 2), by_k.reshape(*b.shape, count)
+    )
 
 
 def _invert_radial_part(target: Array, radial: RadialCurve) -> tuple[Array, float]:

@@ -25,7 +25,7 @@ from typing import NamedTuple
 from calibgui.engine.arrays import Array
 
 
-class Imaged(NamedTuple):
+class LensProjection(NamedTuple):
     """Image points of rays, with derivatives."""
 
     points: Array
@@ -36,7 +36,7 @@ class Imaged(NamedTuple):
     """(..., 2, C) derivative by k."""
 
 
-class Seen(NamedTuple):
+class LensUnprojection(NamedTuple):
     """Rays of image points, with derivatives."""
 
     rays: Array
@@ -103,11 +103,11 @@ class Lens(ABC):
         return (0.0,) * len(self.names)
 
     @abstractmethod
-    def project(self, rays: Array, k: Array) -> Imaged:
+    def project(self, rays: Array, k: Array) -> LensProjection:
         """Map rays to image points. NaN where the model has none, and for a ray of length 0."""
 
     @abstractmethod
-    def unproject(self, d: Array, k: Array) -> Seen:
+    def unproject(self, d: Array, k: Array) -> LensUnprojection:
         """Map image points to rays of length 1. NaN where the model has none."""
 
     def project_points(self, rays: Array, k: Array) -> Array:

@@ -27,10 +27,10 @@ from typing import NamedTuple
 import numpy as np
 
 from calibgui.engine.arrays import Array
-from calibgui.engine.camera.model import Imaged, Lens, Seen
+from calibgui.engine.camera.model import Lens, LensProjection, LensUnprojection
 
 
-class Mapped(NamedTuple):
+class PlanePoints(NamedTuple):
     """Points of the plane after a map, with its derivatives."""
 
     points: Array
@@ -50,24 +50,24 @@ class PlaneLens(Lens):
     defaults; 0 without coefficients, None if another start is needed."""
 
     @abstractmethod
-    def correct(self, d: Array, k: Array) -> Mapped:
+    def correct(self, d: Array, k: Array) -> PlanePoints:
         """Map measured to ideal points. NaN where the model has no ideal point."""
 
     @abstractmethod
-    def distort(self, n: Array, k: Array) -> Mapped:
+    def distort(self, n: Array, k: Array) -> PlanePoints:
         """Map ideal to measured points. NaN where the model has no measured point."""
 
-    def project(self, rays: Array, k: Array) -> Imaged:
+    def project(self, rays: Array, k: Array) -> LensProjection:
         """Map rays to image points. NaN behind the camera and where the model has no point."""
         n, by_ray = plane_from_rays(rays)
         d, by_n, by_k = _blank_missing(self.distort(n, k))
-        return Imaged(d, by_n @ by_ray, by_k)
+        return LensProjection(d, by_n @ by_ray, by_k)
 
-    def unproject(self, d: Array, k: Array) -> Seen:
+    def unproject(self, d: Array, k: Array) -> LensUnprojection:
         """Map image points to rays of length 1. NaN where the model has no ideal point."""
         n, by_d, by_k = _blank_missing(self.correct(d, k))
         b, by_n = rays_from_plane(n)
-        return Seen(b, by_n @ by_d, by_n @ by_k)
+        return LensUnprojection(b, by_n @ by_d, by_n @ by_k)
 
 
 def plane_from_rays(rays: Array) -> tuple[Array, Array]:
@@ -80,13 +80,13 @@ def plane_from_rays(rays: Array) -> tuple[Array, Array]:
     return n, by_ray / Z[..., None]
 
 
-def _blank_missing(mapped: Mapped) -> Mapped:
+def _blank_missing(mapped: PlanePoints) -> PlanePoints:
     """Return the map with its derivatives NaN wherever its points are."""
     missing = np.asarray(np.isnan(mapped.points).any(axis=-1))
     if not missing.any():
         return mapped
     points, by_point, by_k = mapped
-    return Mapped(
+    return PlanePoints(
         np.where(missing[..., None], np.nan, points),
         np.where(missing[..., None, None], np.nan, by_point),
         np.where(missing[..., None, None], np.nan, by_k),

@@ -21,10 +21,10 @@ from __future__ import annotations
 import numpy as np
 
 from calibgui.engine.arrays import Array
-from calibgui.engine.camera.plane import Mapped
+from calibgui.engine.camera.plane import PlanePoints
 
 
-def apply_polynomial(b: Array, radial: Array, decentering: Array) -> Mapped:
+def apply_polynomial(b: Array, radial: Array, decentering: Array) -> PlanePoints:
     """Apply the polynomial to points b (..., 2).
 
     Args:
@@ -61,4 +61,4 @@ def apply_polynomial(b: Array, radial: Array, decentering: Array) -> Mapped:
         by_k[..., j] = power
     by_k[..., 0, -2], by_k[..., 1, -2] = g1, g2
     by_k[..., 0, -1], by_k[..., 1, -1] = g0, g1
-    return Mapped(points, by_point, by_k)
+    return PlanePoints(points, by_point, by_k)

@@ -19,7 +19,7 @@ from __future__ import annotations
 import numpy as np
 
 from calibgui.engine.arrays import Array
-from calibgui.engine.camera.model import Imaged
+from calibgui.engine.camera.model import LensProjection
 
 
 def shift_rays(rays: Array, xi: float) -> tuple[Array, Array]:
@@ -44,7 +44,9 @@ def unshift_rays(v: Array, xi: float) -> Array:
     return along[..., None] * v - np.array([0.0, 0.0, xi])
 
 
-def differentiate_shift(imaged: Imaged, rays: Array, length: Array, xi: float) -> Imaged:
+def differentiate_shift(
+    imaged: LensProjection, rays: Array, length: Array, xi: float
+) -> LensProjection:
     """Return image points of shifted rays with derivatives by the rays before.
 
     Args:
@@ -60,4 +62,4 @@ def differentiate_shift(imaged: Imaged, rays: Array, length: Array, xi: float) -
     by_ray = by_zeta[..., None] * (xi * rays / length[..., None])[..., None, :] + imaged.by_ray
     by_xi = (by_zeta * length[..., None])[..., None]
     by_k = np.concatenate([by_xi, imaged.by_coefficients], axis=-1)
-    return Imaged(imaged.points, by_ray, by_k)
+    return LensProjection(imaged.points, by_ray, by_k)

@@ -16,7 +16,7 @@ from abc import abstractmethod
 import numpy as np
 
 from calibgui.engine.arrays import Array
-from calibgui.engine.camera.plane import Mapped, PlaneLens
+from calibgui.engine.camera.plane import PlaneLens, PlanePoints
 
 
 class SkewedLens(PlaneLens):
@@ -25,23 +25,23 @@ class SkewedLens(PlaneLens):
     held = ("skew",)
 
     @abstractmethod
-    def correct_unskewed(self, xy: Array, k: Array) -> Mapped:
+    def correct_unskewed(self, xy: Array, k: Array) -> PlanePoints:
         """Map measured points without skew to ideal points; k are the other coefficients."""
 
     @abstractmethod
-    def distort_unskewed(self, n: Array, k: Array) -> Mapped:
+    def distort_unskewed(self, n: Array, k: Array) -> PlanePoints:
         """Map ideal points to measured points without skew; k are the other coefficients."""
 
-    def correct(self, d: Array, k: Array) -> Mapped:
+    def correct(self, d: Array, k: Array) -> PlanePoints:
         """Map measured to ideal points."""
         inverse = np.array([[1.0, -k[-1]], [0.0, 1.0]])
         n, by_xy, by_k = self.correct_unskewed(d @ inverse.T, k[:-1])
         by_skew = -by_xy[..., :1] * d[..., 1:, None]
-        return Mapped(n, by_xy @ inverse, np.concatenate([by_k, by_skew], axis=-1))
+        return PlanePoints(n, by_xy @ inverse, np.concatenate([by_k, by_skew], axis=-1))
 
-    def distort(self, n: Array, k: Array) -> Mapped:
+    def distort(self, n: Array, k: Array) -> PlanePoints:
         """Map ideal to measured points."""
         S = np.array([[1.0, k[-1]], [0.0, 1.0]])
         xy, by_n, by_k = self.distort_unskewed(n, k[:-1])
         by_skew = xy[..., 1:, None] * np.array([[1.0], [0.0]])
-        return Mapped(xy @ S.T, S @ by_n, np.concatenate([S @ by_k, by_skew], axis=-1))
+        return PlanePoints(xy @ S.T, S @ by_n, np.concatenate([S @ by_k, by_skew], axis=-1))

@@ -15,10 +15,10 @@ from __future__ import annotations
 import numpy as np
 
 from calibgui.engine.arrays import Array
-from calibgui.engine.camera.model import Imaged, Seen
+from calibgui.engine.camera.model import LensProjection, LensUnprojection
 
 
-def invert_imaged(rays: Array, imaged: Imaged) -> Seen:
+def invert_projection(rays: Array, imaged: LensProjection) -> LensUnprojection:
     """Return rays (..., 3) of length 1 with the derivatives of the unprojection.
 
     Args:
@@ -27,14 +27,14 @@ def invert_imaged(rays: Array, imaged: Imaged) -> Seen:
     """
     by_point = np.swapaxes(_make_reciprocal_basis(rays, imaged.by_ray), -1, -2)
     known = np.isfinite(imaged.points).all(axis=-1, keepdims=True)
-    return Seen(
+    return LensUnprojection(
         np.where(known, rays, np.nan),
         by_point,
         -by_point @ imaged.by_coefficients,
     )
 
 
-def invert_seen(points: Array, length: Array, seen: Seen) -> Imaged:
+def invert_unprojection(points: Array, length: Array, seen: LensUnprojection) -> LensProjection:
     """Return image points (..., 2) with the derivatives of the projection.
 
     Args:
@@ -44,14 +44,14 @@ def invert_seen(points: Array, length: Array, seen: Seen) -> Imaged:
     """
     across = _make_reciprocal_basis(seen.rays, np.swapaxes(seen.by_point, -1, -2))
     known = np.isfinite(seen.rays).all(axis=-1, keepdims=True)
-    return Imaged(
+    return LensProjection(
         np.where(known, points, np.nan),
         across / length[..., None, None],
         -across @ seen.by_coefficients,
     )
 
 
-def make_seen(direction: Array, by_point: Array, by_coefficients: Array) -> Seen:
+def normalise_rays(direction: Array, by_point: Array, by_coefficients: Array) -> LensUnprojection:
     """Return a direction (..., 3) of any length and its derivatives as those of a ray of length 1.
 
     The derivative of v / |v| is (I - b b^T) dv / |v|, b = v / |v|.
@@ -63,7 +63,7 @@ def make_seen(direction: Array, by_point: Array, by_coefficients: Array) -> Seen
         along = np.sum(rays[..., None] * change, axis=-2, keepdims=True)
         return (change - rays[..., None] * along) / length[..., None]
 
-    return Seen(rays, turn(by_point), turn(by_coefficients))
+    return LensUnprojection(rays, turn(by_point), turn(by_coefficients))
 
 
 def _make_reciprocal_basis(b: Array, pair: Array) -> Array:

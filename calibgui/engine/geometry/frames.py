@@ -64,7 +64,7 @@ PAPER_NAMES = ("xp", "yp", "k1", "k2", "k3", "p1", "p2", "p3", "fx", "fy")
 """Names of the paper's ten intrinsics in the order of Table 2."""
 
 
-def paper_intrinsics(params: Array, size: Size) -> tuple[Array, Array]:
+def paper_from_intrinsics(params: Array, size: Size) -> tuple[Array, Array]:
     """Convert intrinsics from the array frame to the paper's ten, in its pixel units.
 
     k_j carries px^-2j, p1 and p2 px^-1, p3 px^-2, all by powers of fx; p2 changes sign with y.
@@ -91,8 +91,8 @@ def paper_intrinsics(params: Array, size: Size) -> tuple[Array, Array]:
     return values, J
 
 
-def array_intrinsics(values: Array, size: Size) -> Array:
-    """Convert the paper's ten intrinsics to the array frame: the inverse of `paper_intrinsics`."""
+def intrinsics_from_paper(values: Array, size: Size) -> Array:
+    """Convert the paper's ten intrinsics to the array frame: inverse to `paper_from_intrinsics`."""
     xp, yp, *coefficients, fx, fy = values
     powers = np.array([2.0, 4.0, 6.0, 1.0, 1.0, 2.0])
     signs = np.array([1.0, 1.0, 1.0, 1.0, -1.0, 1.0])
@@ -125,7 +125,7 @@ class PaperPose:
         return self.distance * self.vector[3:]
 
 
-def _board_axes(R: Array) -> Array:
+def _find_board_axes(R: Array) -> Array:
     """Return (3,) signs that turn board axes into the paper's left-handed ones.
 
     If the board's Z points away from the camera its Y points down and is flipped; if Z points
@@ -143,7 +143,7 @@ def paper_from_pose(pose: Pose, centre: Array, distance: float) -> PaperPose:
         distance: L + f, mm (eq. 30).
     """
     R = rotation_from_vector(pose.rvec)
-    axes = _board_axes(R)
+    axes = _find_board_axes(R)
     paper_R = _FLIP[:, None] * R * axes
     planar = _FLIP * (R[:, :2] @ centre + pose.tvec)
     t = planar / distance - paper_R[:, 2]

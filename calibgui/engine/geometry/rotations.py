@@ -2,8 +2,8 @@
 
 A rotation vector points along the axis, and its length is the angle in radians. It is how poses
 are stored. The solver varies a rotation by a small local one, R <- exp(w) R, which has no
-singularity anywhere; `inverse_left_jacobian` carries its uncertainty over to the vector. The
-paper's angles omega, phi, theta (eq. 7) are for display alone, in its left-handed frame
+singularity anywhere; `compute_inverse_left_jacobian` carries its uncertainty over to the vector.
+The paper's angles omega, phi, theta (eq. 7) are for display alone, in its left-handed frame
 (``frames.py``).
 """
 
@@ -18,7 +18,7 @@ from calibgui.engine.arrays import Array
 def rotation_from_vector(rvec: Array) -> Array:
     """Return the rotations exp(rvec) (..., 3, 3) of vectors (..., 3), by Rodrigues' formula."""
     half = np.linalg.norm(rvec, axis=-1)[..., None, None] / 2
-    W = cross_matrix(rvec)
+    W = make_cross_matrix(rvec)
     # np.sinc is sin(pi x) / (pi x), finite at 0, and sin x = 2 sin(x / 2) cos(x / 2).
     sinc = np.sinc(half / np.pi)
     return np.eye(3) + sinc * np.cos(half) * W + 0.5 * sinc**2 * (W @ W)
@@ -46,21 +46,21 @@ def vector_from_rotation(R: Array) -> Array:
     return np.asarray(np.where(is_usual[..., None], usual, half_turn))
 
 
-def cross_matrix(w: Array) -> Array:
+def make_cross_matrix(w: Array) -> Array:
     """Return the matrices [w]x (..., 3, 3) with [w]x a = w x a, for w (..., 3)."""
     W = np.zeros((*w.shape, 3))
     W[..., 2, 1], W[..., 0, 2], W[..., 1, 0] = w[..., 0], w[..., 1], w[..., 2]
     return W - np.swapaxes(W, -1, -2)
 
 
-def inverse_left_jacobian(rvec: Array) -> Array:
+def compute_inverse_left_jacobian(rvec: Array) -> Array:
     """Return (..., 3, 3) the derivative of log(exp(w) exp(rvec)) with respect to w at w = 0.
 
     The inverse of the left Jacobian of SO(3); carries the covariance of the solver's local
     rotation over to the rotation vector.
     """
     angle = np.linalg.norm(rvec, axis=-1)[..., None, None]
-    W = cross_matrix(rvec)
+    W = make_cross_matrix(rvec)
     half = angle / 2
     with np.errstate(invalid="ignore", divide="ignore"):
         c = np.where(angle > 1e-4, (1 - half / np.tan(half)) / angle**2, 1 / 12)

@@ -142,7 +142,7 @@ def list_cube_rotations() -> dict[str, Array]:
     return {name: np.stack(face, axis=1) for name, face in axes.items()}
 
 
-def widest_field_of_view(projection: Projection) -> float:
+def find_widest_field_of_view(projection: Projection) -> float:
     """Return the angle, radians, that a projection's field of view must not exceed.
 
     Perspective and stereographic images grow beyond all bounds towards it.

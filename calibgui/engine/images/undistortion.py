@@ -30,9 +30,9 @@ from calibgui.engine.images.outline import (
 from calibgui.engine.images.projections import (
     IdealCamera,
     Projection,
+    find_widest_field_of_view,
     list_cube_rotations,
     project_ideally,
-    widest_field_of_view,
 )
 from calibgui.engine.images.resampling import (
     Pixels,
@@ -209,7 +209,7 @@ def _span_field_of_view(
     Raises:
         CalibrationError: if the projection cannot show so much.
     """
-    widest = widest_field_of_view(projection)
+    widest = find_widest_field_of_view(projection)
     is_bounded = projection in (Projection.CYLINDRICAL, Projection.EQUIRECTANGULAR)
     if not (0 < field_of_view < widest or (is_bounded and field_of_view == widest)):
         raise CalibrationError(

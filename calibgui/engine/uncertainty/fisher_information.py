@@ -95,7 +95,7 @@ def compute_view_information(
         inverse = np.linalg.inv(np.swapaxes(Jp, 1, 2) @ Jp)
         G = inverse @ np.swapaxes(W, 1, 2)
         M = np.broadcast_to(np.eye(6), (len(W), 6, 6)).copy()
-        M[:, 3:, :3] = rotations.cross_matrix(state.T[views])
+        M[:, 3:, :3] = rotations.make_cross_matrix(state.T[views])
         parts.append(
             FisherInformation(
                 np.swapaxes(Jc, 1, 2) @ Jc - W @ G, -M @ G, M @ inverse @ np.swapaxes(M, 1, 2)

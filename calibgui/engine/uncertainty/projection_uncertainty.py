@@ -33,7 +33,7 @@ from calibgui.engine.camera.camera import Camera
 from calibgui.engine.camera.models import find_model
 from calibgui.engine.camera.projection import project, rays_from_pixels
 from calibgui.engine.errors import CalibrationError
-from calibgui.engine.geometry.rotations import cross_matrix
+from calibgui.engine.geometry.rotations import make_cross_matrix
 from calibgui.engine.images.sampling import make_mesh
 from calibgui.engine.uncertainty.fisher_information import FisherInformation, compute_information
 
@@ -213,7 +213,7 @@ def project_moved_points(p: Array, camera: Camera) -> tuple[Array, Array, Array]
     Points that the lens does not see have NaN.
     """
     q, by_point, by_params = project(p, camera.params, find_model(camera.model))
-    return q, by_params, np.concatenate([-by_point @ cross_matrix(p), by_point], axis=-1)
+    return q, by_params, np.concatenate([-by_point @ make_cross_matrix(p), by_point], axis=-1)
 
 
 def make_map_grid(size: Size) -> tuple[Array, Array]:

@@ -18,7 +18,7 @@ from calibgui.engine.calibration.refinement.levenberg_marquardt import minimise
 from calibgui.engine.calibration.refinement.residuals import build_stage_two
 from calibgui.engine.calibration.result import Cost
 from calibgui.engine.calibration.result_assembly import make_estimate
-from calibgui.engine.camera.models import parameter_names
+from calibgui.engine.camera.models import list_parameter_names
 from calibgui.engine.kernels import COMPILED_LENSES
 from tests.engine.scenes import VALLEYS, example, scene
 
@@ -37,9 +37,9 @@ NOISE = 0.2
 def test_repeated_solves_scatter_as_reported(model: str, count: int) -> None:
     camera = example(model)
     held = ("p3", *VALLEYS.get(model, ()))  # next to nothing determines these
-    free = np.flatnonzero([name not in held for name in parameter_names(model)])
+    free = np.flatnonzero([name not in held for name in list_parameter_names(model)])
     true = scene(camera, count, seed=4)
-    names = tuple(np.array(parameter_names(model))[free])
+    names = tuple(np.array(list_parameter_names(model))[free])
     anything = np.full(len(free), np.inf)
     start, rng = make_state(camera, true.poses), np.random.default_rng(count)
     estimates, reported = [], []

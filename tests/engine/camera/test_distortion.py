@@ -17,7 +17,11 @@ from calibgui.engine.camera.distortion import (
     project_points,
     undistort_points,
 )
-from calibgui.engine.geometry.frames import array_from_paper, array_intrinsics, paper_from_array
+from calibgui.engine.geometry.frames import (
+    array_from_paper,
+    intrinsics_from_paper,
+    paper_from_array,
+)
 from calibgui.engine.geometry.pose import Pose
 from tests.engine.scenes import barrel, brown, central_differences
 
@@ -108,7 +112,7 @@ def test_displacement_is_equation_10(part: DisplacementPart) -> None:
     table[9] = table[8]
     xp, yp, k1, k2, k3, p1, p2, p3 = table[:8]
     size = (640, 480)
-    camera = Camera(size, array_intrinsics(table, size))
+    camera = Camera(size, intrinsics_from_paper(table, size))
     x, y = np.moveaxis(paper_from_array(grid(), size), -1, 0)
     dx, dy = x - xp, y - yp
     r2 = dx**2 + dy**2
@@ -130,7 +134,7 @@ def test_displacement_is_equation_10(part: DisplacementPart) -> None:
 
 def test_the_papers_displacement_in_the_image_corners() -> None:
     # "In the four corners, the corrective displacement is of the order of 40 pixels."
-    camera = Camera((640, 480), array_intrinsics(PAPER, (640, 480)))
+    camera = Camera((640, 480), intrinsics_from_paper(PAPER, (640, 480)))
     corners = compute_displacement([[0, 0], [639, 0], [0, 479], [639, 479]], camera).length
     assert np.all((corners > 30) & (corners < 50))
 

@@ -63,7 +63,7 @@ def test_rotation_takes_stacks() -> None:
 
 @given(rvec, st.tuples(component, component, component))
 def test_cross_matrix_is_the_cross_product(w: Array, a: tuple[float, ...]) -> None:
-    np.testing.assert_allclose(rotations.cross_matrix(w) @ a, np.cross(w, a), atol=1e-15)
+    np.testing.assert_allclose(rotations.make_cross_matrix(w) @ a, np.cross(w, a), atol=1e-15)
 
 
 @pytest.mark.parametrize("size", [0.0, 9e-5, 1e-3, 0.4, 2.0, 3.0])
@@ -78,7 +78,7 @@ def test_rvec_by_local_against_differences(size: float) -> None:
     numeric = central_differences(moved, np.zeros(3), 1e-3)
     # Derivatives grow towards the half turn, and the differences' truncation with them.
     np.testing.assert_allclose(
-        rotations.inverse_left_jacobian(r), numeric, atol=1e-9 if size > 2 else 1e-11
+        rotations.compute_inverse_left_jacobian(r), numeric, atol=1e-9 if size > 2 else 1e-11
     )
 
 
@@ -157,11 +157,11 @@ def test_paper_intrinsics_by_params() -> None:
     params = np.array([650.0, 600.0, 310.0, 245.0, 0.25, 0.1, -0.04, 4e-4, -7e-4, 0.3])
 
     def values(p: Array) -> Array:
-        return frames.paper_intrinsics(p, SIZE)[0]
+        return frames.paper_from_intrinsics(p, SIZE)[0]
 
     # Each parameter at its own scale: the values span 1e-18 to 1e3.
     numeric = central_differences(values, params, 1e-3 * np.abs(params))
-    J = frames.paper_intrinsics(params, SIZE)[1]
+    J = frames.paper_from_intrinsics(params, SIZE)[1]
     for row, expected in zip(J, numeric, strict=True):
         assert relative(row, expected) < 1e-10
 
@@ -169,7 +169,7 @@ def test_paper_intrinsics_by_params() -> None:
 def test_paper_intrinsics_correct_the_same_point() -> None:
     """Eq. 9-11 in the paper's pixels and frame against the dimensionless model, fx = fy."""
     params = np.array([650.0, 650.0, 310.0, 245.0, 0.25, 0.1, -0.04, 4e-4, -7e-4, 0.3])
-    xp, yp, k1, k2, k3, p1, p2, p3, fx, _ = frames.paper_intrinsics(params, SIZE)[0]
+    xp, yp, k1, k2, k3, p1, p2, p3, fx, _ = frames.paper_from_intrinsics(params, SIZE)[0]
     uv = np.array([600.0, 20.0])
     x, y = frames.paper_from_array(uv, SIZE)
     dx, dy = x - xp, y - yp

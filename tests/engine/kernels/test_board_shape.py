@@ -20,13 +20,13 @@ from calibgui.engine.calibration.refinement.residuals import (
     compute_view_products,
 )
 from calibgui.engine.calibration.refinement.whitening import whiten_observations
-from calibgui.engine.camera.models import parameter_names
+from calibgui.engine.camera.models import list_parameter_names
 from tests.engine.kernels.test_normal_equations import COMPILED_CAMERAS, scene
 
 
 def choose_free(model: str) -> IntArray:
     """Some of the camera's parameters; the last is the skew of the models that have one."""
-    last = len(parameter_names(model)) - 1
+    last = len(list_parameter_names(model)) - 1
     return np.array([i for i in (0, 1, 2, 4, 6, last) if i <= last])
 
 

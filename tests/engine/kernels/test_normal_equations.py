@@ -14,7 +14,7 @@ from calibgui.engine.calibration.refinement import residuals
 from calibgui.engine.calibration.refinement.residuals import State
 from calibgui.engine.calibration.result import Cost
 from calibgui.engine.camera.camera import Camera
-from calibgui.engine.camera.models import parameter_names
+from calibgui.engine.camera.models import list_parameter_names
 from calibgui.engine.camera.projection import pixels_from_rays
 from calibgui.engine.geometry.rotations import rotation_from_vector
 
@@ -69,7 +69,7 @@ def test_the_kernels_know_these_models() -> None:
     assert kernels.POLYNOMIAL_LENSES.keys() == CAMERAS.keys()
     assert kernels.RAY_LENSES.keys() == RAY_CAMERAS.keys()
     for model, places in kernels.COMPILED_LENSES.items():
-        assert len(places) == len(parameter_names(model))
+        assert len(places) == len(list_parameter_names(model))
 
 
 @pytest.mark.parametrize("model", COMPILED_CAMERAS)
@@ -78,7 +78,7 @@ def test_the_compiled_sums_are_the_readable_ones(
     model: str, weighted: bool, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     state, views = scene(model, weighted)
-    free = np.array([i for i in range(len(parameter_names(model))) if i not in (3, 5)])
+    free = np.array([i for i in range(len(list_parameter_names(model))) if i not in (3, 5)])
     arguments = (pack_observations(views), model, Cost.IMAGE, 1.0, free)
     compiled = residuals.build_stage_two(*arguments)(state)
     monkeypatch.setattr(kernels, "COMPILED", False)

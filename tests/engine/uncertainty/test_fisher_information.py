@@ -53,8 +53,8 @@ def test_motions_of_the_views_have_the_poses_covariances() -> None:
     )
     for pose, expected, found in zip(result.poses, result.pose_covariances, motion, strict=True):
         J = np.zeros((6, 6))  # of (rvec, tvec) by the motion: tau = t - T x w
-        J[:3, :3] = rotations.inverse_left_jacobian(pose.rvec)
-        J[3:, :3] = -rotations.cross_matrix(pose.tvec)
+        J[:3, :3] = rotations.compute_inverse_left_jacobian(pose.rvec)
+        J[3:, :3] = -rotations.make_cross_matrix(pose.tvec)
         J[3:, 3:] = np.eye(3)
         assert relative(J @ found @ J.T, expected) < 1e-6
 

@@ -22,7 +22,7 @@ from calibgui.dataset import CornerSet
 from calibgui.engine.boards.shape import BoardShape, BoardShapeModel, BoardShapePrior
 from calibgui.engine.calibration.methods import METHODS, check_method
 from calibgui.engine.calibration.result import Cost
-from calibgui.engine.camera.models import PINHOLE, find_model, parameter_names
+from calibgui.engine.camera.models import PINHOLE, find_model, list_parameter_names
 from calibgui.formats.board_shape_json import write_board_shape
 from calibgui.gui.images.image_model import Role
 from calibgui.gui.settings.settings_panel import SettingsPanel
@@ -33,7 +33,7 @@ LEFT = Qt.MouseButton.LeftButton
 
 def test_settings_become_arguments_of_the_calibration(full: MainWindow) -> None:
     panel = full.settings
-    names = parameter_names("lucchese")
+    names = list_parameter_names("lucchese")
     assert [name for name in names if not panel.boxes[name].isChecked()] == ["k3", "p3"]
     panel.boxes["k3"].click()
     panel.boxes["p3"].click()
@@ -68,7 +68,7 @@ def test_the_lens_model_decides_what_can_be_held(full: MainWindow, qtbot: QtBot)
     full.inspector.show_setup()
     models = [panel.model.itemData(k) for k in range(panel.model.count())]
     assert models == [None, *MODEL_CHOICES]
-    assert shown_boxes(panel) == list(parameter_names("lucchese"))
+    assert shown_boxes(panel) == list(list_parameter_names("lucchese"))
     panel.values.selectAll()
     qtbot.keyClicks(panel.values, "fx=650.5, p3=0.01, k1=-0.2")
     qtbot.keyClick(panel.values, Qt.Key.Key_Return)
@@ -78,7 +78,7 @@ def test_the_lens_model_decides_what_can_be_held(full: MainWindow, qtbot: QtBot)
     assert settings.model == "brown-conrady"
     assert settings.fixed == {"fx": 650.5, "k1": None, "k3": None}, "values are of the old lens"
     QApplication.processEvents()
-    assert shown_boxes(panel) == list(parameter_names("brown-conrady"))
+    assert shown_boxes(panel) == list(list_parameter_names("brown-conrady"))
     assert not panel.boxes["k1"].isChecked() and panel.boxes["p1"].isChecked()
     panel.values.selectAll()
     qtbot.keyClicks(panel.values, "p3=0.01")
@@ -90,7 +90,7 @@ def test_the_lens_model_decides_what_can_be_held(full: MainWindow, qtbot: QtBot)
     QApplication.processEvents()
     assert session.project.settings.model == "lucchese"
     assert session.project.settings.fixed["p3"] == 0.01
-    assert shown_boxes(panel) == list(parameter_names("lucchese"))
+    assert shown_boxes(panel) == list(list_parameter_names("lucchese"))
 
 
 def test_a_calibration_takes_the_chosen_lens_model(full: MainWindow, qtbot: QtBot) -> None:
@@ -296,7 +296,7 @@ def test_every_lens_model_can_be_chosen_and_its_parameters_held(
         choose_item(panel.model, model, qtbot)
         assert session.project.settings.model == model
         QApplication.processEvents()
-        names = parameter_names(model)
+        names = list_parameter_names(model)
         assert shown_boxes(panel) == list(names if len(names) < 20 else PINHOLE)
         held = find_model(model).held
         for name in shown_boxes(panel):

@@ -41,7 +41,7 @@ def estimate_centre_and_k1(stage_one: StageOneRegistration, size: Size) -> tuple
         size: width and height of the images, px.
     """
     x, y, k1 = (
-        _weighted_median(values, spread)
+        _compute_weighted_median(values, spread)
         for values, spread in zip(
             [*stage_one.centre.T, stage_one.k1], stage_one.spread.T, strict=True
         )
@@ -67,7 +67,7 @@ def fit_homographies(observations: Observations, centre: Array, k1: float) -> Ar
     return homography.fit_homography(observations.xy, corrected, observations.mask)
 
 
-def _weighted_median(values: Array, spread: Array) -> float:
+def _compute_weighted_median(values: Array, spread: Array) -> float:
     """Return the median of `values`, weights the reciprocals of `spread`; 0 if none is valid."""
     good = np.isfinite(values) & np.isfinite(spread) & (spread >= 0)
     if not good.any():

@@ -21,7 +21,7 @@ cosines' equation (eq. 27),
     g(r) = det A cos(phi) cos^2(theta) - r alpha11^2 cos(omega) = 0,
 
 linear in r because no angle depends on r. The paper's own grid, equal in pixels along x'
-and y' (`literal`), replaces alpha12, alpha21 and gamma2 by r alpha12, alpha21 / r and
+and y' (`on_paper_grid`), replaces alpha12, alpha21 and gamma2 by r alpha12, alpha21 / r and
 r gamma2 in the angles, and g(r) = det A cos(phi) cos^2(theta) - alpha11^2 cos(omega) then
 has its root at r only if fy = fx holds; it is kept for figures 4 and 5.
 
@@ -43,7 +43,7 @@ from calibgui.engine.arrays import Array, IntArray
 from calibgui.engine.geometry.rotations import rotation_from_paper_angles
 
 _ASPECT_RATIOS = np.linspace(0.5, 2.0, 1501)
-"""Aspect ratios between which the zero of g(r) closest to 1 is searched for on the literal grid."""
+"""Aspect ratios between which the zero of g(r) closest to 1 is searched for on the paper's grid."""
 _MIN_TILT = 1e-6
 """Tilt about either axis, rad, below which eq. 25 divides rounding errors by each other."""
 _ROUNDING = 1e-14
@@ -63,16 +63,16 @@ class ViewGeometry(NamedTuple):
     fy: Array
 
 
-def _normalised(backward: Array, r: Array, literal: bool) -> tuple[Array, ...]:
+def _normalise_coefficients(backward: Array, r: Array, on_paper_grid: bool) -> tuple[Array, ...]:
     """Return alpha11, alpha12, alpha21, alpha22, gamma1, gamma2 without the grid's anisotropy."""
-    s = r if literal else np.ones_like(r)
+    s = r if on_paper_grid else np.ones_like(r)
     (a11, a12, _), (a21, a22, _), (g1, g2, _) = np.moveaxis(backward, (-2, -1), (0, 1))
     return a11 + 0 * s, s * a12, a21 / s, a22 + 0 * s, g1 + 0 * s, s * g2
 
 
-def _angles(backward: Array, r: Array, literal: bool) -> tuple[Array, Array, Array]:
+def _compute_angles(backward: Array, r: Array, on_paper_grid: bool) -> tuple[Array, Array, Array]:
     """Return |omega|, |phi| and theta (eq. 25), NaN where the view does not determine them."""
-    a11, a12, a21, a22, g1, g2 = _normalised(backward, r, literal)
+    a11, a12, a21, a22, g1, g2 = _normalise_coefficients(backward, r, on_paper_grid)
     theta = np.arctan2(a12, a11)
     with np.errstate(invalid="ignore", divide="ignore"):
         first = np.tan(theta + np.arctan(a21 / a22))
@@ -83,51 +83,51 @@ def _angles(backward: Array, r: Array, literal: bool) -> tuple[Array, Array, Arr
     return np.where(defined, omega, np.nan), np.where(defined, phi, np.nan), theta
 
 
-def evaluate_cosines_equation(backward: Array, r: Array, literal: bool = False) -> Array:
+def evaluate_cosines_equation(backward: Array, r: Array, on_paper_grid: bool = False) -> Array:
     """Evaluate g(r) of eq. 27.
 
     Args:
         backward: (3, 3) backward homography in the paper's frame, principal point at zero.
         r: (n,) aspect ratios.
-        literal: true for the paper's grid, equal in pixels along both axes, false for the metric
-            plane.
+        on_paper_grid: true for the paper's grid, equal in pixels along both axes, false for the
+            metric plane.
 
     Returns:
         (n,) NaN where the angles are undefined.
     """
-    omega, phi, theta = _angles(backward, r, literal)
+    omega, phi, theta = _compute_angles(backward, r, on_paper_grid)
     determinant = backward[0, 0] * backward[1, 1] - backward[0, 1] * backward[1, 0]
-    weight = np.ones_like(r) if literal else r
+    weight = np.ones_like(r) if on_paper_grid else r
     return determinant * np.cos(phi) * np.cos(theta) ** 2 - weight * backward[0, 0] ** 2 * np.cos(
         omega
     )
 
 
-def solve_aspect_ratio(backward: Array, literal: bool = False) -> Array:
+def solve_aspect_ratio(backward: Array, on_paper_grid: bool = False) -> Array:
     """Return (...) the root of the cosines' equation; NaN if the angles are undefined.
 
-    It has a closed form on the metric plane; on the literal grid it is the zero closest to 1 in
+    It has a closed form on the metric plane; on the paper's grid it is the zero closest to 1 in
     [0.5, 2].
 
     Args:
         backward: (..., 3, 3) as for `evaluate_cosines_equation`.
-        literal: as for `evaluate_cosines_equation`.
+        on_paper_grid: as for `evaluate_cosines_equation`.
     """
-    if literal:
+    if on_paper_grid:
         flat = backward.reshape(-1, 3, 3)
         return np.array([_search_aspect_ratio(H) for H in flat]).reshape(backward.shape[:-2])
-    omega, phi, theta = _angles(backward, np.ones(backward.shape[:-2]), literal)
+    omega, phi, theta = _compute_angles(backward, np.ones(backward.shape[:-2]), on_paper_grid)
     cosines = np.cos(phi) * np.cos(theta) ** 2 / np.cos(omega)
     return np.asarray(np.linalg.det(backward[..., :2, :2]) * cosines / backward[..., 0, 0] ** 2)
 
 
 def _search_aspect_ratio(backward: Array) -> float:
-    """Return the zero of g(r) on the literal grid that is closest to 1; NaN if there is none."""
+    """Return the zero of g(r) on the paper's grid that is closest to 1; NaN if there is none."""
 
     def g(r: float) -> float:
-        return float(evaluate_cosines_equation(backward, np.array([r]), literal=True)[0])
+        return float(evaluate_cosines_equation(backward, np.array([r]), on_paper_grid=True)[0])
 
-    values = evaluate_cosines_equation(backward, _ASPECT_RATIOS, literal=True)
+    values = evaluate_cosines_equation(backward, _ASPECT_RATIOS, on_paper_grid=True)
     with np.errstate(invalid="ignore"):
         changes = np.flatnonzero(values[:-1] * values[1:] <= 0)
     roots = [
@@ -165,26 +165,26 @@ def _search_root_pairs(g: Callable[[float], float], values: Array, rounding: flo
     return roots
 
 
-def estimate_view_geometry(backward: Array, literal: bool = False) -> ViewGeometry:
+def estimate_view_geometry(backward: Array, on_paper_grid: bool = False) -> ViewGeometry:
     """Estimate angles with their signs, normalised translation and focal lengths (eq. 25, 28).
 
     Args:
         backward: (..., 3, 3) backward homographies in the paper's frame, principal point at
             zero, from reference coordinates in units that are the same along both of the plane's
             axes.
-        literal: as for `cosines_equation`.
+        on_paper_grid: as for `evaluate_cosines_equation`.
 
     Returns:
         All NaN where a view does not determine its aspect ratio. Of the four combinations
         of signs the one whose homography is closest to the given one is taken.
     """
-    r = solve_aspect_ratio(backward, literal)
-    omega, phi, theta = _angles(backward, r, literal)
+    r = solve_aspect_ratio(backward, on_paper_grid)
+    omega, phi, theta = _compute_angles(backward, r, on_paper_grid)
     theta = np.where(np.isfinite(omega), theta, np.nan)
     signs = np.array(list(product((1.0, -1.0), repeat=2))).reshape(4, 2, *[1] * r.ndim)
     with np.errstate(invalid="ignore", divide="ignore"):
         miss, candidates = _evaluate_angles(
-            backward, r, literal, signs[:, 0] * omega, signs[:, 1] * phi, theta
+            backward, r, on_paper_grid, signs[:, 0] * omega, signs[:, 1] * phi, theta
         )
     chosen = np.argmin(np.where(np.isnan(miss), np.inf, miss), axis=0)
     return ViewGeometry(*(_take_chosen(value, chosen) for value in candidates))
@@ -197,10 +197,10 @@ def _take_chosen(values: Array, chosen: IntArray) -> Array:
 
 
 def _evaluate_angles(
-    backward: Array, r: Array, literal: bool, omega: Array, phi: Array, theta: Array
+    backward: Array, r: Array, on_paper_grid: bool, omega: Array, phi: Array, theta: Array
 ) -> tuple[Array, ViewGeometry]:
     """Return how badly given angles explain the views, and the geometry under them (eq. 28)."""
-    a11, a12, a21, a22, g1, g2 = _normalised(backward, r, literal)
+    a11, a12, a21, a22, g1, g2 = _normalise_coefficients(backward, r, on_paper_grid)
     R = np.moveaxis(rotation_from_paper_angles(omega, phi, theta), (-2, -1), (0, 1))
     D = R[0, 0] / a11
     # Eq. 28 takes fx from gamma1 alone, which can vanish; its length is the stabler choice.
@@ -213,7 +213,7 @@ def _evaluate_angles(
         ],
         axis=-1,
     )
-    s = np.ones_like(r) if literal else r
+    s = np.ones_like(r) if on_paper_grid else r
     given = a11 + 0 * D, a12 + 0 * D, a21 / s, a22 / s, g1 * fx, g2 * fx
     implied = (R[i, j] / D for i in range(3) for j in range(2))
     miss = sum((a - b) ** 2 for a, b in zip(given, implied, strict=True))

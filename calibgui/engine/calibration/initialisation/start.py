@@ -32,7 +32,7 @@ from calibgui.engine.calibration.observations import Observations
 from calibgui.engine.calibration.refinement.levenberg_marquardt import StartError
 from calibgui.engine.calibration.refinement.residuals import State
 from calibgui.engine.camera.camera import Camera
-from calibgui.engine.camera.models import PINHOLE, find_model, parameter_names
+from calibgui.engine.camera.models import PINHOLE, find_model, list_parameter_names
 from calibgui.engine.camera.plane import PlaneLens
 from calibgui.engine.camera.projection import rays_from_pixels
 from calibgui.engine.errors import CalibrationError
@@ -244,7 +244,7 @@ def _descend_valley(
     held: Mapping[str, float | None],
 ) -> State | None:
     """Return the lowest start along the coefficient of which a model has several minima, if any."""
-    lens, names = find_model(model), parameter_names(model)
+    lens, names = find_model(model), list_parameter_names(model)
     if lens.valley is None or lens.valley.coefficient in held:
         return None
     along = lens.valley.coefficient
@@ -279,7 +279,7 @@ def _follow_rays(
     observations: Observations, sight: _Sight, model: str, held: Mapping[str, float | None]
 ) -> State:
     """Return a camera of the model that images these rays where the corners are."""
-    lens, names = find_model(model), parameter_names(model)
+    lens, names = find_model(model), list_parameter_names(model)
     held = {**dict.fromkeys(lens.held_at_start), **held}
     rays, (pinhole, R, T) = sight
     chosen = (observations.mask > 0) & np.isfinite(rays).all(axis=-1)

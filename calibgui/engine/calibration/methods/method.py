@@ -33,7 +33,7 @@ from calibgui.engine.calibration.refinement.residuals import State, build_stage_
 from calibgui.engine.calibration.refinement.schur import NormalEquations, solve_normal_equations
 from calibgui.engine.calibration.refinement.whitening import whiten_observations
 from calibgui.engine.calibration.result import Calibration, Cost, Report, Status
-from calibgui.engine.camera.models import find_model, parameter_names
+from calibgui.engine.camera.models import find_model, list_parameter_names
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.geometry.pose import Pose
 from calibgui.engine.geometry.rotations import rotation_from_vector, vector_from_rotation
@@ -243,7 +243,7 @@ def hold_parameters(
         held: parameters to hold, with a value or None for the default.
         defaults: defaults; the state's own value where there is none.
     """
-    names = parameter_names(model)
+    names = list_parameter_names(model)
     values: dict[str, float] = {}
     for name, wanted in held.items():
         index = names.index(name)

@@ -235,7 +235,7 @@ def measure_straightness(
         )
     d = _normalise(lines.uv, plumb_line.size)
     fit = straight_lines.solve_lines(d, lines.mask, _make_q(plumb_line), np.arange(0))
-    return fit.rms * _half_diagonal(plumb_line.size)
+    return fit.rms * _measure_half_diagonal(plumb_line.size)
 
 
 def compare_with_camera(plumb_line: PlumbLine, camera: Camera, u: Array, v: Array) -> Array:
@@ -288,19 +288,19 @@ def _fit_projected_difference(seen: Array, n: Array, A: Array) -> Array:
     return differ(found.x).reshape(-1, 2)
 
 
-def _half_diagonal(size: Size) -> float:
+def _measure_half_diagonal(size: Size) -> float:
     """Return half the diagonal of an image, px: the unit in which lines are solved."""
     return float(np.hypot(*size)) / 2
 
 
 def _normalise(uv: Array, size: Size) -> Array:
     """Return points (..., 2) px in half diagonals from the middle of the image."""
-    return (uv - frames.centre_of_array(size)) / _half_diagonal(size)
+    return (uv - frames.centre_of_array(size)) / _measure_half_diagonal(size)
 
 
 def _make_units(size: Size) -> Array:
     """Return the px units (5,) of the parameters `NAMES`."""
-    h = _half_diagonal(size)
+    h = _measure_half_diagonal(size)
     return np.array([h, h, h**-2, h**-4, 1.0])
 
 
@@ -317,7 +317,7 @@ def _correct(uv: Array, plumb_line: PlumbLine) -> tuple[Array, Array]:
     d = _normalise(uv, plumb_line.size)
     n, A = straight_lines.correct_points(d, q)
     n[_find_folded(d, q)] = np.nan
-    return plumb_line.centre + _half_diagonal(plumb_line.size) * n, A
+    return plumb_line.centre + _measure_half_diagonal(plumb_line.size) * n, A
 
 
 def _find_folded(d: Array, q: Array) -> BoolArray:
@@ -340,7 +340,7 @@ def _remark_no_distortion(straight: LineFit, first: LineFit, size: Size) -> tupl
     """Return a remark if the lens has no distortion that these lines show."""
     k = first.q[first.free]
     excess = np.sum((first.J @ k) ** 2) - len(k) * (_MIN_SIGNIFICANCE * first.noise) ** 2
-    if excess > 0 and straight.rms * _half_diagonal(size) > _MIN_BEND_PX:
+    if excess > 0 and straight.rms * _measure_half_diagonal(size) > _MIN_BEND_PX:
         return ()
     sigma = np.sqrt(np.diag(first.covariance))
     values = ", ".join(
@@ -362,7 +362,7 @@ def _remark_open_centre(full: LineFit, size: Size) -> tuple[str, ...]:
         sigma = float(np.sqrt(np.diag(full.covariance)[:2].max()))
         if sigma <= _MAX_CENTRE_SIGMA:
             return ()
-        how = f" by ± {sigma * _half_diagonal(size):.0f} px"
+        how = f" by ± {sigma * _measure_half_diagonal(size):.0f} px"
     return (
         f"The lines leave the centre of distortion open{how}. It is held at the middle of the "
         "image.",
@@ -378,7 +378,7 @@ def _assemble(
 ) -> PlumbLine:
     """Return the record of the last fit, or of the first if a remark says that others failed."""
     fit = fits[0] if remarks else fits[-1]
-    units, h = _make_units(size), _half_diagonal(size)
+    units, h = _make_units(size), _measure_half_diagonal(size)
     covariance = np.full((len(NAMES), len(NAMES)), np.nan)
     scale = np.outer(units[fit.free], units[fit.free])
     covariance[np.ix_(fit.free, fit.free)] = fit.covariance * scale

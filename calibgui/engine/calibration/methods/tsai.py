@@ -83,7 +83,7 @@ from calibgui.engine.camera.models import find_model
 from calibgui.engine.camera.plane import plane_from_rays
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.geometry import frames
-from calibgui.engine.geometry.rotations import cross_matrix
+from calibgui.engine.geometry.rotations import make_cross_matrix
 
 _SOURCE = (
     "R. Y. Tsai, A versatile camera calibration technique for high-accuracy 3D machine vision "
@@ -249,7 +249,7 @@ def _measure_information(view: ViewEstimate, f: float, xyw: Array, XYd: Array) -
     turned = xyw @ view.R[:, :2].T
     n, by_point = plane_from_rays(turned + T)
     by_motion = np.concatenate(
-        [-cross_matrix(turned), np.broadcast_to(np.eye(3), (len(n), 3, 3))], axis=2
+        [-make_cross_matrix(turned), np.broadcast_to(np.eye(3), (len(n), 3, 3))], axis=2
     )
     by_pose = -f * by_point @ by_motion
     by_camera = np.stack([-f * n, np.sum(XYd**2, axis=1, keepdims=True) * XYd], axis=2)

@@ -47,7 +47,7 @@ from calibgui.engine.calibration.methods.method import Method
 from calibgui.engine.calibration.observations import Observations
 from calibgui.engine.calibration.refinement.residuals import State, build_stage_two
 from calibgui.engine.calibration.result import Calibration, Cost
-from calibgui.engine.camera.models import parameter_names
+from calibgui.engine.camera.models import list_parameter_names
 
 _MODEL = "thin-prism"
 _LINEAR = ("k1", "k2", "k3", "p1", "p2", "s1", "s2", "s3", "s4")
@@ -74,7 +74,7 @@ def solve_distortion(state: State, observations: Observations, linear: IntArray)
 
 def make_map_to_paper() -> Array:
     """Make the matrix (4, P) that takes a camera's parameters to g1, g2, g3 and g4."""
-    names = parameter_names(_MODEL)
+    names = list_parameter_names(_MODEL)
     p1, p2, s1, s3 = (names.index(name) for name in ("p1", "p2", "s1", "s3"))
     g_from_params = np.zeros((4, len(names)))
     g_from_params[0, [p2, s1]] = g_from_params[1, [p1, s3]] = 1.0

@@ -89,14 +89,14 @@ from calibgui.engine.calibration.refinement import residuals
 from calibgui.engine.calibration.refinement.levenberg_marquardt import StartError
 from calibgui.engine.calibration.refinement.residuals import State
 from calibgui.engine.calibration.result import Calibration, Cost
-from calibgui.engine.camera.models import parameter_names
+from calibgui.engine.camera.models import list_parameter_names
 from calibgui.engine.geometry import frames
 from calibgui.engine.geometry.homography import apply_homography
 from calibgui.engine.geometry.homography_refinement import fit_closest_homography
 from calibgui.engine.geometry.planar_pose import poses_from_homographies
 
 _MODEL = "brown-conrady-4"
-_K1, _SKEW = parameter_names(_MODEL).index("k1"), parameter_names(_MODEL).index("skew")
+_K1, _SKEW = list_parameter_names(_MODEL).index("k1"), list_parameter_names(_MODEL).index("skew")
 _DISTORTION = ("k1", "k2", "p1", "p2")
 
 

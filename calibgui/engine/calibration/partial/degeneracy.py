@@ -33,7 +33,7 @@ from calibgui.engine.calibration.result import Degeneracy, Diagnosis
 from calibgui.engine.camera.camera import Camera
 from calibgui.engine.camera.models import PINHOLE, find_model
 from calibgui.engine.errors import CalibrationError
-from calibgui.engine.geometry.rotations import cross_matrix
+from calibgui.engine.geometry.rotations import make_cross_matrix
 
 _MIN_T = 50.0
 """T below which the planes count as parallel."""
@@ -77,7 +77,7 @@ def are_planes_parallel(R: Array, roots: Array, variance: float) -> bool:
         return True
     # The turn about the board's two axes across n; turns about n itself leave n where it is.
     across = R[:, :, :2]
-    turn = ((n @ cross_matrix(mean))[:, None] @ across)[:, 0]
+    turn = ((n @ make_cross_matrix(mean))[:, None] @ across)[:, 0]
     root = roots[..., :3] @ across
     covariance = np.swapaxes(root, 1, 2) @ root
     squares = turn * np.linalg.solve(covariance, turn[..., None])[..., 0]

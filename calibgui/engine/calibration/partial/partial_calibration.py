@@ -42,7 +42,7 @@ from calibgui.engine.calibration.refinement.levenberg_marquardt import (
     minimise,
 )
 from calibgui.engine.calibration.refinement.planar_pose_ambiguity import (
-    ProblemOf,
+    BuildProblem,
     correct_mirrored_poses,
 )
 from calibgui.engine.calibration.refinement.residuals import NormalAt, State
@@ -167,13 +167,13 @@ def _solve_and_choose(part: Observations, options: Options, q: Array) -> _Fit | 
     """
     quantities, free = Quantities.for_options(options), options.free
 
-    def problem_of(views: Observations, free: IntArray, cost: Cost = options.cost) -> NormalAt:
+    def build_problem(views: Observations, free: IntArray, cost: Cost = options.cost) -> NormalAt:
         every = np.arange(len(q))
         normal_at = residuals.build_stage_two(views, options.model, cost, options.scale, every)
         return reparametrise(normal_at, quantities, free)
 
-    def registration(views: Observations, free: IntArray) -> NormalAt:
-        return problem_of(views, free, Cost.REFERENCE)
+    def build_registration(views: Observations, free: IntArray) -> NormalAt:
+        return build_problem(views, free, Cost.REFERENCE)
 
     flat = replace(part, xy=part.xy[..., :2])
     M = closed_form.fit_homographies(flat, q[2:4], 0.0)
@@ -182,7 +182,7 @@ def _solve_and_choose(part: Observations, options: Options, q: Array) -> _Fit | 
     for turn in range(_MAX_ROUNDS):
         estimated = np.setdiff1d(free, assumed)
         try:
-            solution = _solve(problem_of, registration, part, state, estimated)
+            solution = _solve(build_problem, build_registration, part, state, estimated)
         except StartError:
             return None
         unknowns = len(estimated) + solution.normal.pose.size
@@ -190,7 +190,7 @@ def _solve_and_choose(part: Observations, options: Options, q: Array) -> _Fit | 
         if not np.isfinite(sigma2):
             return None
         sigma2 = max(sigma2, _MIN_NOISE**2)
-        S = eliminate_poses(problem_of(part, free)(solution.state)).S / sigma2
+        S = eliminate_poses(build_problem(part, free)(solution.state)).S / sigma2
         prior = _compute_priors(quantities, solution.state.params, options.size)[free]
         chosen = free[choose_assumed(S, prior)]
         if turn >= _ROUNDS_WITH_RELEASE:
@@ -260,21 +260,21 @@ def compute_consider_covariances(S: Array, prior: Array, held: BoolArray) -> tup
 
 
 def _solve(
-    problem_of: ProblemOf,
-    registration: ProblemOf,
+    build_problem: BuildProblem,
+    build_registration: BuildProblem,
     views: Observations,
     start: State,
     free: IntArray,
 ) -> Solution:
     """Find the minimum, with poses mistaken for their mirror images corrected once."""
     data = float(np.sum(views.uv**2))
-    solution = minimise(problem_of(views, free), start, free, views.count, data)
-    turned = correct_mirrored_poses(problem_of, registration, views, solution)
+    solution = minimise(build_problem(views, free), start, free, views.count, data)
+    turned = correct_mirrored_poses(build_problem, build_registration, views, solution)
     if turned is None:
         return solution
     try:
         return minimise(
-            problem_of(views, free), turned, free, views.count, data, earlier=solution.history
+            build_problem(views, free), turned, free, views.count, data, earlier=solution.history
         )
     except StartError:  # the lens folds there: the camera is still too far off to decide
         return solution

@@ -37,7 +37,7 @@ from calibgui.engine.calibration.refinement.levenberg_marquardt import (
     minimise,
 )
 from calibgui.engine.calibration.refinement.planar_pose_ambiguity import (
-    ProblemOf,
+    BuildProblem,
     correct_mirrored_poses,
 )
 from calibgui.engine.calibration.refinement.residuals import NormalAt, State
@@ -194,7 +194,7 @@ class _StageTwo:
 
     def _minimise(
         self,
-        build_problem: ProblemOf,
+        build_problem: BuildProblem,
         start: State,
         free: IntArray,
         report: Report | None,

@@ -177,7 +177,7 @@ def convert_pose_covariances(local: Array, rvecs: Array) -> Array:
         rvecs: (K, 3) rotation vectors of the poses.
     """
     J = np.zeros((len(rvecs), 6, 6))
-    J[:, :3, :3] = rotations.inverse_left_jacobian(rvecs)
+    J[:, :3, :3] = rotations.compute_inverse_left_jacobian(rvecs)
     J[:, 3:, 3:] = np.eye(3)
     return np.asarray(J @ local @ np.swapaxes(J, 1, 2))
 
@@ -197,7 +197,7 @@ def make_paper_table(calibration: Calibration) -> tuple[Array, Array, Array]:
         sqrt(diag((2 J^T J)^-1)), each (10,) in the order of ``frames.PAPER_NAMES``.
     """
     camera = calibration.camera
-    values, J = frames.paper_intrinsics(camera.params, camera.size)
+    values, J = frames.paper_from_intrinsics(camera.params, camera.size)
     sigma, by_noise = (
         np.sqrt(np.diag(J @ covariance @ J.T))
         for covariance in (calibration.covariance, calibration.noise_covariance)

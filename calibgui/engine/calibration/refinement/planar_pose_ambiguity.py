@@ -37,37 +37,40 @@ _MAX_ITERATIONS = 30
 _DIAGONALS = np.array([[1.0, 1.0, -1.0, -1.0], [1.0, -1.0, 1.0, -1.0]])
 _NONE_FREE: IntArray = np.zeros(0, dtype=np.int64)
 
-ProblemOf = Callable[[Observations, IntArray], NormalAt]
+BuildProblem = Callable[[Observations, IntArray], NormalAt]
 """A function from views and the indices of free camera parameters to Stage II's problem."""
 
 
 def correct_mirrored_poses(
-    problem: ProblemOf, registration: ProblemOf, observations: Observations, solution: Solution
+    build_problem: BuildProblem,
+    build_registration: BuildProblem,
+    observations: Observations,
+    solution: Solution,
 ) -> State | None:
     """Return the solution's state with those poses mirrored that fit better so; None if none do.
 
     Args:
-        problem: the problem that the solution minimises.
-        registration: the same problem on the reference plane.
+        build_problem: builds the problem that the solution minimises.
+        build_registration: builds the same problem on the reference plane.
         observations: the views.
         solution: the solution to check.
     """
     mirrored = mirror_poses(solution.state, observations)
-    views = _find_uncertain_views(problem, observations, solution, mirrored)
+    views = _find_uncertain_views(build_problem, observations, solution, mirrored)
     if not views.size:
         return None
     sample, poses = observations.select_views(views), mirrored.select_views(views)
-    imaged = np.isfinite(problem(sample, _NONE_FREE)(poses).costs)
+    imaged = np.isfinite(build_problem(sample, _NONE_FREE)(poses).costs)
     R, T = solution.state.R.copy(), solution.state.T.copy()
     has_changed = False
     # The lens of a wrong camera can fold before the corners of the right pose.
-    for stage, chosen in ((problem, imaged), (registration, ~imaged)):
+    for build, chosen in ((build_problem, imaged), (build_registration, ~imaged)):
         which, part = views[chosen], sample.select_views(chosen)
         if not which.size:
             continue
-        before = stage(part, _NONE_FREE)(solution.state.select_views(which)).costs
+        before = build(part, _NONE_FREE)(solution.state.select_views(which)).costs
         try:
-            found = _refine_poses(stage, part, poses.select_views(chosen))
+            found = _refine_poses(build, part, poses.select_views(chosen))
         except StartError:
             continue
         better = found.normal.costs < (1 - _MIN_GAIN) * before
@@ -76,11 +79,11 @@ def correct_mirrored_poses(
     return State(solution.state.params, R, T) if has_changed else None
 
 
-def _refine_poses(problem: ProblemOf, views: Observations, poses: State) -> Solution:
+def _refine_poses(build_problem: BuildProblem, views: Observations, poses: State) -> Solution:
     """Minimise the cost from these poses, with the camera as it is."""
     data = float(np.vdot(views.uv, views.uv))
     return minimise(
-        problem(views, _NONE_FREE),
+        build_problem(views, _NONE_FREE),
         poses,
         _NONE_FREE,
         views.count,
@@ -97,7 +100,7 @@ def mirror_poses(state: State, observations: Observations) -> State:
 
 
 def _find_uncertain_views(
-    problem: ProblemOf, observations: Observations, solution: Solution, mirrored: State
+    build_problem: BuildProblem, observations: Observations, solution: Solution, mirrored: State
 ) -> IntArray:
     """Return the numbers of the views whose residuals do not exclude the mirrored pose."""
     first, like = group_equal_boards(observations)
@@ -112,6 +115,6 @@ def _find_uncertain_views(
         cov=None,
         whitening=None if weight is None else weight[views, places],
     )
-    missed = problem(outermost, _NONE_FREE)(mirrored).costs / places.shape[1]
+    missed = build_problem(outermost, _NONE_FREE)(mirrored).costs / places.shape[1]
     own = solution.normal.costs / observations.mask.sum(axis=1)
     return np.flatnonzero(missed < _MAX_MISS_RATIO**2 * own)

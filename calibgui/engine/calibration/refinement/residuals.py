@@ -136,7 +136,7 @@ def compute_image_residuals(state: State, views: Observations, lens: Lens) -> Li
 
 
 def compute_reference_residuals(
-    state: State, views: Observations, lens: Lens, scale: float, literal: bool
+    state: State, views: Observations, lens: Lens, scale: float, on_paper_grid: bool
 ) -> Linearised:
     """Compute registered minus nominal corners on the reference plane (eq. 38), reference px.
 
@@ -145,7 +145,7 @@ def compute_reference_residuals(
         views: the measured corners.
         lens: the lens model.
         scale: s, reference px per mm.
-        literal: true for the paper's grid, equal in px along both axes (`Cost.PAPER`).
+        on_paper_grid: true for the paper's grid, equal in px along both axes (`Cost.PAPER`).
     """
     measured = unproject(views.uv, state.params, lens)
     M = np.concatenate([state.R[..., :2], state.T[..., None]], axis=-1)
@@ -159,11 +159,11 @@ def compute_reference_residuals(
     by_pose = _differentiate_by_pose(-inverse @ across, rotated)
 
     to_reference = np.array([scale, scale])
-    if literal:
+    if on_paper_grid:
         fx, fy = state.params[:2]
         to_reference = scale * np.array([1.0, fy / fx])
     by_params *= to_reference[:, None]
-    if literal:
+    if on_paper_grid:
         by_params[..., 1, 0] -= scale * points[..., 1] * fy / fx**2
         by_params[..., 1, 1] += scale * points[..., 1] / fx
     return Linearised(

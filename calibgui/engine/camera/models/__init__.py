@@ -88,7 +88,7 @@ def resolve_model_id(model: str) -> str:
     return current
 
 
-def parameter_names(model: str) -> tuple[str, ...]:
+def list_parameter_names(model: str) -> tuple[str, ...]:
     """Return the names of a camera's parameters, in the order of ``Camera.params``.
 
     Raises:

@@ -23,7 +23,7 @@ import numpy as np
 
 from calibgui.engine.arrays import Array
 from calibgui.engine.camera.models.lucchese import Lucchese
-from calibgui.engine.camera.plane import Mapped
+from calibgui.engine.camera.plane import PlanePoints
 from calibgui.engine.camera.skew import SkewedLens
 
 _FROM_LUCCHESE = [0, 1, 4, 3, 2]
@@ -39,11 +39,11 @@ class BrownConrady(SkewedLens):
     asymmetric = ("p1", "p2", "skew")
     closed_form_factor = -1.0
 
-    def distort_unskewed(self, n: Array, k: Array) -> Mapped:
+    def distort_unskewed(self, n: Array, k: Array) -> PlanePoints:
         """Map ideal points to measured points without skew."""
         return _reorder_coefficients(Lucchese().correct(n, _convert_to_eq10(k)), len(k))
 
-    def correct_unskewed(self, xy: Array, k: Array) -> Mapped:
+    def correct_unskewed(self, xy: Array, k: Array) -> PlanePoints:
         """Map measured points without skew to ideal points, by Newton's method."""
         return _reorder_coefficients(Lucchese().distort(xy, _convert_to_eq10(k)), len(k))
 
@@ -63,6 +63,6 @@ def _convert_to_eq10(k: Array) -> Array:
     return eq10
 
 
-def _reorder_coefficients(mapped: Mapped, count: int) -> Mapped:
+def _reorder_coefficients(mapped: PlanePoints, count: int) -> PlanePoints:
     """Return the map with its derivatives by the first `count` of k1, k2, p1, p2, k3."""
     return mapped._replace(by_coefficients=mapped.by_coefficients[..., _FROM_LUCCHESE[:count]])

@@ -28,8 +28,8 @@ from __future__ import annotations
 import numpy as np
 
 from calibgui.engine.arrays import Array
-from calibgui.engine.camera.model import Imaged, Lens, Seen
-from calibgui.engine.camera.tangent import invert_imaged
+from calibgui.engine.camera.model import Lens, LensProjection, LensUnprojection
+from calibgui.engine.camera.tangent import invert_projection
 
 
 class Division(Lens):
@@ -39,7 +39,7 @@ class Division(Lens):
     names = ("k1",)
     powers = (2,)
 
-    def project(self, rays: Array, k: Array) -> Imaged:
+    def project(self, rays: Array, k: Array) -> LensProjection:
         """Map rays to image points."""
         xy, Z = rays[..., :2], rays[..., 2]
         R2 = np.sum(xy * xy, axis=-1)
@@ -56,11 +56,11 @@ class Division(Lens):
             by_ray[..., 0, 0] += t
             by_ray[..., 1, 1] += t
             by_ray[..., 2] = (-t / w)[..., None] * xy
-        return Imaged(t[..., None] * xy, by_ray, by_k)
+        return LensProjection(t[..., None] * xy, by_ray, by_k)
 
-    def unproject(self, d: Array, k: Array) -> Seen:
+    def unproject(self, d: Array, k: Array) -> LensUnprojection:
         """Map image points to rays of length 1."""
         m = 1 + k[0] * np.sum(d * d, axis=-1, keepdims=True)
         rays = np.concatenate([d, np.where(m < 2, m, np.nan)], axis=-1)
         rays /= np.sqrt(np.sum(rays * rays, axis=-1, keepdims=True))
-        return invert_imaged(rays, self.project(rays, k))
+        return invert_projection(rays, self.project(rays, k))

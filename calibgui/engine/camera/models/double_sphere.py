@@ -22,11 +22,11 @@ from __future__ import annotations
 import numpy as np
 
 from calibgui.engine.arrays import Array
-from calibgui.engine.camera.model import Imaged, Lens, Seen, Trials
+from calibgui.engine.camera.model import Lens, LensProjection, LensUnprojection, Trials
 from calibgui.engine.camera.models.eucm import lift
 from calibgui.engine.camera.models.ucm import Unified
 from calibgui.engine.camera.shifted_sphere import differentiate_shift, shift_rays, unshift_rays
-from calibgui.engine.camera.tangent import invert_imaged
+from calibgui.engine.camera.tangent import invert_projection
 
 
 class DoubleSphere(Lens):
@@ -39,13 +39,13 @@ class DoubleSphere(Lens):
     valley = Trials("xi", (-0.5, -0.3, -0.1, 0.1, 0.3, 0.5))  # alpha does nearly the same
     conversion_starts = Trials("xi", (-0.3, 0.0, 0.3))
 
-    def project(self, rays: Array, k: Array) -> Imaged:
+    def project(self, rays: Array, k: Array) -> LensProjection:
         """Map rays to image points."""
         shifted, length = shift_rays(rays, k[0])
         return differentiate_shift(Unified().project(shifted, k[1:]), rays, length, k[0])
 
-    def unproject(self, d: Array, k: Array) -> Seen:
+    def unproject(self, d: Array, k: Array) -> LensUnprojection:
         """Map image points to rays of length 1."""
         m = lift(d, k[1], 1.0)
         rays = unshift_rays(np.concatenate([d, m[..., None]], axis=-1), k[0])
-        return invert_imaged(rays, self.project(rays, k))
+        return invert_projection(rays, self.project(rays, k))

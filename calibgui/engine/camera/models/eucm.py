@@ -32,8 +32,8 @@ from types import MappingProxyType
 import numpy as np
 
 from calibgui.engine.arrays import Array
-from calibgui.engine.camera.model import Imaged, Lens, Seen, Trials
-from calibgui.engine.camera.tangent import invert_imaged
+from calibgui.engine.camera.model import Lens, LensProjection, LensUnprojection, Trials
+from calibgui.engine.camera.tangent import invert_projection
 
 
 class ExtendedUnified(Lens):
@@ -47,7 +47,7 @@ class ExtendedUnified(Lens):
     conversion_starts = Trials("alpha", (0.0, 0.5))
     least_at_start = MappingProxyType({"alpha": 0.1})  # beta does nothing at alpha = 0
 
-    def project(self, rays: Array, k: Array) -> Imaged:
+    def project(self, rays: Array, k: Array) -> LensProjection:
         """Map rays to image points."""
         alpha, beta = k
         xy, Z = rays[..., :2], rays[..., 2]
@@ -65,14 +65,14 @@ class ExtendedUnified(Lens):
         by_ray[..., 2] = -(alpha * Z / w + 1 - alpha)[..., None] * d
         by_ray /= D[..., None, None]
         of_depth = np.stack([w - Z, alpha * R2 / (2 * w)], axis=-1) / -D[..., None]
-        return Imaged(d, by_ray, d[..., None] * of_depth[..., None, :])
+        return LensProjection(d, by_ray, d[..., None] * of_depth[..., None, :])
 
-    def unproject(self, d: Array, k: Array) -> Seen:
+    def unproject(self, d: Array, k: Array) -> LensUnprojection:
         """Map image points to rays of length 1."""
         m = lift(d, *k)
         rays = np.concatenate([d, m[..., None]], axis=-1)
         rays /= np.sqrt(np.sum(rays * rays, axis=-1, keepdims=True))
-        return invert_imaged(rays, self.project(rays, k))
+        return invert_projection(rays, self.project(rays, k))
 
 
 def lift(d: Array, alpha: float, beta: float) -> Array:

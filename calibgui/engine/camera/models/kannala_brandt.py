@@ -32,10 +32,10 @@ import numpy as np
 
 from calibgui.engine.arrays import Array
 from calibgui.engine.camera.inverse import invert_map, make_polynomial_curve
-from calibgui.engine.camera.model import Imaged, Lens, Seen
+from calibgui.engine.camera.model import Lens, LensProjection, LensUnprojection
 from calibgui.engine.camera.polynomial import apply_polynomial
 from calibgui.engine.camera.root import solve_in_bracket
-from calibgui.engine.camera.tangent import invert_imaged
+from calibgui.engine.camera.tangent import invert_projection
 
 
 class KannalaBrandt(Lens):
@@ -52,7 +52,7 @@ class KannalaBrandt(Lens):
             self.names += self.asymmetric
             self.powers += (1, 1)
 
-    def project(self, rays: Array, k: Array) -> Imaged:
+    def project(self, rays: Array, k: Array) -> LensProjection:
         """Map rays to image points."""
         xy, Z = rays[..., :2], rays[..., 2]
         R = np.hypot(xy[..., 0], xy[..., 1])
@@ -71,9 +71,9 @@ class KannalaBrandt(Lens):
                 + by_e[..., None] * ((Z / L2 - stretch)[..., None] * e)[..., None, :]
             )
             by_ray[..., 2] = by_e * (-R / L2)[..., None]
-        return Imaged(d, by_ray, by_k[..., : len(k)])
+        return LensProjection(d, by_ray, by_k[..., : len(k)])
 
-    def unproject(self, d: Array, k: Array) -> Seen:
+    def unproject(self, d: Array, k: Array) -> LensUnprojection:
         """Map image points to rays of length 1, by Newton's method."""
         b = _invert_radial(d, k)
         if self.asymmetric and k[4:].any():
@@ -83,7 +83,7 @@ class KannalaBrandt(Lens):
         theta = np.where(theta < np.pi, theta, np.nan)
         xy = np.sinc(theta / np.pi)[..., None] * b
         rays = np.concatenate([xy, np.cos(theta)[..., None]], axis=-1)
-        return invert_imaged(rays, self.project(rays, k))
+        return invert_projection(rays, self.project(rays, k))
 
 
 def _invert_radial(d: Array, k: Array) -> Array:

@@ -36,7 +36,7 @@ import numpy as np
 
 from calibgui.engine.arrays import Array
 from calibgui.engine.camera.inverse import invert_map, make_polynomial_curve
-from calibgui.engine.camera.plane import Mapped, PlaneLens
+from calibgui.engine.camera.plane import PlaneLens, PlanePoints
 
 
 class Lucchese(PlaneLens):
@@ -54,7 +54,7 @@ class Lucchese(PlaneLens):
         # p3 multiplies p1 and p2 and is rarely determined. The paper frees it all the same.
         self.held = () if radius_in_pixels else ("p3",)
 
-    def correct(self, d: Array, k: Array) -> Mapped:
+    def correct(self, d: Array, k: Array) -> PlanePoints:
         """Map measured to ideal points, eq. 9."""
         k1, k2, k3, p1, p2, p3 = k
         x, y = d[..., 0], d[..., 1]
@@ -89,11 +89,11 @@ class Lucchese(PlaneLens):
         by_k[..., 1, 4] = q * (r2 + 2 * yy)
         by_k[..., 0, 5] = r2 * lx
         by_k[..., 1, 5] = r2 * ly
-        return Mapped(points, by_point, by_k)
+        return PlanePoints(points, by_point, by_k)
 
-    def distort(self, n: Array, k: Array) -> Mapped:
+    def distort(self, n: Array, k: Array) -> PlanePoints:
         """Map ideal to measured points, the inverse of eq. 9, by Newton's method."""
         if not k.any():  # the identity: to first order in k its inverse does the opposite
             points, by_point, by_k = self.correct(n, k)
-            return Mapped(points, by_point, -by_k)
+            return PlanePoints(points, by_point, -by_k)
         return invert_map(lambda d: self.correct(d, k), n, make_polynomial_curve(k[:3]))

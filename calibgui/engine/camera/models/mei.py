@@ -23,10 +23,10 @@ import numpy as np
 
 from calibgui.engine.arrays import Array
 from calibgui.engine.camera.inverse import invert_map, make_polynomial_curve
-from calibgui.engine.camera.model import Imaged, Lens, Seen, Trials
+from calibgui.engine.camera.model import Lens, LensProjection, LensUnprojection, Trials
 from calibgui.engine.camera.polynomial import apply_polynomial
 from calibgui.engine.camera.shifted_sphere import differentiate_shift, shift_rays, unshift_rays
-from calibgui.engine.camera.tangent import invert_imaged
+from calibgui.engine.camera.tangent import invert_projection
 
 
 class Mei(Lens):
@@ -42,7 +42,7 @@ class Mei(Lens):
     )  # k1, k2 do nearly the same
     conversion_starts = Trials("xi", (0.0, 0.5, 1.0, 2.0))
 
-    def project(self, rays: Array, k: Array) -> Imaged:
+    def project(self, rays: Array, k: Array) -> LensProjection:
         """Map rays to image points."""
         shifted, length = shift_rays(rays, k[0])
         zeta = np.where(shifted[..., 2:] > 0, shifted[..., 2:], np.nan)
@@ -51,11 +51,11 @@ class Mei(Lens):
         by_xy = by_n / zeta[..., None]
         by_zeta = -(by_xy[..., 0] * n[..., :1] + by_xy[..., 1] * n[..., 1:])
         by_shifted = np.concatenate([by_xy, by_zeta[..., None]], axis=-1)
-        return differentiate_shift(Imaged(d, by_shifted, by_k), rays, length, k[0])
+        return differentiate_shift(LensProjection(d, by_shifted, by_k), rays, length, k[0])
 
-    def unproject(self, d: Array, k: Array) -> Seen:
+    def unproject(self, d: Array, k: Array) -> LensUnprojection:
         """Map image points to rays of length 1, by Newton's method."""
         radial = make_polynomial_curve(k[1:3])
         n = invert_map(lambda n: apply_polynomial(n, k[1:3], k[3:]), d, radial).points
         rays = unshift_rays(np.concatenate([n, np.ones_like(n[..., :1])], axis=-1), k[0])
-        return invert_imaged(rays, self.project(rays, k))
+        return invert_projection(rays, self.project(rays, k))

@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 
 from calibgui.engine.arrays import Array
-from calibgui.engine.camera.plane import Mapped, PlaneLens
+from calibgui.engine.camera.plane import PlaneLens, PlanePoints
 
 
 class Pinhole(PlaneLens):
@@ -20,15 +20,15 @@ class Pinhole(PlaneLens):
     powers = ()
     closed_form_factor = 0.0
 
-    def correct(self, d: Array, k: Array) -> Mapped:  # noqa: ARG002 - there are no coefficients
+    def correct(self, d: Array, k: Array) -> PlanePoints:  # noqa: ARG002 - there are no coefficients
         """Map measured to ideal points."""
         return _map_to_itself(d)
 
-    def distort(self, n: Array, k: Array) -> Mapped:  # noqa: ARG002 - there are no coefficients
+    def distort(self, n: Array, k: Array) -> PlanePoints:  # noqa: ARG002 - there are no coefficients
         """Map ideal to measured points."""
         return _map_to_itself(n)
 
 
-def _map_to_itself(points: Array) -> Mapped:
+def _map_to_itself(points: Array) -> PlanePoints:
     by_point = np.broadcast_to(np.eye(2), (*points.shape, 2))
-    return Mapped(points.copy(), by_point.copy(), np.empty((*points.shape, 0)))
+    return PlanePoints(points.copy(), by_point.copy(), np.empty((*points.shape, 0)))

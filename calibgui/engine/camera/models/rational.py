@@ -30,7 +30,7 @@ from numpy.polynomial import polynomial
 
 from calibgui.engine.arrays import Array
 from calibgui.engine.camera.inverse import RadialCurve, find_radii, invert_map
-from calibgui.engine.camera.plane import Mapped
+from calibgui.engine.camera.plane import PlanePoints
 from calibgui.engine.camera.skew import SkewedLens
 
 
@@ -42,7 +42,7 @@ class Rational(SkewedLens):
     powers: tuple[int, ...] = (2, 4, 1, 1, 6, 2, 4, 6, 0)
     asymmetric: tuple[str, ...] = ("p1", "p2", "skew")
 
-    def distort_unskewed(self, n: Array, k: Array) -> Mapped:
+    def distort_unskewed(self, n: Array, k: Array) -> PlanePoints:
         """Map ideal points to measured points without skew; NaN from the pole on."""
         x, y = n[..., 0], n[..., 1]
         p1, p2 = k[2:4]
@@ -68,9 +68,9 @@ class Rational(SkewedLens):
             by_k[..., above] = s[..., None] ** power * scaled
             by_k[..., below] = -g[..., None] * by_k[..., above]
         by_k[..., 2], by_k[..., 3] = by_p1, by_p2
-        return Mapped(g[..., None] * n + p1 * by_p1 + p2 * by_p2, by_point, by_k)
+        return PlanePoints(g[..., None] * n + p1 * by_p1 + p2 * by_p2, by_point, by_k)
 
-    def correct_unskewed(self, xy: Array, k: Array) -> Mapped:
+    def correct_unskewed(self, xy: Array, k: Array) -> PlanePoints:
         """Map measured points without skew to ideal points, by Newton's method."""
         return invert_map(lambda n: self.distort_unskewed(n, k), xy, _make_curve(*_get_quotient(k)))
 

@@ -29,9 +29,9 @@ from __future__ import annotations
 import numpy as np
 
 from calibgui.engine.arrays import Array
-from calibgui.engine.camera.model import Imaged, Lens, Seen
+from calibgui.engine.camera.model import Lens, LensProjection, LensUnprojection
 from calibgui.engine.camera.root import solve_in_bracket
-from calibgui.engine.camera.tangent import invert_seen, make_seen
+from calibgui.engine.camera.tangent import invert_unprojection, normalise_rays
 
 _MAX_RADIUS = 1e6
 """Radius, in focal lengths, at which a model that does not fold ends."""
@@ -47,7 +47,7 @@ class Scaramuzza(Lens):
     names = ("a2", "a3", "a4")
     powers = (2, 3, 4)
 
-    def project(self, rays: Array, k: Array) -> Imaged:
+    def project(self, rays: Array, k: Array) -> LensProjection:
         """Map rays to image points, by Newton's method."""
         length = np.sqrt(np.sum(rays * rays, axis=-1))
         with np.errstate(invalid="ignore"):
@@ -58,16 +58,16 @@ class Scaramuzza(Lens):
         with np.errstate(divide="ignore", invalid="ignore"):
             stretch = np.where(sine > 0, r / sine, np.where(unit[..., 2] > 0, 1.0, np.nan))
         d = stretch[..., None] * unit[..., :2]
-        return invert_seen(d, length, _unproject(d, k))
+        return invert_unprojection(d, length, _unproject(d, k))
 
-    def unproject(self, d: Array, k: Array) -> Seen:
+    def unproject(self, d: Array, k: Array) -> LensUnprojection:
         """Map image points to rays of length 1."""
         radius = np.hypot(d[..., 0], d[..., 1])
         known = radius < _find_end(k) * (1 - _MARGIN)
         return _unproject(np.where(known[..., None], d, np.nan), k)
 
 
-def _unproject(d: Array, k: Array) -> Seen:
+def _unproject(d: Array, k: Array) -> LensUnprojection:
     """Return the rays of image points (..., 2), which may lie beyond the fold."""
     a2, a3, a4 = k
     r = np.hypot(d[..., 0], d[..., 1])
@@ -78,7 +78,7 @@ def _unproject(d: Array, k: Array) -> Seen:
     by_k = np.zeros((*d.shape[:-1], 3, 3))
     by_k[..., 2, :] = np.stack([r2, r2 * r, r2 * r2], axis=-1)
     m = 1 + r2 * (a2 + r * (a3 + r * a4))
-    return make_seen(np.concatenate([d, m[..., None]], axis=-1), by_d, by_k)
+    return normalise_rays(np.concatenate([d, m[..., None]], axis=-1), by_d, by_k)
 
 
 def _find_end(k: Array) -> float:

@@ -48,7 +48,7 @@ import numpy as np
 import scipy
 
 from calibgui.engine.arrays import Array, BoolArray, IntArray
-from calibgui.engine.camera.model import Imaged, Lens, Seen
+from calibgui.engine.camera.model import Lens, LensProjection, LensUnprojection
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.kernels import with_kernel
 
@@ -132,14 +132,14 @@ class SplinedStereographic(Lens):
         self.powers = (0,) * len(self.names)
         self.asymmetric = self.names
 
-    def project(self, rays: Array, k: Array) -> Imaged:
+    def project(self, rays: Array, k: Array) -> LensProjection:
         """Map rays to image points. NaN beyond the outermost control points.
 
         The derivatives by all coefficients are 2 C numbers a ray; `project_locally` returns those
         that are not 0, and `project_points` none.
         """
         points, by_ray, weights, first = self.project_locally(rays, k)
-        return Imaged(points, by_ray, self._spread_weights(weights, first))
+        return LensProjection(points, by_ray, self._spread_weights(weights, first))
 
     def project_points(self, rays: Array, k: Array) -> Array:
         """Map rays to image points (..., 2) without derivatives, as `project`."""
@@ -153,7 +153,7 @@ class SplinedStereographic(Lens):
         weights, first = self._weigh_control_points(u)
         return LocallyImaged(u + shift, (np.eye(2) + by_u) @ by_ray, weights, first)
 
-    def unproject(self, d: Array, k: Array) -> Seen:
+    def unproject(self, d: Array, k: Array) -> LensUnprojection:
         """Map image points to rays of length 1, by Newton's method.
 
         NaN where no place between the control points is imaged at d, and where the surface folds.
@@ -161,7 +161,9 @@ class SplinedStereographic(Lens):
         u, by_d = self._invert(d, k)
         rays, by_u = rays_from_stereographic(u)
         by_d = by_u @ by_d
-        return Seen(rays, by_d, -by_d @ self._spread_weights(*self._weigh_control_points(u)))
+        return LensUnprojection(
+            rays, by_d, -by_d @ self._spread_weights(*self._weigh_control_points(u))
+        )
 
     def unproject_points(self, d: Array, k: Array) -> tuple[Array, Array]:
         """Map image points to rays of length 1, and return the derivatives (..., 3, 2) by d."""

@@ -23,7 +23,7 @@ import numpy as np
 
 from calibgui.engine.arrays import Array
 from calibgui.engine.camera.models.rational import Rational
-from calibgui.engine.camera.plane import Mapped
+from calibgui.engine.camera.plane import PlanePoints
 
 
 class ThinPrism(Rational):
@@ -34,7 +34,7 @@ class ThinPrism(Rational):
     powers = (*Rational.powers[:-1], 1, 3, 1, 3, 0)
     asymmetric = ("p1", "p2", "s1", "s2", "s3", "s4", "skew")
 
-    def distort_unskewed(self, n: Array, k: Array) -> Mapped:
+    def distort_unskewed(self, n: Array, k: Array) -> PlanePoints:
         """Map ideal points to measured points without skew; NaN from the pole on."""
         points, by_point, by_k = super().distort_unskewed(n, k[:8])
         s1, s2, s3, s4 = k[8:]
@@ -43,7 +43,7 @@ class ThinPrism(Rational):
         by_prism[..., 0, 0] = by_prism[..., 1, 2] = s
         by_prism[..., 0, 1] = by_prism[..., 1, 3] = s * s
         slope = 2 * np.stack([s1 + 2 * s2 * s, s3 + 2 * s4 * s], axis=-1)
-        return Mapped(
+        return PlanePoints(
             points + by_prism @ k[8:],
             by_point + slope[..., None] * n[..., None, :],
             np.concatenate([by_k, by_prism], axis=-1),

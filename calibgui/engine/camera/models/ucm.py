@@ -16,7 +16,7 @@ from __future__ import annotations
 import numpy as np
 
 from calibgui.engine.arrays import Array
-from calibgui.engine.camera.model import Imaged, Lens, Seen, Trials
+from calibgui.engine.camera.model import Lens, LensProjection, LensUnprojection, Trials
 from calibgui.engine.camera.models.eucm import ExtendedUnified
 
 
@@ -29,12 +29,12 @@ class Unified(Lens):
     defaults = (0.5,)
     conversion_starts = Trials("alpha", (0.0, 0.5))
 
-    def project(self, rays: Array, k: Array) -> Imaged:
+    def project(self, rays: Array, k: Array) -> LensProjection:
         """Map rays to image points."""
         d, by_ray, by_k = ExtendedUnified().project(rays, np.array([k[0], 1.0]))
-        return Imaged(d, by_ray, by_k[..., :1])
+        return LensProjection(d, by_ray, by_k[..., :1])
 
-    def unproject(self, d: Array, k: Array) -> Seen:
+    def unproject(self, d: Array, k: Array) -> LensUnprojection:
         """Map image points to rays of length 1."""
         rays, by_point, by_k = ExtendedUnified().unproject(d, np.array([k[0], 1.0]))
-        return Seen(rays, by_point, by_k[..., :1])
+        return LensUnprojection(rays, by_point, by_k[..., :1])

@@ -41,10 +41,10 @@ def test_exact_view_gives_the_truth(omega: float, phi: float, theta: float, aspe
 @given(tilts, tilts, st.floats(-0.7, 0.7))
 def test_literal_form_is_right_for_square_pixels(omega: float, phi: float, theta: float) -> None:
     H = backward(omega, phi, theta)
-    root = single_view_pose.solve_aspect_ratio(H, literal=True)
+    root = single_view_pose.solve_aspect_ratio(H, on_paper_grid=True)
     # At the truth g is zero; where another zero lies closer to 1 there is none closer than this.
     assert root == pytest.approx(1.0, abs=1e-6)
-    view = single_view_pose.estimate_view_geometry(H, literal=True)
+    view = single_view_pose.estimate_view_geometry(H, on_paper_grid=True)
     assert (view.omega, view.phi, view.theta) == pytest.approx((omega, phi, theta), abs=1e-5)
 
 
@@ -68,13 +68,13 @@ def test_g_is_eq_27() -> None:
     )
 
 
-@pytest.mark.parametrize("literal", [False, True])
+@pytest.mark.parametrize("on_paper_grid", [False, True])
 @pytest.mark.parametrize("theta", [0.0, 0.3])
 @pytest.mark.parametrize("tilt", [(0.0, 0.0), (0.4, 0.0), (0.0, -0.4)])
 def test_frontal_views_and_tilts_about_one_axis_say_nothing(
-    tilt: tuple[float, float], theta: float, literal: bool
+    tilt: tuple[float, float], theta: float, on_paper_grid: bool
 ) -> None:
-    view = single_view_pose.estimate_view_geometry(backward(*tilt, theta), literal)
+    view = single_view_pose.estimate_view_geometry(backward(*tilt, theta), on_paper_grid)
     assert np.isnan([view.omega, view.aspect, view.fx, view.fy]).all()
     assert np.isnan(view.t).all()
 

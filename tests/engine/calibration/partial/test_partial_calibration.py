@@ -20,7 +20,7 @@ from calibgui.engine.calibration.result import (
     Status,
 )
 from calibgui.engine.camera.camera import Camera
-from calibgui.engine.geometry.frames import paper_intrinsics
+from calibgui.engine.geometry.frames import paper_from_intrinsics
 from tests.engine.degenerate_scenes import LONG, in_one_spot, one_view, parallel, turned_in_place
 from tests.engine.scenes import Scene, barrel, brown, central_differences, relative, scene, stored
 
@@ -62,7 +62,7 @@ def aspect(found: Calibration) -> tuple[float, float]:
 
 def curvature(found: Calibration) -> tuple[float, float]:
     """The paper's k1, px^-2, and its standard deviation."""
-    values, J = paper_intrinsics(found.camera.params, found.camera.size)
+    values, J = paper_from_intrinsics(found.camera.params, found.camera.size)
     return values[2], float(np.sqrt(J[2] @ found.covariance @ J[2]))
 
 
@@ -80,7 +80,7 @@ def test_parallel_to_the_sensor_all_but_the_focal_length(noise: float) -> None:
     assert abs(ratio - 1.2) < 4 * sigma + 1e-9
     k1, sigma = curvature(found)
     assert sigma < max(0.5, noise) * k1
-    assert abs(k1 - paper_intrinsics(truth.params, truth.size)[0][2]) < 4 * sigma + 1e-12
+    assert abs(k1 - paper_from_intrinsics(truth.params, truth.size)[0][2]) < 4 * sigma + 1e-12
 
 
 @pytest.mark.parametrize("noise", NOISES)
@@ -158,7 +158,7 @@ def test_what_the_user_knows_is_held_and_not_assumed() -> None:
 def test_the_standard_deviations_are_those_of_repeated_photographs() -> None:
     """Aspect and curvature from boards parallel to the sensor, over 30 draws of the noise."""
     made = parallel(LONG, 0.0)
-    k1 = paper_intrinsics(LONG.params, LONG.size)[0][2]
+    k1 = paper_from_intrinsics(LONG.params, LONG.size)[0][2]
     off = []
     for seed in range(30):
         found = partial(made, 0.1, seed)

@@ -144,7 +144,7 @@ def test_pose_covariance_follows_the_rotation_vector() -> None:
     )
     found = covariances.convert_pose_covariances(local, rvecs)
     for k in range(3):
-        J = rotations.inverse_left_jacobian(rvecs[k])
+        J = rotations.compute_inverse_left_jacobian(rvecs[k])
         np.testing.assert_allclose(found[k, :3, :3], 0.01 * J @ J.T, atol=1e-14)
         np.testing.assert_allclose(found[k, 3:, 3:], 0.01 * np.eye(3))
 

@@ -25,17 +25,17 @@ TELE = Camera(VGA, [2500.0, 2400.0, 330.0, 236.0, 0.4, 0.0, 0.0, 1e-3, -1e-3, 0.
 FREE = np.arange(9)
 
 
-def problem_of(views: Observations, free: IntArray) -> NormalAt:
+def build_problem(views: Observations, free: IntArray) -> NormalAt:
     return residuals.build_stage_two(views, "lucchese", Cost.IMAGE, 1.0, free)
 
 
-def registration(views: Observations, free: IntArray) -> NormalAt:
+def build_registration(views: Observations, free: IntArray) -> NormalAt:
     return residuals.build_stage_two(views, "lucchese", Cost.REFERENCE, 1.0, free)
 
 
 def solved(observations: Observations, start: State) -> Solution:
     data = float(np.sum(observations.uv**2))
-    return minimise(problem_of(observations, FREE), start, FREE, observations.count, data)
+    return minimise(build_problem(observations, FREE), start, FREE, observations.count, data)
 
 
 def made() -> tuple[Scene, Observations]:
@@ -76,11 +76,11 @@ def test_mirrored_views_are_found_and_righted(wrong: list[int]) -> None:
     R[wrong], T[wrong] = turned.R[wrong], turned.T[wrong]
     caught = solved(observations, State(best.state.params, R, T))
     assert caught.normal.cost > 1.01 * best.normal.cost
-    state = correct_mirrored_poses(problem_of, registration, observations, caught)
+    state = correct_mirrored_poses(build_problem, build_registration, observations, caught)
     assert state is not None
     again = solved(observations, state)
     assert again.normal.cost == pytest.approx(best.normal.cost, rel=1e-9)
-    assert correct_mirrored_poses(problem_of, registration, observations, again) is None
+    assert correct_mirrored_poses(build_problem, build_registration, observations, again) is None
 
 
 def test_nothing_is_tried_where_perspective_is_plain(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -91,7 +91,7 @@ def test_nothing_is_tried_where_perspective_is_plain(monkeypatch: pytest.MonkeyP
         "calibgui.engine.calibration.refinement.levenberg_marquardt.minimise",
         lambda *_, **__: pytest.fail("tried"),
     )
-    assert correct_mirrored_poses(problem_of, registration, observations, best) is None
+    assert correct_mirrored_poses(build_problem, build_registration, observations, best) is None
 
 
 @pytest.mark.parametrize("seed", [363, 770, 1374])

@@ -25,7 +25,7 @@ from calibgui.engine.calibration.refinement.residuals import (
 )
 from calibgui.engine.calibration.refinement.whitening import whiten_observations
 from calibgui.engine.calibration.result import Cost
-from calibgui.engine.camera.models import find_model, parameter_names
+from calibgui.engine.camera.models import find_model, list_parameter_names
 from tests.engine.scenes import LENSES, Scene, barrel, central_differences, example, relative, scene
 
 CASES = [
@@ -62,8 +62,10 @@ def test_the_registration_error_is_the_residual_of_the_reference_plane(
 ) -> None:
     made = made_with(model)
     state, views = truth_of(made), pack_observations(made.noisy(0.5, np.random.default_rng(0)))
-    literal = cost is Cost.PAPER
-    expected = compute_reference_residuals(state, views, find_model(model), SCALE, literal).residual
+    on_paper_grid = cost is Cost.PAPER
+    expected = compute_reference_residuals(
+        state, views, find_model(model), SCALE, on_paper_grid
+    ).residual
     found = compute_registration_errors(state, views, find_model(model), cost)
     np.testing.assert_allclose(SCALE * found, expected, atol=1e-10)
 
@@ -150,11 +152,11 @@ def test_the_minimum_is_scipys(model: str, cost: Cost) -> None:
 
     scipy gets numbers only: its derivatives are differences, its poses rotation vectors.
     """
-    aspect = 1.0 if cost is Cost.PAPER else 0.9  # which the literal grid would misrepresent
+    aspect = 1.0 if cost is Cost.PAPER else 0.9  # which the paper's grid would misrepresent
     made = scene(example(model, aspect), 4, seed=9)
     views = pack_observations(made.noisy(0.3, np.random.default_rng(2)))
-    count = len(parameter_names(model))
-    free = np.flatnonzero([name not in VALLEYS for name in parameter_names(model)])
+    count = len(list_parameter_names(model))
+    free = np.flatnonzero([name not in VALLEYS for name in list_parameter_names(model)])
     truth, scale = truth_of(made), np.concatenate([np.full(4, 10.0), np.full(count - 4, 0.1)])
     ours = minimise(
         build_stage_two(views, model, cost, SCALE, free),

@@ -9,7 +9,7 @@ from pytestqt.qtbot import QtBot
 
 from calibgui.dataset import Result
 from calibgui.engine.arrays import Array
-from calibgui.engine.geometry.frames import paper_intrinsics
+from calibgui.engine.geometry.frames import paper_from_intrinsics
 from calibgui.gui.panels.method.distortion import DistortionPanel
 from tests.gui.panels.conftest import Shown, made, place
 
@@ -17,7 +17,7 @@ from tests.gui.panels.conftest import Shown, made, place
 def eq10(result: Result, uv: Array, radial: bool = True, decentering: bool = True) -> Array:
     """(d1, d2), px, paper's frame, at pixels (..., 2)."""
     camera = result.calibration.camera
-    (xp, yp, k1, k2, k3, p1, p2, p3, _, _), _ = paper_intrinsics(camera.params, camera.size)
+    (xp, yp, k1, k2, k3, p1, p2, p3, _, _), _ = paper_from_intrinsics(camera.params, camera.size)
     dx = uv[..., 0] - (camera.size[0] - 1) / 2 - xp
     dy = (camera.size[1] - 1) / 2 - uv[..., 1] - yp
     r2 = dx**2 + dy**2
