@@ -112,6 +112,13 @@ def test_every_board_and_every_lens_model_is_in_a_table() -> None:
         assert re.search(rf"^\| `{model}(-30x20-150)?` \|", rows, re.MULTILINE), model
 
 
+def test_every_method_is_in_the_table() -> None:
+    rows = "".join(re.findall(r"^\| (`.*?) \|", README, re.MULTILINE))
+    named = set(re.findall(r"`([\w-]+)`", rows))
+    methods = set(method_comparison.list_compared_methods()) - {method_comparison.AS_PRINTED}
+    assert methods <= named
+
+
 def test_files_named_exist() -> None:
     for name in re.findall(r"`((?:[\w.-]+/)*[\w-]+\.(?:md|py|txt)|[\w/]+/)`", README):
         assert (ROOT / name).exists(), name

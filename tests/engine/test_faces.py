@@ -5,6 +5,9 @@ from __future__ import annotations
 import subprocess
 import sys
 
+from calibgui import engine
+from calibgui.engine import boards
+
 
 def test_a_face_loads_what_is_asked_for() -> None:
     code = (
@@ -24,3 +27,9 @@ def test_a_face_loads_what_is_asked_for() -> None:
         "assert find_saddles is detection.find_saddles\n"
     )
     subprocess.run([sys.executable, "-c", code], check=True)
+
+
+def test_the_faces_offer_every_pattern_of_a_board() -> None:
+    for pattern in boards.KINDS.values():
+        name = type(pattern).__name__
+        assert getattr(boards, name) is getattr(engine, name) is type(pattern)

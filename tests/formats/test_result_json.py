@@ -5,6 +5,7 @@ from __future__ import annotations
 import copy
 import functools
 import json
+import re
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -17,9 +18,11 @@ from hypothesis import strategies as st
 
 from calibgui import engine
 from calibgui.dataset import Result, View, ViewStatus
+from calibgui.engine.boards.kinds import KINDS
 from calibgui.engine.calibration.calibrate import calibrate
 from calibgui.engine.calibration.observations import Observation
 from calibgui.engine.calibration.result import Cost, DegenerateError, Undetermined
+from calibgui.engine.camera.models import MODELS
 from calibgui.engine.errors import CalibrationError
 from calibgui.formats import export
 from calibgui.formats.json_document import dumps
@@ -177,6 +180,13 @@ def test_the_schema_refuses_what_is_missing_or_unknown(result: Result) -> None:
         damaged = copy.deepcopy(content)
         del functools.reduce(lambda node, key: node[key], path[:-1], damaged)[path[-1]]
         assert not _validator().is_valid(damaged), path
+
+
+def test_the_schema_names_every_lens_model_and_every_kind_of_board() -> None:
+    schema = _validator().schema
+    models = schema["properties"]["camera"]["properties"]["model"]["description"]
+    assert set(MODELS) <= set(re.findall(r"[a-z]+(?:-[a-z0-9]+)*", models))
+    assert schema["$defs"]["pattern"]["properties"]["kind"]["enum"] == list(KINDS)
 
 
 def test_the_figures_are_those_of_the_calibration(result: Result) -> None:

@@ -34,6 +34,7 @@ from calibgui.app.projects.document import Document
 from calibgui.engine.assessment.residuals.residual_checks import NoiseReport
 from calibgui.engine.boards.board import Board
 from calibgui.engine.calibration.methods import METHODS
+from calibgui.engine.camera.models import MODELS
 from calibgui.engine.images.reading import Image
 from calibgui.formats import EXPORTERS
 from calibgui.gui import app
@@ -129,7 +130,7 @@ def english(root: QWidget, folder: Path) -> set[str]:
     return {text for text in texts(root) if WORD.search(no_words.sub("", text))}
 
 
-NAMES = {"Calibration 1", "k3 held", "Letter", "Tabloid", "inch", "alpha", "beta", "skew"}
+NAMES = {"Calibration 1", "k3 held", "Letter", "Tabloid", "inch"}
 OTHERS = {"Close", "Float", "Scroll Left", "Scroll Right", "Export..."}
 """Qt's and pyqtgraph's own."""
 
@@ -162,6 +163,7 @@ def test_no_text_of_the_window_is_left_in_english(
         for model in MODEL_CHOICES
         for text in (get_lens_title(model), f"{model}. {describe_lens_model(model)}")
     }
+    coefficients = {name for lens in MODELS.values() for name in lens.names}
     methods = {
         text
         for name, method in METHODS.items()
@@ -175,7 +177,7 @@ def test_no_text_of_the_window_is_left_in_english(
     }  # by the engine, as the sentences of the summary are
     headings = {f"{name} ± 1σ" for name in NAMES}  # of results, which the user names
     left = {text for text in left if not text.startswith(f"{OPEN}Table of ")}  # and their tables
-    assert left <= NAMES | headings | OTHERS | formats | lenses | methods | told
+    assert left <= NAMES | headings | OTHERS | formats | lenses | coefficients | methods | told
     assert OPEN in help_dialog.text.toPlainText()
 
 
