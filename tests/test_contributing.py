@@ -48,6 +48,18 @@ def test_the_reading_order_is_a_list_of_files() -> None:
     assert all(re.match(r"`[\w/]+\.py`", step) for step in steps)
 
 
+def test_the_papers_equations_are_where_it_says() -> None:
+    rows = re.findall(
+        r"^\| (.*) \| .* \| (.*) \|$", section("### The paper's equations"), re.MULTILINE
+    )
+    assert len(rows) > 10
+    for equations, files in rows[2:]:
+        numbers = "|".join(map(re.escape, re.findall(r"\d[\d.]*|[A-F]\b", equations)))
+        for file in re.findall(r"`(.*?)`", files):
+            text = (ROOT / "calibgui" / file).read_text(encoding="utf-8")
+            assert re.search(rf"(eq\.|paper|appendi\w+)[ \d,-]* ({numbers})\b", text), file
+
+
 @pytest.mark.parametrize(
     ("module", "name"),
     [
