@@ -2,7 +2,7 @@
 
     image,row,col,u_px,v_px,x_mm,y_mm[,cov_uu,cov_uv,cov_vv]
 
-Reader: `read_corners_csv`, and any reader of CSV. Positions are pixels in the array frame
+Reader: any reader of CSV. Positions are pixels in the array frame
 (0-based, integer at pixel centres, v down) and millimetres on the board, covariances px^2.
 `row` and `col` are empty for corners whose place on a board of known layout is not known.
 Cannot hold: the images' size, the board's, images without corners, first estimates.
@@ -12,20 +12,15 @@ from __future__ import annotations
 
 import csv
 import io
-import math
 import os
 from collections.abc import Iterator, Sequence
 from pathlib import Path, PurePath
-
-import numpy as np
 
 from calibgui.dataset import Result, View, ViewStatus
 from calibgui.engine.boards import Board
 from calibgui.engine.calibration import Observation
 from calibgui.engine.camera import MODELS
-from calibgui.engine.errors import CalibrationError
 from calibgui.engine.files import write_atomically
-from calibgui.formats.csv_table import read_csv_rows
 from calibgui.formats.exporter import Exporter, ExportReport, describe_condition
 
 _POINT_COLUMNS = ("u_px", "v_px", "x_mm", "y_mm")
@@ -75,63 +70,6 @@ def _shorten_names(images: Sequence[str]) -> list[str]:
     except ValueError:  # on several drives
         return list(images)
     return [path.relative_to(folder).as_posix() for path in paths]
-
-
-def read_corners_csv(path: str | os.PathLike[str]) -> tuple[View, ...]:
-    """Read the views of such a file; `row` and `col` may be missing.
-
-    Raises:
-        CalibrationError: if the file cannot be read, lacks a column or holds something else than a
-            finite number; the message names the line.
-    """
-    file = Path(path)
-    rows = read_csv_rows(file)
-    missing = [name for name in ("image", *_POINT_COLUMNS) if rows and name not in rows[0]]
-    if missing or not rows:
-        raise CalibrationError(
-            f"{file} has no {', '.join(missing) if missing else 'corners'}.",
-            f"Its first line must name the columns {', '.join(_COLUMNS)}.",
-        )
-    views: dict[str, list[list[float]]] = {}
-    for line, row in enumerate(rows, start=2):
-        if "\0" in row["image"]:
-            raise CalibrationError(
-                f"{file}: the image of corner {line - 1} is no name of a file: it holds a NUL.",
-                "Correct or remove that line.",
-            )
-        names = (
-            _POINT_COLUMNS + _COVARIANCE_COLUMNS
-            if row.get(_COVARIANCE_COLUMNS[0])
-            else _POINT_COLUMNS
-        )
-        views.setdefault(row["image"], []).append(
-            [_parse_number(row, n, file, line) for n in names]
-        )
-    return tuple(_make_view(image, numbers, file) for image, numbers in views.items())
-
-
-def _parse_number(row: dict[str, str], name: str, file: Path, line: int) -> float:
-    try:
-        number = float(row[name])
-    except (TypeError, ValueError, KeyError):
-        number = math.nan
-    if not math.isfinite(number):
-        raise CalibrationError(
-            f"{file}: {name} of corner {line - 1} ({row['image']}) is not a finite number.",
-            "Correct or remove that line.",
-        )
-    return number
-
-
-def _make_view(image: str, numbers: list[list[float]], file: Path) -> View:
-    if len({len(row) for row in numbers}) > 1:
-        raise CalibrationError(
-            f"{file}: some corners of {image} have covariances and some have none.",
-            "Give them for all corners or for none.",
-        )
-    table = np.array(numbers)
-    cov = table[:, [4, 5, 5, 6]].reshape(-1, 2, 2) if table.shape[1] > 4 else None
-    return View(image, ViewStatus.FOUND, points=Observation(table[:, 0:2], table[:, 2:4], cov))
 
 
 def _export(result: Result, path: Path) -> ExportReport:

@@ -10,7 +10,7 @@ from calibgui.engine.errors import CalibrationError
 from calibgui.engine.files import describe_read_error, read_regular
 
 MAX_TABLE_SIZE = 256 << 20
-"""Size of the largest files that are read, bytes: a million corners have 150 MB."""
+"""Size of the largest tables that are read, bytes."""
 
 
 def read_csv_rows(file: Path) -> list[dict[str, str]]:

@@ -74,7 +74,6 @@ def run_synthetic_check(
     result: Result,
     *,
     blur: float = BLUR_PX,
-    noise: float = 0.0,
     corner_noise: float = 0.0,
     progress: Progress | None = None,
 ) -> SyntheticCheck:
@@ -83,7 +82,6 @@ def run_synthetic_check(
     Args:
         result: calibration from a board of known pattern.
         blur: standard deviation of the blur of the images, px.
-        noise: standard deviation of the noise of the images, grey levels.
         corner_noise: standard deviation of each coordinate of the corners, px, up to which
             Gaussian noise is added to the finder's own error; see `measure_corner_noise`.
         progress: called after each view.
@@ -99,10 +97,9 @@ def run_synthetic_check(
             "Calibrate from images of the board, or state its rows, columns and square.",
         )
     camera, poses, views = result.calibration.camera, result.calibration.poses, [*result.used]
-    again = partial(
-        _search_rendered_view, camera, board, _make_appearance(result.calibration), blur, noise
-    )
-    items = list(zip(range(len(views)), views, poses, strict=True))
+    appearance = _make_appearance(result.calibration)
+    again = partial(_search_rendered_view, camera, board, appearance, blur)
+    items = list(zip(views, poses, strict=True))
     with closing(map_in_processes(again, items)) as found:
         for done, (k, view) in enumerate(found, start=1):
             views[k] = (
@@ -181,14 +178,13 @@ def _make_appearance(calibration: Calibration) -> Appearance:
 def _search_rendered_view(
     camera: Camera,
     board: Board,
-    grid_size: Appearance,
+    appearance: Appearance,
     blur: float,
-    noise: float,
-    item: tuple[int, View, Pose],
+    item: tuple[View, Pose],
 ) -> View:
     """Return the view with the corners of its rendered image."""
-    k, real, pose = item
-    image = render_view(camera, pose, board, blur=blur, noise=noise, seed=k, appearance=grid_size)
+    real, pose = item
+    image = render_view(camera, pose, board, blur=blur, appearance=appearance)
     observed = real.observation(board)
     predicted = project_points(observed.xy, camera, pose)
     grid = np.indices(board.grid_size).reshape(2, -1).T

@@ -26,7 +26,7 @@ _SMALLER_COPY, _NO_PAGE = 0b001, 0b101
 _DNG_VERSION = 50706
 _MAKE, _MODEL, _ORIENTATION, _DATE_OF_CHANGE = 271, 272, 274, 306
 _EXIF_DIRECTORY = 34665
-_DATE_OF_EXPOSURE, _FOCAL_LENGTH, _FOCAL_LENGTH_35MM, _LENS_MODEL = 36867, 37386, 41989, 42036
+_DATE_OF_EXPOSURE, _FOCAL_LENGTH, _LENS_MODEL = 36867, 37386, 42036
 
 _DAMAGE = (
     ArithmeticError,
@@ -58,8 +58,6 @@ class Exif:
     """Model of the lens."""
     focal_length_mm: float | None = None
     """Nominal focal length, mm."""
-    focal_length_35mm: float | None = None
-    """Focal length of the same field of view on 35 mm film, mm."""
     date: datetime | None = None
     """Local time of the exposure, or of the last change of the file."""
 
@@ -147,7 +145,6 @@ def _read_tags(data: bytes | mmap) -> tuple[Any, Exif]:
         _read_text(tags[_MODEL]),
         _read_text(tags.get(_LENS_MODEL)),
         _read_length(tags.get(_FOCAL_LENGTH)),
-        _read_length(tags.get(_FOCAL_LENGTH_35MM)),
         _read_date(tags.get(_DATE_OF_EXPOSURE)) or _read_date(tags[_DATE_OF_CHANGE]),
     )
 
