@@ -13,6 +13,13 @@ from calibgui.engine.boards.circle_grid import Circles
 from calibgui.engine.detection.circles.grid_labelling import label_grid
 
 BOARDS = [(4, 5), (7, 10), (11, 4), (9, 9), (6, 4)]
+given_any_grid = given(
+    grid_size=st.sampled_from(BOARDS),
+    asymmetric=st.booleans(),
+    stated=st.booleans(),
+    tilt=st.floats(0.0, 0.9),
+    seed=st.integers(0, 10_000),
+)
 
 
 def imaged(grid_size: GridSize, asymmetric: bool, rng: np.random.Generator, tilt: float) -> Array:
@@ -42,13 +49,7 @@ def distances(places: Array) -> Array:
     return np.asarray(np.linalg.norm(places[:, None] - places, axis=2))
 
 
-@given(
-    grid_size=st.sampled_from(BOARDS),
-    asymmetric=st.booleans(),
-    stated=st.booleans(),
-    tilt=st.floats(0.0, 0.9),
-    seed=st.integers(0, 10_000),
-)
+@given_any_grid
 def test_a_grid_is_found_among_other_points(
     grid_size: GridSize, asymmetric: bool, stated: bool, tilt: float, seed: int
 ) -> None:
@@ -129,13 +130,7 @@ def test_scattered_points_are_no_grid(asymmetric: bool) -> None:
     assert label_grid(points[:5], None, asymmetric=asymmetric) is None
 
 
-@given(
-    grid_size=st.sampled_from(BOARDS),
-    asymmetric=st.booleans(),
-    stated=st.booleans(),
-    tilt=st.floats(0.0, 0.9),
-    seed=st.integers(0, 10_000),
-)
+@given_any_grid
 def test_circles_keep_their_places_when_others_are_covered(
     grid_size: GridSize, asymmetric: bool, stated: bool, tilt: float, seed: int
 ) -> None:
