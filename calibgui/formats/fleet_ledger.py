@@ -259,6 +259,7 @@ def encode_row(camera: FleetCamera) -> dict[str, Any]:
 
 
 def _encode_figures(found: FleetFigures) -> dict[str, Any]:
+    """Encode what is kept of a calibrated camera as a row of the table."""
     parameters = {name: [p.value, p.sigma] for name, p in found.parameters.items()}
     row = {
         "width_px": found.size[0],
@@ -301,6 +302,7 @@ def decode_row(row: Mapping[str, Any]) -> FleetCamera:
 
 
 def _decode_figures(row: Mapping[str, Any]) -> FleetFigures:
+    """Decode a row of the table; see `_encode_figures`."""
     return FleetFigures(
         size=(row["width_px"], row["height_px"]),
         board=row["board"],

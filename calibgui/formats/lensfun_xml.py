@@ -106,6 +106,7 @@ def _write(
     condition: str,
     path: Path,
 ) -> ExportReport:
+    """Fit lensfun's models to the rays of `pixels`, and write one lens with all focal lengths."""
     kind, fits = _fit_cameras(cameras, pixels, path)
     error = max(fit.error for fit in fits)
     note = (

@@ -260,6 +260,7 @@ def decode_model(node: Node) -> str:
 
 
 def _decode_calibration(node: Node, used: list[Node]) -> Calibration:
+    """Decode a calibration; `used` are the nodes of the views that it was made from."""
     camera = node["camera"]
     model = decode_model(camera["model"])
     names = list_parameter_names(model)

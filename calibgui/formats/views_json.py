@@ -81,6 +81,7 @@ def decode_views(node: Node, board: Board | None) -> tuple[View, ...]:
 
 
 def _decode_view(node: Node, k: int, board: Board | None) -> View:
+    """Decode the k-th view of a list, counted from 0."""
     image = node.named(f"view {k + 1}")["image"].file_name()
     node = node.named(f"view {k + 1} ({image})")
     uv = node["uv"].numbers(None, 2)
@@ -112,6 +113,7 @@ def _decode_orientation(node: Node | None) -> int | None:
 
 
 def _decode_status(node: Node, found: bool) -> ViewStatus:
+    """Decode the status, which older files lack, and check it against the corners."""
     stated = node.get("status")
     if stated is None:
         return ViewStatus.FOUND if found else ViewStatus.NO_BOARD

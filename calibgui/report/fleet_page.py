@@ -105,6 +105,7 @@ class FleetPages:
             yield self._pages[one.camera.id], self._make_camera(one)
 
     def _make_camera(self, one: PlacedCamera) -> str:
+        """Make the page of one camera, in HTML."""
         camera, figures = one.camera, one.camera.figures
         verdict = "passes" if camera.passed else "fails"
         parts = [
@@ -173,6 +174,7 @@ def _make_tiles(overview: FleetOverview) -> str:
 
 
 def _describe_outliers(overview: FleetOverview, links: Mapping[str, str]) -> list[str]:
+    """Describe in HTML which cameras are unlike the others, with links to their pages."""
     parts = ["<h2>Cameras unlike the others</h2>"]
     parts.append(
         "<p>Each camera is compared with the median of its image size and lens model by where both "

@@ -88,6 +88,7 @@ def list_lens_rows(choice: LensChoice) -> list[LensRow]:
 
 
 def _make_row(choice: LensChoice, trial: LensTrial, least_bic: float, least_rms: float) -> LensRow:
+    """Make the row of a candidate, beside the least criterion and residuals of all."""
     fit = summarise_residuals(trial.calibration.residuals)
     lengths = np.array([np.nan]) if trial.validation is None else trial.validation.lengths
     horizontal, vertical, diagonal = np.rad2deg(trial.field_of_view).tolist()

@@ -103,6 +103,7 @@ def _make_norm(maps: list[_Map]) -> LogNorm:
 
 
 def _draw_map(axes: Axes, one: _Map, norm: LogNorm, size: Size) -> AxesImage:
+    """Draw how far a method's camera is from the chosen one, px, over the image."""
     w, h = size
     length = np.maximum(one.length, _SCALE_PX[0] / 10)  # logarithms need no zero, but keep NaN
     shown = axes.imshow(

@@ -104,6 +104,7 @@ def _list_sentences(result: Result) -> str:
 
 
 def _tabulate_parameters(result: Result) -> str:
+    """Tabulate the parameters of the camera with their standard deviations, in HTML."""
     calibration = result.calibration
     rows = [
         [
@@ -126,6 +127,7 @@ def _tabulate_parameters(result: Result) -> str:
 
 
 def _tabulate_views(result: Result) -> str:
+    """Tabulate the used views: corners, residuals, distance and tilt of the board, in HTML."""
     attitudes = measure_attitudes(result.calibration, result.observations())
     rows = [
         [

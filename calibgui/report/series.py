@@ -95,6 +95,7 @@ def list_sentences(
 
 
 def _judge_function(series: Series) -> list[str]:
+    """Say how well the function of the setting predicts settings that it has not seen."""
     name, error = _name_function(series.function), series.errors[series.function]
     sentences = [
         f"{name[0].upper()}{name[1:]} describes the camera: at settings that it has not seen it is "
@@ -109,6 +110,7 @@ def _judge_function(series: Series) -> list[str]:
 
 
 def _judge_changes(drifts: Sequence[Drift]) -> list[str]:
+    """Say how many cameras differ from the first, and by how much."""
     if not drifts:
         return []
     changed = [drift for drift in drifts if drift.has_changed]

@@ -144,6 +144,7 @@ def encode_project(project: Project, folder: Path) -> dict[str, Any]:
 
 
 def _encode_settings(settings: Settings) -> dict[str, Any]:
+    """Encode the settings of a calibration under the keys of the file."""
     board_shape, prior = settings.board_shape, settings.prior
     # Versions that knew no values read the names as long as there are none.
     at_values = any(value is not None for value in settings.fixed.values())
@@ -217,6 +218,7 @@ def _encode_view(view: View, project: Project, board: Board) -> dict[str, Any]:
 
 
 def _decode_project(node: Node) -> Project:
+    """Decode a file of the present version."""
     board = node["target"]
     size = node.get("size")
     if not (square := board["square_mm"]).number() > 0:
@@ -258,6 +260,7 @@ def _decode_grid_size(rows: Node | None, cols: Node | None) -> GridSize | None:
 
 
 def _decode_settings(node: Node) -> Settings:
+    """Decode the settings of a calibration."""
     prior = node.get("prior_mm")
     model = _decode_model(node["model"])
     names = list_parameters(model)

@@ -99,6 +99,7 @@ def read_header(data: Data) -> Header | None:
 
 
 def _parse_jpeg(data: Data) -> Header:
+    """Read the segments up to the scan, where the compressed data begin."""
     exif, stored, at = _NO_EXIF, None, 2
     while True:
         marker, length = struct.unpack_from(">HH", data, at)
@@ -120,6 +121,7 @@ def _parse_jpeg(data: Data) -> Header:
 
 
 def _parse_png(data: Data) -> Header:
+    """Read the chunks up to the one that ends the file."""
     width, height = struct.unpack_from(">II", data, 16)
     exif, at, name = _NO_EXIF, 8, b""
     while name != b"IEND" and at + 12 <= len(data):
@@ -131,6 +133,7 @@ def _parse_png(data: Data) -> Header:
 
 
 def _parse_webp(data: Data) -> Header:
+    """Read the chunks; the size of VP8X is that of the canvas, which all others lie in."""
     stored, exif, at, is_whole = None, _NO_EXIF, 12, True
     while at + 8 <= len(data):
         name, length = struct.unpack_from("<4sI", data, at)

@@ -287,6 +287,7 @@ def _order_by_probability(checks: Iterable[NoiseCheck]) -> list[NoiseCheck]:
 
 
 def _describe_two_kinds(case: Case, split: Split) -> Finding:
+    """Describe views of two kinds; one kind may be stored upside down."""
     odd = np.flatnonzero(split.is_odd).tolist()
     views = tuple(case.numbers[k] for k in odd)
     left = case.rms * float(np.sqrt(1 - split.share))
@@ -343,6 +344,7 @@ def list_names(names: Sequence[str]) -> str:
 
 
 def _describe_lens(case: Case, error: float, harm: float) -> Finding:
+    """Describe a lens model that leaves `error` px of all views; `harm` is in px, too."""
     return Finding(
         Cause.LENS,
         f"The lens model {case.calibration.camera.model} does not follow this lens.",

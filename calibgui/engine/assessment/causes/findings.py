@@ -104,6 +104,7 @@ def list_findings(
 def _find(
     calibration: Calibration, views: Sequence[Observation], names: Sequence[str]
 ) -> Iterator[Finding]:
+    """Yield what is wrong; the order of the tests is that of the description above."""
     frame = find_wrong_frame(calibration.camera, views)
     if frame is not None:
         yield frame

@@ -116,6 +116,7 @@ def fit_series(settings: Sequence[Setting]) -> Series:
 
 
 def _check_settings(settings: Sequence[Setting]) -> None:
+    """Refuse settings that no function of the setting describes."""
     if len(settings) < MIN_SETTINGS:
         raise CalibrationError(
             f"{len(settings)} settings do not show how the camera varies.",

@@ -267,6 +267,7 @@ class _Attempt:
     def _try_camera(
         self, name: str, method: Description, settings: Mapping[str, Any]
     ) -> MethodTrial:
+        """Calibrate with a method; the first camera is the one that others are compared with."""
         # Without some of the views first: whatever is loaded once is then not the method's time.
         held_out, failure = self._measure_unseen_residuals(settings)
         found = self._calibrate(range(len(self._views)), settings, self._names)
@@ -313,6 +314,7 @@ class _Attempt:
         return _compute_rms(unseen), ""
 
     def _try_lines(self, name: str, method: LineMethod) -> LineTrial:
+        """Straighten the rows and columns of the board, and compare with the chosen camera."""
         assert self.chosen is not None
         began = time.perf_counter()
         lines = method.estimate(self._views, self._size)

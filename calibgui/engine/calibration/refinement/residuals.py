@@ -267,6 +267,7 @@ def _assemble_normal_equations(blocks: Blocks) -> NormalEquations:
 
 
 def _accumulate_blocks(linearise: Linearise, free: IntArray, state: State) -> Blocks:
+    """Sum the blocks over the views, as many at a time as `slice_views` gives."""
     K, P = len(state.R), len(free)
     U, W, V = np.zeros((P, P)), np.empty((K, P, 6)), np.empty((K, 6, 6))
     shared, pose, costs = np.zeros(P), np.empty((K, 6)), np.empty(K)
