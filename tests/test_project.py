@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 import re
 import subprocess
 import sys
@@ -39,6 +40,39 @@ def test_no_path_of_one_machine() -> None:
         if path.search(line)
     ]
     assert not found, "\n".join(found)
+
+
+def list_names(file: Path) -> set[str]:
+    """List what a module defines or imports."""
+    tree = ast.walk(ast.parse(file.read_text(encoding="utf-8")))
+    kinds = ast.FunctionDef | ast.ClassDef | ast.alias
+    return {
+        node.id if isinstance(node, ast.Name) else node.name
+        for node in tree
+        if isinstance(node, kinds | ast.Name)
+    }
+
+
+def test_docstrings_name_modules_that_there_are() -> None:
+    """In ``a.b.c`` the longest module is looked for, and then the first name after it in it."""
+    modules = {path.with_suffix(""): path for path in (ROOT / "calibgui").rglob("*.py")}
+    dotted = {f".{'.'.join(module.parts)}".removesuffix(".__init__"): module for module in modules}
+    folders = {part for module in modules for part in module.relative_to(ROOT).parts}
+    wrong = []
+    for path in modules.values():
+        for name in re.findall(r"``([a-z_]+(?:\.\w+)+)``", path.read_text(encoding="utf-8")):
+            parts = name.split(".")
+            if parts[0] not in folders or parts[-1] == "py":
+                continue
+            for count in range(len(parts), 0, -1):
+                head = "." + ".".join(parts[:count])
+                found = [modules[module] for end, module in dotted.items() if end.endswith(head)]
+                if found:
+                    break
+            rest = parts[count : count + 1]
+            if not any(set(rest) <= list_names(file) for file in found):
+                wrong.append(f"{path.relative_to(ROOT)}: {name}")
+    assert not wrong
 
 
 def test_repository_stays_small() -> None:

@@ -2,8 +2,8 @@
 
 A row a candidate: how well it follows the corners that it was fitted to, how well it predicts views
 that it has not seen, and what it says of the image. The criterion is stated relative to the least
-one: differences of 10 and more count as strong, but see ``engine.assessment.lens_choice`` for why
-it does not decide.
+one: differences of 10 and more count as strong, but see ``engine.assessment.choices.lens_choice``
+for why it does not decide.
 """
 
 from __future__ import annotations

@@ -80,11 +80,12 @@ def calibrate_views(
     """Calibrate from the usable views of a set.
 
     If the lens model or the model of the board's shape is to be chosen, the result's warnings give
-    the reason of the choice. Outliers are left out first (``engine.assessment.outliers``): the
-    result's views do not contain them, and its warnings name them. If views are weighed, the
-    result's views have the covariances of the last solution. Copies of a view are left out. If the
-    views do not determine the camera, the result is partial (``Calibration.diagnosis``), from all
-    corners and unweighed. Views whose corners have no usable covariance are left out.
+    the reason of the choice. Outliers are left out first
+    (``engine.assessment.screen_outliers``): the result's views do not contain them, and its
+    warnings name them. If views are weighed, the result's views have the covariances of the last
+    solution. Copies of a view are left out. If the views do not determine the camera, the result is
+    partial (``Calibration.diagnosis``), from all corners and unweighed. Views whose corners have no
+    usable covariance are left out.
 
     Args:
         corner_set, settings: the views, and how to calibrate from them.

@@ -31,8 +31,8 @@ class Settings:
     cost: Cost = Cost.IMAGE
     model: str | None = DEFAULT_MODEL
     """Name of the lens model, which `resolve_model_choice` takes, or None for the one that the
-    views demand (``engine.assessment.lens_choice``). The cost "paper" takes the printed lens of the
-    paper instead of the default."""
+    views demand (``engine.assessment.choices.lens_choice``). The cost "paper" takes
+    the printed lens of the paper instead of the default."""
     method: str = DEFAULT_METHOD
     """Name of the method of calibration, a key of ``calibration.METHODS``."""
     fixed: Mapping[str, float | None] = field(default_factory=dict)

@@ -111,7 +111,7 @@ class Canvas(QGraphicsView):
     # What is shown
 
     def show_image(self, levels: Sequence[QImage]) -> None:
-        """Show an image (see ``picture.levels``); none if empty. Keeps the zoom if it can."""
+        """Show an image (``picture.stretch_levels``), none if empty. Keeps the zoom if it can."""
         before = self._picture.boundingRect()
         self._picture.show_levels(levels)
         rect = self._picture.boundingRect()
