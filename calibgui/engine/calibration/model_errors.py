@@ -19,7 +19,7 @@ from calibgui.engine.calibration.board_shape.uncertainty import (
     add_board_error,
     estimate_board_error,
     linearise_board,
-    suspect_board,
+    measure_board_misfit,
 )
 from calibgui.engine.calibration.lens_error import measure_lens_error
 from calibgui.engine.calibration.methods.lucchese import LUCCHESE
@@ -104,7 +104,7 @@ def _examine_lens(
 
     The lens is examined only if they do, since that takes its time.
     """
-    explained = suspect_board(board, estimate.sigma2)
+    explained = measure_board_misfit(board, estimate.sigma2)
     if explained == 0:
         return 0.0, False
     camera = Camera(options.size, estimate.state.params, options.model)

@@ -11,7 +11,7 @@ from calibgui.engine.calibration.board_shape.deviation_variances import (
     Noise,
     VariancePrior,
     settle_stiffness,
-    turn_rough_axes,
+    tridiagonalise_rough,
 )
 from calibgui.engine.calibration.board_shape.deviations import make_deviations
 
@@ -27,7 +27,7 @@ def test_compiled_and_readable_settle_alike(corners: int, nu: float, redundancy:
     J = rng.normal(size=(3 * len(kind), len(kind))) * scale
     S, right = J.T @ J, 5 * scale * rng.normal(size=len(kind))
     given = (
-        turn_rough_axes(S, right, kind),
+        tridiagonalise_rough(S, right, kind),
         VariancePrior(np.array([0.1, 0.3, 0.02]), nu),
         Noise(900.0, redundancy, 2.0),
         1e-12,

@@ -31,7 +31,11 @@ from calibgui.engine.arrays import Array, IntArray, Size, freeze
 from calibgui.engine.boards.shape import BoardShape, BoardShapeModel
 from calibgui.engine.calibration.calibrate import calibrate
 from calibgui.engine.calibration.methods import DEFAULT_METHOD, find_method
-from calibgui.engine.calibration.methods.method import Method, begin_at, stay_at
+from calibgui.engine.calibration.methods.method import (
+    Method,
+    keep_calibration,
+    start_from_calibration,
+)
 from calibgui.engine.calibration.observations import Observation, pack_observations
 from calibgui.engine.calibration.problem import weigh_and_place
 from calibgui.engine.calibration.resection import estimate_poses, refine_poses
@@ -128,7 +132,7 @@ def cross_validate(
     """
     seen, method, settings = _sort_arguments(views, settings)
     methods = [
-        method if start is None else begin_at(method, start, kept)
+        method if start is None else start_from_calibration(method, start, kept)
         for kept, _ in _deal_views(len(seen), folds)
     ]
     return _validate(seen, _calibrate_folds(seen, size, methods, settings))
@@ -293,9 +297,11 @@ def choose_board_shape(
     refused: dict[BoardShapeModel, str] = {}
     best, nominal = BoardShapeModel.NOMINAL, nominal or calibrate(views, size, **settings)
     seen, method, further = _sort_arguments(views, settings)
-    begun = [begin_at(method, nominal, kept) for kept, _ in _deal_views(len(seen), folds)]
+    begun = [
+        start_from_calibration(method, nominal, kept) for kept, _ in _deal_views(len(seen), folds)
+    ]
     validations[best] = _validate(seen, _calibrate_folds(seen, size, begun, further))
-    chosen, solved = nominal, further | {"method": stay_at(method, nominal)}
+    chosen, solved = nominal, further | {"method": keep_calibration(method, nominal)}
     for model in BoardShapeModel:
         if model is BoardShapeModel.NOMINAL:
             continue
@@ -372,7 +378,7 @@ def bootstrap_views(
     params = []
     for _ in range(draws):
         drawn = rng.integers(len(seen), size=len(seen)).tolist()
-        how, sample = begin_at(method, whole, drawn), [seen[k] for k in drawn]
+        how, sample = start_from_calibration(method, whole, drawn), [seen[k] for k in drawn]
         with suppress(CalibrationError):
             again = calibrate(sample, size, method=how, **settings, model_errors=False)
             params.append(again.camera.params)

@@ -57,7 +57,7 @@ from calibgui.engine.assessment.choices.cross_validation import (
 from calibgui.engine.assessment.choices.lens_trial import LensTrial, assess_trial
 from calibgui.engine.calibration.calibrate import calibrate
 from calibgui.engine.calibration.methods import DEFAULT_METHOD, find_method
-from calibgui.engine.calibration.methods.method import Method, begin_beside
+from calibgui.engine.calibration.methods.method import Method, start_from_other_model
 from calibgui.engine.calibration.observations import Observation
 from calibgui.engine.calibration.result import Calibration, Iteration, Report
 from calibgui.engine.camera.models import find_model
@@ -97,7 +97,7 @@ were partial before, and none then."""
 _MAX_RESIDUAL_RATIO = 1.5
 """Residuals over those of the best candidate, above which unseen views need not be asked."""
 _MAX_ITERATIONS, _LAST_ITERATIONS, _MIN_DESCENT = 25, 10, 2e-3
-"""Number of iterations from which a solve crawls if in the last ones its cost fell by less than
+"""Number of iterations from which a solve stagnates if in the last ones its cost fell by less than
 this part of it. Of 24 random lenses (``tests/benchmarks/lens_choice.py``, seeds from 5000) none got
 another model, nor other coefficients, than with solves to their end."""
 _MIN_TOLD = 2.0
@@ -239,10 +239,10 @@ class _Attempt:
         has_powers = _find_highest(model, find_model(model).names) is not None
         try:
             while True:
-                watch = _CrawlWatch(self.settings.get("report"))
+                watch = _StagnationStop(self.settings.get("report"))
                 trial = self._try(model, fixed, **({"report": watch} if has_powers else {}))
                 name = _find_open_coefficient(trial.calibration)
-                if name is None and watch.is_crawling:
+                if name is None and watch.has_stagnated:
                     trial = self._try(model, fixed)
                     name = _find_open_coefficient(trial.calibration)
                 if name is None:
@@ -263,15 +263,15 @@ class _Attempt:
 
     def _try(self, model: str, fixed: dict[str, float], **other: Any) -> LensTrial:
         """Calibrate a lens model with some of its coefficients held, and `other` settings."""
-        how = {"fix": self.held | fixed, "method": self._begin_beside_best(), **other}
+        how = {"fix": self.held | fixed, "method": self._start_from_best(), **other}
         calibration = calibrate(self.views, self.size, model=model, **(self.settings | how))
         return assess_trial(calibration, fixed, self.views)
 
-    def _begin_beside_best(self) -> Method:
+    def _start_from_best(self) -> Method:
         """Return the method, which begins at what the model sees that follows the corners best."""
         method = find_method(self.settings.get("method", DEFAULT_METHOD))
         best = min(self.trials.values(), key=lambda trial: trial.rms, default=None)
-        return method if best is None else begin_beside(method, best.calibration)
+        return method if best is None else start_from_other_model(method, best.calibration)
 
     def _predict(self, trial: LensTrial) -> LensTrial:
         """Return a trial with its error on unseen views."""
@@ -315,14 +315,14 @@ class _Attempt:
         """Hold coefficients at 0 as long as unseen views are predicted better without them."""
         best = whole
         while True:
-            nested = [self._spare(best, names) for names in _list_dispensable(best)]
+            nested = [self._try_without(best, names) for names in _list_dispensable(best)]
             sound = [trial for trial in nested if trial is not None and trial.is_sound]
             least = min(sound, key=lambda trial: trial.held_out, default=best)
             if best.held_out <= (1 + _MAX_LOSS) * least.held_out:
                 return best
             best = replace(least, fuller=whole)
 
-    def _spare(self, trial: LensTrial, names: Sequence[str]) -> LensTrial | None:
+    def _try_without(self, trial: LensTrial, names: Sequence[str]) -> LensTrial | None:
         """Try a lens model with further coefficients held at 0; None if that fails."""
         self.total += 1
         self._advance()
@@ -332,7 +332,7 @@ class _Attempt:
             return None
 
 
-class _CrawlWatch:
+class _StagnationStop:
     """A report of a solve that ends it once its cost has nearly stopped to fall.
 
     Coefficients that the views leave open make a valley along which a solve creeps through hundreds
@@ -343,7 +343,7 @@ class _CrawlWatch:
         """Take the report that is told of every iteration."""
         self._report = report
         self._costs: list[float] = []
-        self.is_crawling = False
+        self.has_stagnated = False
         """True if the solve was ended."""
 
     def __call__(self, iteration: Iteration) -> bool:
@@ -353,8 +353,8 @@ class _CrawlWatch:
         self._costs.append(iteration.cost)
         if iteration.index >= _MAX_ITERATIONS:
             before, now = self._costs[-_LAST_ITERATIONS], self._costs[-1]
-            self.is_crawling = 0 <= before - now < _MIN_DESCENT * now
-        return not self.is_crawling
+            self.has_stagnated = 0 <= before - now < _MIN_DESCENT * now
+        return not self.has_stagnated
 
 
 def _find_open_coefficient(calibration: Calibration) -> str | None:

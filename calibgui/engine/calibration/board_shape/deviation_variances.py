@@ -84,7 +84,7 @@ def estimate_coefficients(
     """
     least = _ROUNDING * float(S.diagonal().max(initial=0.0))
     logarithms, sigma2 = settle_stiffness(
-        turn_rough_axes(S, right, kind),
+        tridiagonalise_rough(S, right, kind),
         prior,
         noise,
         least,
@@ -195,7 +195,7 @@ def solve_stiffened(information: Information, stiffness: Array) -> tuple[Array, 
     return squares, inverses, -float(others[-1, :-1] @ q + beside[:, -1] @ rough)
 
 
-def turn_rough_axes(S: Array, right: Array, kind: IntArray) -> Information:
+def tridiagonalise_rough(S: Array, right: Array, kind: IntArray) -> Information:
     """Turn the axes of the rough coefficients so that the information on them is tridiagonal.
 
     Args:

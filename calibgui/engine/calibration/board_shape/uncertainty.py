@@ -167,7 +167,7 @@ def linearise_board(
     return LinearisedBoard(points, deviations, views, normal, total[..., P], H, seen)
 
 
-def suspect_board(board: LinearisedBoard, sigma2: float) -> float:
+def measure_board_misfit(board: LinearisedBoard, sigma2: float) -> float:
     """Test whether the residuals look as if the board's corners were off.
 
     Args:

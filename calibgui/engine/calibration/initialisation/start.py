@@ -152,7 +152,7 @@ def initialise_stage_two(
     return _start_any_lens(observations, closed_form, size, model, held)
 
 
-def start_beside(
+def start_from_camera(
     observations: Observations,
     camera: Camera,
     R: Array,
@@ -174,10 +174,10 @@ def start_beside(
     seen = find_model(camera.model).project(np.array([0.0, 0.0, 1.0]), camera.params[4:])
     scale = seen.by_ray[0, 0]
     pinhole = State(camera.params[:4] * [scale, scale, 1.0, 1.0], R, T)
-    sight = _Sight(rays_from_pixels(observations.uv, camera), pinhole)
+    observed = _ObservedRays(rays_from_pixels(observations.uv, camera), pinhole)
     try:
-        state = _descend_valley(observations, sight, camera.size, model, held) or _follow_rays(
-            observations, sight, model, held
+        state = _descend_valley(observations, observed, camera.size, model, held) or _fit_to_rays(
+            observations, observed, model, held
         )
     except (StartError, np.linalg.LinAlgError):
         return None
@@ -222,23 +222,25 @@ def _start_any_lens(
 ) -> State:
     """Return the start of a model that the closed form does not give: of a few, the best."""
     lens = find_model(model)
-    sights = [] if closed_form is None else [_see_by_closed_form(observations, closed_form)]
-    starts = [_follow_rays(observations, sight, model, held) for sight in sights]
+    candidates = (
+        [] if closed_form is None else [_compute_closed_form_rays(observations, closed_form)]
+    )
+    starts = [_fit_to_rays(observations, observed, model, held) for observed in candidates]
     misses = [measure_miss(observations, start, lens, size) for start in starts]
     if not misses or misses[0] > _MAX_START_MISS * size[0]:
         known = np.array([_find_known(held, name, size) for name in PINHOLE])
         unified = find_unified_start(observations, size, known)
         rays = rays_from_pixels(observations.uv, Camera(size, unified.params, "ucm"))
-        sights.append(_Sight(rays, unified._replace(params=unified.params[:4])))
-        starts.append(_follow_rays(observations, sights[-1], model, held))
+        candidates.append(_ObservedRays(rays, unified._replace(params=unified.params[:4])))
+        starts.append(_fit_to_rays(observations, candidates[-1], model, held))
         misses.append(measure_miss(observations, starts[-1], lens, size))
     best = int(np.argmin(misses))
-    return _descend_valley(observations, sights[best], size, model, held) or starts[best]
+    return _descend_valley(observations, candidates[best], size, model, held) or starts[best]
 
 
 def _descend_valley(
     observations: Observations,
-    sight: _Sight,
+    observed: _ObservedRays,
     size: Size,
     model: str,
     held: Mapping[str, float | None],
@@ -249,14 +251,14 @@ def _descend_valley(
         return None
     along = lens.valley.coefficient
     cameras = [
-        _follow_rays(observations, sight, model, {**held, along: value}).params
+        _fit_to_rays(observations, observed, model, {**held, along: value}).params
         for value in lens.valley.values
     ]
     free = np.flatnonzero([name not in held for name in names])
     return descend_along(observations, cameras, size, model, free, names.index(along))
 
 
-class _Sight(NamedTuple):
+class _ObservedRays(NamedTuple):
     """The rays of all corners, as a camera sees them that is not yet of the model wanted."""
 
     rays: Array
@@ -265,23 +267,28 @@ class _Sight(NamedTuple):
     """fx, fy, cx, cy of a pinhole camera that has the same rays near the axis, and all poses."""
 
 
-def _see_by_closed_form(observations: Observations, closed_form: _ClosedForm) -> _Sight:
+def _compute_closed_form_rays(
+    observations: Observations, closed_form: _ClosedForm
+) -> _ObservedRays:
     """Return the rays of a lens of one coefficient, except beyond its fold."""
     f, centre, k1, R, T = closed_form
     d = (observations.uv - centre) / f
     square = k1 * np.sum(d**2, axis=-1, keepdims=True)
     rays = np.concatenate([d * (1 + square), np.ones_like(square)], axis=-1)
     rays[1 + 3 * square[..., 0] <= 0] = np.nan
-    return _Sight(rays, State(np.concatenate([f, centre]), R, T))
+    return _ObservedRays(rays, State(np.concatenate([f, centre]), R, T))
 
 
-def _follow_rays(
-    observations: Observations, sight: _Sight, model: str, held: Mapping[str, float | None]
+def _fit_to_rays(
+    observations: Observations,
+    observed: _ObservedRays,
+    model: str,
+    held: Mapping[str, float | None],
 ) -> State:
     """Return a camera of the model that images these rays where the corners are."""
     lens, names = find_model(model), list_parameter_names(model)
     held = {**dict.fromkeys(lens.held_at_start), **held}
-    rays, (pinhole, R, T) = sight
+    rays, (pinhole, R, T) = observed
     chosen = (observations.mask > 0) & np.isfinite(rays).all(axis=-1)
     rays, uv = rays[chosen], observations.uv[chosen]
     step = max(1, len(uv) // _MAX_CORNERS)
@@ -302,7 +309,7 @@ def _follow_rays(
     fitted = fit_lens(rays[::step], uv[::step], params, lens, free)
     for name, least in lens.least_at_start.items():
         if name not in held and fitted[names.index(name)] < least:
-            return _follow_rays(observations, sight, model, {**held, name: least})
+            return _fit_to_rays(observations, observed, model, {**held, name: least})
     return State(fitted, R, T)
 
 

@@ -47,7 +47,7 @@ _ROUNDING = 1e-24
 """Decrease of the cost, relative to the sum of the squared data, that is a rounding error."""
 
 
-def refine_by_turns(
+def refine_by_alternation(
     solve_distortion: SolveDistortion,
     names: tuple[str, ...],
     observations: Observations,
@@ -104,7 +104,7 @@ def refine_by_turns(
     return Refinement(observations, Solution(state, here.normal, tuple(history), status))
 
 
-def remark_unfinished_turns(calibration: Calibration) -> tuple[str, ...]:
+def remark_unfinished_alternation(calibration: Calibration) -> tuple[str, ...]:
     """Return a sentence on turns that did not come to their end."""
     if calibration.status is not Status.MAX_ITERATIONS:
         return ()

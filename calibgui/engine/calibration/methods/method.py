@@ -20,7 +20,10 @@ from calibgui.engine.calibration.initialisation.stage_one import (
     StageOneRegistration,
     register_views,
 )
-from calibgui.engine.calibration.initialisation.start import convert_to_paper_frame, start_beside
+from calibgui.engine.calibration.initialisation.start import (
+    convert_to_paper_frame,
+    start_from_camera,
+)
 from calibgui.engine.calibration.observations import Observations, select_spread_views
 from calibgui.engine.calibration.options import Options
 from calibgui.engine.calibration.refinement.bundle_adjustment import solve_stage_two
@@ -148,7 +151,9 @@ class Method(Description):
     """Return sentences on a result of this method that its figures do not say."""
 
 
-def begin_at(method: Method, calibration: Calibration, views: Sequence[int]) -> Method:
+def start_from_calibration(
+    method: Method, calibration: Calibration, views: Sequence[int]
+) -> Method:
     """Return the method with the camera and the poses of a calibration in place of its guess.
 
     It saves the guess where subsets of the views are calibrated again with the same settings. A
@@ -171,7 +176,7 @@ def begin_at(method: Method, calibration: Calibration, views: Sequence[int]) -> 
     return replace(method, initialise=initialise)
 
 
-def begin_beside(method: Method, calibration: Calibration) -> Method:
+def start_from_other_model(method: Method, calibration: Calibration) -> Method:
     """Return the method with a guess from what a camera of another lens model sees.
 
     It saves the guess where several lens models are calibrated from the same views. Where the
@@ -186,7 +191,9 @@ def begin_beside(method: Method, calibration: Calibration) -> Method:
     R, T = _stack_poses(calibration.poses)
 
     def initialise(given: Given) -> Initialisation:
-        state = start_beside(given.observations, calibration.camera, R, T, given.model, given.held)
+        state = start_from_camera(
+            given.observations, calibration.camera, R, T, given.model, given.held
+        )
         return method.initialise(given) if state is None else hold_at_defaults(state, given)
 
     return replace(method, initialise=initialise)
@@ -198,7 +205,7 @@ def _stack_poses(poses: Sequence[Pose]) -> tuple[Array, Array]:
     return R, np.array([pose.tvec for pose in poses])
 
 
-def stay_at(method: Method, calibration: Calibration) -> Method:
+def keep_calibration(method: Method, calibration: Calibration) -> Method:
     """Return the method with the minimum that a calibration of the same views has found.
 
     It saves the solve where different shapes of the board are estimated beside one camera.
@@ -221,7 +228,9 @@ def stay_at(method: Method, calibration: Calibration) -> Method:
         observations = whiten_observations(observations, calibration.model_error**2)
         return Refinement(observations, evaluate_state(observations, start, options, report))
 
-    return replace(begin_at(method, calibration, range(len(calibration.poses))), refine=refine)
+    return replace(
+        start_from_calibration(method, calibration, range(len(calibration.poses))), refine=refine
+    )
 
 
 def hold_at_defaults(state: State, given: Given) -> Initialisation:

@@ -41,7 +41,10 @@ from functools import partial
 import numpy as np
 
 from calibgui.engine.arrays import Array, IntArray
-from calibgui.engine.calibration.methods.alternation import refine_by_turns, remark_unfinished_turns
+from calibgui.engine.calibration.methods.alternation import (
+    refine_by_alternation,
+    remark_unfinished_alternation,
+)
 from calibgui.engine.calibration.methods.bouguet import initialise_from_vanishing_points
 from calibgui.engine.calibration.methods.method import Method
 from calibgui.engine.calibration.observations import Observations
@@ -91,7 +94,7 @@ def _list_remarks(calibration: Calibration) -> tuple[str, ...]:
         f"g{i} = {value:.3g} ± {width:.2g}"
         for i, (value, width) in enumerate(zip(g, sigma, strict=True), 1)
     )
-    return (f"In the paper's coefficients: {listed}.", *remark_unfinished_turns(calibration))
+    return (f"In the paper's coefficients: {listed}.", *remark_unfinished_alternation(calibration))
 
 
 WENG = Method(
@@ -104,7 +107,7 @@ WENG = Method(
     "paper's acts on the measured one, so that coefficients differ in the second order.",
     lens_models=(_MODEL,),
     initialise=initialise_from_vanishing_points,
-    refine=partial(refine_by_turns, solve_distortion, _LINEAR, distortion_first=True),
+    refine=partial(refine_by_alternation, solve_distortion, _LINEAR, distortion_first=True),
     held=_HELD,
     list_remarks=_list_remarks,
 )

@@ -74,7 +74,10 @@ from functools import partial
 import numpy as np
 
 from calibgui.engine.arrays import Array, BoolArray, IntArray
-from calibgui.engine.calibration.methods.alternation import refine_by_turns, remark_unfinished_turns
+from calibgui.engine.calibration.methods.alternation import (
+    refine_by_alternation,
+    remark_unfinished_alternation,
+)
 from calibgui.engine.calibration.methods.method import (
     Given,
     Initialisation,
@@ -234,9 +237,9 @@ def _list_remarks(calibration: Calibration) -> tuple[str, ...]:
     return tuple(remarks)
 
 
-def _list_remarks_on_turns(calibration: Calibration) -> tuple[str, ...]:
+def _list_remarks_on_alternation(calibration: Calibration) -> tuple[str, ...]:
     """Return the same, and whether the turns had not come to their end."""
-    return (*_list_remarks(calibration), *remark_unfinished_turns(calibration))
+    return (*_list_remarks(calibration), *remark_unfinished_alternation(calibration))
 
 
 ZHANG = Method(
@@ -274,7 +277,7 @@ ZHANG_ALTERNATION = replace(
     title="Zhang: camera and radial terms in turns",
     limits="It comes to the minimum of the method 'zhang' slowly, and needs three views to tell "
     "the skew.",
-    refine=partial(refine_by_turns, estimate_radial_terms, ("k1", "k2")),
-    list_remarks=_list_remarks_on_turns,
+    refine=partial(refine_by_alternation, estimate_radial_terms, ("k1", "k2")),
+    list_remarks=_list_remarks_on_alternation,
 )
 """The alternation (3.3)."""

@@ -13,7 +13,7 @@ from calibgui.engine.arrays import Array
 from calibgui.engine.boards.shape import BoardShapePrior
 from calibgui.engine.calibration.board_shape.deviation_variances import (
     solve_stiffened,
-    turn_rough_axes,
+    tridiagonalise_rough,
 )
 from calibgui.engine.calibration.board_shape.deviations import FLATNESS, PRINT, make_deviations
 from calibgui.engine.calibration.board_shape.parametrisation import make_gauge
@@ -250,7 +250,7 @@ def test_few_corners_have_few_rough_deviations(count: int) -> None:
     S, right, stiffness = J.T @ J, rng.normal(size=len(kind)), np.array([3.0, 0.4, 20.0])
     inverse = np.linalg.inv(S + np.diag(stiffness[kind]))
     q = -inverse @ right
-    squares, inverses, gained = solve_stiffened(turn_rough_axes(S, right, kind), stiffness)
+    squares, inverses, gained = solve_stiffened(tridiagonalise_rough(S, right, kind), stiffness)
     np.testing.assert_allclose(squares, np.bincount(kind, q**2, 3), rtol=1e-10)
     np.testing.assert_allclose(inverses, np.bincount(kind, np.diag(inverse), 3), rtol=1e-10)
     assert gained == pytest.approx(-right @ q, rel=1e-10)

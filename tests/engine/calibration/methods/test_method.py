@@ -10,7 +10,7 @@ import pytest
 
 from calibgui.engine.calibration.calibrate import calibrate
 from calibgui.engine.calibration.methods.lucchese import LUCCHESE
-from calibgui.engine.calibration.methods.method import Given, Initialisation, begin_beside
+from calibgui.engine.calibration.methods.method import Given, Initialisation, start_from_other_model
 from calibgui.engine.calibration.observations import Observation
 from calibgui.engine.calibration.result import Calibration
 from tests.engine.scenes import VGA, example, scene
@@ -32,7 +32,7 @@ def _guess_nothing(given: Given) -> Initialisation:
 )
 def test_a_model_begun_beside_another_ends_where_it_does_by_itself(model: str) -> None:
     views, other = _see_fisheye()
-    method = begin_beside(replace(LUCCHESE, initialise=_guess_nothing), other)
+    method = start_from_other_model(replace(LUCCHESE, initialise=_guess_nothing), other)
     begun = calibrate(views, VGA, model=model, method=method)
     guessed = calibrate(views, VGA, model=model)
     assert begun.history[-1].cost <= guessed.history[-1].cost * (1 + 1e-6)
@@ -40,7 +40,7 @@ def test_a_model_begun_beside_another_ends_where_it_does_by_itself(model: str) -
 
 def test_what_is_held_stays_at_its_value() -> None:
     views, other = _see_fisheye()
-    method = begin_beside(LUCCHESE, other)
+    method = start_from_other_model(LUCCHESE, other)
     held = {"k2": 0.01, "p1": None, "cx": 305.0}
     begun = calibrate(views, VGA, model="brown-conrady", fix=held, method=method)
     values = dict(zip(begun.camera.names, begun.camera.params, strict=True))
@@ -56,8 +56,8 @@ def test_a_camera_that_misses_the_corners_is_no_start() -> None:
             views,
             VGA,
             model="ucm",
-            method=begin_beside(replace(LUCCHESE, initialise=_guess_nothing), pinhole),
+            method=start_from_other_model(replace(LUCCHESE, initialise=_guess_nothing), pinhole),
         )
-    begun = calibrate(views, VGA, model="ucm", method=begin_beside(LUCCHESE, pinhole))
+    begun = calibrate(views, VGA, model="ucm", method=start_from_other_model(LUCCHESE, pinhole))
     guessed = calibrate(views, VGA, model="ucm")
     assert np.array_equal(begun.camera.params, guessed.camera.params)
