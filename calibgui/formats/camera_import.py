@@ -7,6 +7,7 @@ ROS's and Kalibr's, ".json" ours, Basalt's and OpenCV's, ".txt" anybody's.
 from __future__ import annotations
 
 import os
+import re
 
 from calibgui.engine.arrays import Size
 from calibgui.engine.errors import CalibrationError
@@ -14,6 +15,7 @@ from calibgui.engine.files import describe_read_error, read_regular
 from calibgui.formats import (
     basalt_json,
     colmap_cameras,
+    gyroflow_json,
     kalibr_camchain,
     matlab_script,
     mrcal_model,
@@ -22,6 +24,7 @@ from calibgui.formats import (
     ros_yaml,
 )
 from calibgui.formats.importer import CameraText, ImportedCamera, Importer
+from calibgui.formats.origin import CORNERS, make_mark
 
 IMPORTERS: tuple[Importer, ...] = tuple(
     module.IMPORTER
@@ -29,6 +32,7 @@ IMPORTERS: tuple[Importer, ...] = tuple(
         result_json,
         mrcal_model,
         basalt_json,
+        gyroflow_json,
         matlab_script,
         kalibr_camchain,
         ros_yaml,
@@ -37,6 +41,12 @@ IMPORTERS: tuple[Importer, ...] = tuple(
     )
 )
 """The formats that cameras are read from, in the order in which files are tried."""
+_WITHOUT_CAMERA = (
+    (re.compile("<lensdatabase"), "is a lensfun database, which holds no camera in pixels."),
+    (re.compile(make_mark("(opencv-)?python")), "is a script in Python, which is not run."),
+    (re.compile(f"{make_mark(CORNERS)}|\\Aimage,row,col,"), "holds corners, but no camera."),
+)
+"""Patterns of files that this program writes and reads no camera from, and what these are."""
 MAX_FILE_SIZE = 64 << 20
 """Size of the largest files that are read, bytes: results and mrcal's models hold all corners."""
 
@@ -57,6 +67,9 @@ def read_camera(
             something in it is wrong; the message says what can be read.
     """
     source = CameraText(_read_text(path), os.fspath(path), name, size)
+    for pattern, what in _WITHOUT_CAMERA:
+        if pattern.search(source.text):
+            source.fail(what, "Name the result.json of the calibration that it was written from.")
     for importer in IMPORTERS:
         if importer.signature.search(source.text):
             break

@@ -1,10 +1,11 @@
 """Gyroflow's lens profile in JSON, of one camera or of the focal lengths of a zoom lens.
 
-Reader: Gyroflow (src/core/lens_profile.rs), which undistorts and stabilises videos with it. Pixels
-are OpenCV's (0-based, integer at pixel centres), as Gyroflow calibrates with OpenCV. The models are
-opencv_fisheye (cv2.fisheye's k1 k2 k3 k4) and opencv_standard (k1 k2 p1 p2 and up to eight more of
-cv2.projectPoints). Gyroflow puts the principal point in the middle of the image unless
-`asymmetrical` is true, and takes a profile without `calibrator_version` for damaged.
+Reader: Gyroflow (src/core/lens_profile.rs), which undistorts and stabilises videos with it, and
+`read_gyroflow`. Pixels are OpenCV's (0-based, integer at pixel centres), as Gyroflow calibrates
+with OpenCV. The models are opencv_fisheye (cv2.fisheye's k1 k2 k3 k4) and opencv_standard (k1 k2 p1
+p2 and up to eight more of cv2.projectPoints). Gyroflow puts the principal point in the middle of
+the image unless `asymmetrical` is true, and takes a profile without `calibrator_version` for
+damaged, one without `distortion_model` for opencv_fisheye.
 Cannot hold: other lens models and skew (they are refitted), standard deviations, poses, corners.
 
 A zoom lens has `interpolations`: focal lengths in mm as keys, each with its camera matrix and
@@ -14,6 +15,7 @@ have the same number of coefficients; the profile's own camera is that of the sh
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
@@ -25,9 +27,18 @@ from calibgui.engine.files import write_atomically
 from calibgui.formats.camera_conversion import convert_alike, describe_conversion
 from calibgui.formats.camera_refit import write_in_models
 from calibgui.formats.exporter import Exporter, ExportReport
-from calibgui.formats.json_document import dumps
-from calibgui.formats.opencv_lens import FISHEYE, PERSPECTIVE_MODELS, list_coefficients
+from calibgui.formats.importer import CameraText, ImportedCamera, Importer
+from calibgui.formats.json_document import Node, dumps, parse_json
+from calibgui.formats.opencv_lens import (
+    FISHEYE,
+    PERSPECTIVE_MODELS,
+    list_coefficients,
+    make_opencv_camera,
+)
 from calibgui.formats.origin import make_mark
+
+_MODELS = ("opencv_standard", "opencv_fisheye")
+"""Gyroflow's names of the lens models that are read; its others are those of one camera each."""
 
 
 def write_gyroflow(result: Result, path: Path) -> ExportReport:
@@ -86,7 +97,7 @@ def format_profile(cameras: Sequence[tuple[float | None, Camera]], note: str) ->
         "official": False,
         "asymmetrical": True,
         "fisheye_params": {"RMS_error": 0.0} | _encode_camera(camera),
-        "distortion_model": "opencv_fisheye" if camera.model == FISHEYE else "opencv_standard",
+        "distortion_model": _MODELS[camera.model == FISHEYE],
         "calibrator_version": f"calibgui {__version__}",
         "date": "",
         "compatible_settings": [],
@@ -107,6 +118,40 @@ def _encode_camera(camera: Camera) -> dict[str, Any]:
     }
 
 
+def read_gyroflow(source: CameraText) -> ImportedCamera:
+    """Read the camera of a profile; that of a zoom lens is named by its focal length in mm.
+
+    Raises:
+        CalibrationError: if something is missing or wrong, the profile holds several focal lengths
+            and none is chosen, or its lens model is none of ours.
+    """
+    content = parse_json(source.text, source.file)
+    stated = content.get("distortion_model")
+    model = "opencv_fisheye" if stated is None else stated.text()
+    if model not in _MODELS:
+        source.refuse_model(model, _MODELS)
+    node = _choose_focal_length(source, content)
+    K = node["camera_matrix"].numbers(3, 3).ravel()
+    D = node["distortion_coeffs"].numbers(None)
+    dimension = content["calib_dimension"]
+    size = source.choose_size((dimension["w"].integer(), dimension["h"].integer()))
+    camera = make_opencv_camera(source, size, K, D, fisheye=model == "opencv_fisheye")
+    notes = []
+    if (free := content.get("asymmetrical")) is None or not free.flag():
+        notes.append("Gyroflow puts the principal point in the middle; it is read as calibrated.")
+    return ImportedCamera(camera, EXPORTER.title, notes=tuple(notes))
+
+
+def _choose_focal_length(source: CameraText, content: Node) -> Node:
+    """Return the entries of the wanted focal length, or of a profile's only camera."""
+    several = content.get("interpolations")
+    if several is not None and several.value:
+        return source.choose_camera(several.members())[1]
+    if source.wanted is not None:
+        source.fail("is of one camera without a name.", f"Leave the name {source.wanted!r} out.")
+    return content["fisheye_params"]
+
+
 EXPORTER = Exporter(
     name="gyroflow",
     title="Gyroflow lens profile",
@@ -117,4 +162,7 @@ EXPORTER = Exporter(
     "poses; names of camera and lens are left for you to fill in.",
     write=write_gyroflow,
     write_zoom=write_gyroflow_zoom,
+)
+IMPORTER = Importer(
+    EXPORTER.title, re.compile(r'"fisheye_params"\s*:'), read_gyroflow, several=True
 )

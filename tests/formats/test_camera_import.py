@@ -24,7 +24,7 @@ from calibgui.formats import (
 )
 from tests.formats.cameras import example, holding, rays_for, splined
 
-_READ_BACK = ("opencv", "ros", "kalibr", "mrcal", "colmap", "matlab", "basalt")
+_READ_BACK = ("opencv", "ros", "kalibr", "mrcal", "colmap", "matlab", "basalt", "gyroflow")
 """Formats of other programs whose cameras are both written and read."""
 _HELD = [
     (name, model)
@@ -99,7 +99,7 @@ def test_our_own_result_is_read_with_its_covariance(tmp_path: Path, weighted: Re
     [
         (b"", "is not a camera file"),
         (b"\x89PNG\r\n\x1a\n\xff", "is not text in UTF-8"),
-        (b"image,row,col,u_px\n", "is not a camera file"),
+        (b"image;row;col;u_px\n", "is not a camera file"),
         (b'{"format": "calibgui-corners", "version": 1}', "is not a camera file"),
     ],
 )
@@ -112,6 +112,30 @@ def test_other_files_are_refused_with_a_list_of_what_is_read(
         read_camera(file)
     assert str(file) in caught.value.message
     assert all(importer.title in caught.value.hint for importer in IMPORTERS)
+
+
+@pytest.mark.parametrize(
+    ("name", "message"),
+    [
+        ("lensfun", "is a lensfun database, which holds no camera in pixels"),
+        ("python", "is a script in Python"),
+        ("opencv-python", "is a script in Python"),
+        ("corners", "holds corners, but no camera"),
+        ("corners-csv", "holds corners, but no camera"),
+    ],
+)
+def test_our_own_files_without_a_camera_name_the_result(
+    tmp_path: Path, result: Result, name: str, message: str
+) -> None:
+    report = export(result, name, tmp_path / f"own{EXPORTERS[name].suffixes[0]}")
+    with pytest.raises(CalibrationError, match=message) as caught:
+        read_camera(report.path)
+    assert "result.json" in caught.value.hint
+
+
+def test_all_of_our_own_files_are_read_or_named() -> None:
+    without = {"lensfun", "python", "opencv-python", "corners", "corners-csv"}
+    assert {"result", *_READ_BACK} | without == set(EXPORTERS)
 
 
 def test_files_that_cannot_be_read_are_named(

@@ -18,6 +18,7 @@ from calibgui.engine.arrays import Array
 from calibgui.engine.camera.camera import Camera
 from calibgui.engine.camera.projection import pixels_from_rays
 from calibgui.engine.errors import CalibrationError
+from calibgui.formats import read_camera
 from calibgui.formats.gyroflow_json import EXPORTER, write_gyroflow, write_gyroflow_zoom
 from tests.formats.cameras import example, holding, rays_for
 
@@ -102,3 +103,41 @@ def test_all_focal_lengths_are_converted_into_one_lens_model(tmp_path: Path) -> 
     with pytest.raises(CalibrationError, match="is not written"):
         write_gyroflow_zoom([(8.0, skewed)], tmp_path / "b.json")
     assert not (tmp_path / "b.json").exists()
+
+
+def test_a_focal_length_of_a_zoom_lens_is_read_by_its_name(tmp_path: Path) -> None:
+    cameras = [
+        (mm, Camera((640, 480), [20 * mm, 20 * mm, 318, 240, -0.1, 0.01, 0, 0, 0], "brown-conrady"))
+        for mm in (24.0, 70.5)
+    ]
+    report = write_gyroflow_zoom(cameras, tmp_path / "zoom.json")
+    with pytest.raises(CalibrationError, match=r"holds 2 cameras: 24, 70\.5"):
+        read_camera(report.path)
+    read = read_camera(report.path, "70.5").camera
+    np.testing.assert_allclose(read.params, cameras[1][1].params, rtol=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("entry", "message"),
+    [
+        ({"distortion_model": "gopro_superview"}, "lens model gopro_superview"),
+        ({"fisheye_params": {}}, "camera_matrix"),
+        ({"calib_dimension": None}, "calib_dimension"),
+    ],
+)
+def test_a_profile_that_is_not_read_is_named(
+    tmp_path: Path, result: Result, entry: dict[str, Any], message: str
+) -> None:
+    path = write_gyroflow(result, tmp_path / "profile.json").path
+    path.write_text(json.dumps(json.loads(path.read_text()) | entry))
+    with pytest.raises(CalibrationError, match=message):
+        read_camera(path)
+
+
+def test_a_centre_that_gyroflow_does_not_use_is_told_of(tmp_path: Path, result: Result) -> None:
+    path = write_gyroflow(result, tmp_path / "profile.json").path
+    assert read_camera(path).notes == ()
+    path.write_text(json.dumps(json.loads(path.read_text()) | {"asymmetrical": False}))
+    assert "in the middle" in read_camera(path).notes[0]
+    with pytest.raises(CalibrationError, match="Leave the name '24' out"):
+        read_camera(path, "24")
