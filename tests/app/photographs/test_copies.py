@@ -66,6 +66,48 @@ def test_photographs_of_one_name_that_show_another_pose_count_each(seen: list[Ar
     assert list_copies(("1.png", seen[0]), ("1.jpg", seen[0] + 0.2)) == {}
 
 
+@pytest.fixture(scope="module")
+def photographs() -> list[NDArray[np.uint8]]:
+    """A pose that was photographed three times from a tripod."""
+    pose = draw_poses()[0]
+    return [render_view(CAMERA, pose, BOARD, blur=0.7, noise=2.0, seed=k) for k in range(3)]
+
+
+def list_copies_by_noise(*images: tuple[str, NDArray[np.uint8]]) -> dict[str, str]:
+    """Return what `list_copies` does, for corners that are located with their covariances."""
+    views = [
+        View(name, ViewStatus.FOUND, corners=find_corners(photograph, BOARD.grid_size))
+        for name, photograph in images
+    ]
+    found = disable_copies(CornerSet(CAMERA.size, tuple(views), BOARD)).views
+    return {view.image: view.reason for view in found if not view.enabled}
+
+
+def draw_on(photograph: NDArray[np.uint8], level: int) -> NDArray[np.uint8]:
+    """Return a copy with a circle around a corner."""
+    x, y = locate_corners(photograph)[20].astype(int).tolist()
+    return np.asarray(cv2.circle(photograph.copy(), (x, y), 12, level, 2), dtype=np.uint8)
+
+
+def test_a_copy_that_was_drawn_on_counts_once(photographs: list[NDArray[np.uint8]]) -> None:
+    first, second, third = photographs
+    edited = [draw_on(first, 255), store_as_jpeg(draw_on(first, 0), 95)]
+    found = list_copies_by_noise(
+        ("a.png", first), ("b.png", second), ("x.png", edited[0]), ("y.jpg", edited[1])
+    )
+    assert set(found) == {"x.png", "y.jpg"}
+    assert all(reason.startswith("Looks like a copy of a.png") for reason in found.values())
+    assert list_copies_by_noise(("a.png", first), ("b.png", second), ("c.png", third)) == {}
+
+
+def test_a_copy_counts_that_shows_more_corners(photographs: list[NDArray[np.uint8]]) -> None:
+    first, second, _ = photographs
+    covered = first.copy()
+    covered[: int(locate_corners(first)[0, 1]) + 3] = 120
+    found = list_copies_by_noise(("a.png", covered), ("b.png", first), ("c.png", second))
+    assert list(found) == ["a.png"]
+
+
 def locate_corners(photograph: NDArray[np.uint8]) -> Array:
     """Return the corners of the board in a photograph, as `BOARD.points` numbers them."""
     corners = find_corners(photograph, BOARD.grid_size)
