@@ -72,7 +72,7 @@ def test_a_file_that_is_no_result_is_refused(
     corners_file: Path, photographs: Path, tmp_path: Path, capsys: Capture
 ) -> None:
     assert main(["undistort", str(corners_file), str(photographs), "-o", str(tmp_path)]) == 1
-    assert "corners.json is not a camera file" in capsys.readouterr().err
+    assert "corners.json holds corners, but no camera" in capsys.readouterr().err
 
 
 def test_a_projection_and_a_field_of_view(
