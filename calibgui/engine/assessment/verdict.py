@@ -1,12 +1,13 @@
 """The verdict on a calibration: good, usable, can be so many times better, or not usable.
 
 It is decided from the error of a pixel over the image, which has two parts. One is the standard
-deviation of projection (``uncertainty/projection_uncertainty.py``), at infinity and in the
-direction where it is largest; it includes noise, the board's shape and the views' disagreement.
-The other is what that leaves out: a lens that the model does not follow, corners that are not where
-they are said to be, a wrong value that is held. Both together are measured by carrying out what
-remedies a finding (``action_trials.py``). With s' the standard deviation afterwards and d the
-displacement of the camera's pixels by the remedy (``comparison.py``), the error before was
+deviation of projection (``changes/camera_uncertainty.py``), at infinity, beside a rotation of the
+camera, and in the direction where it is largest; it includes noise, the board's shape and the
+views' disagreement. The other is what that leaves out: a lens that the model does not follow,
+corners that are not where they are said to be, a wrong value that is held. Both together are
+measured by carrying out what remedies a finding (``action_trials.py``). With s' the standard
+deviation afterwards and d the displacement of the camera's pixels by the remedy
+(``comparison.py``), the error before was
 
     e = sqrt(d^2 + s'^2),
 
@@ -43,6 +44,7 @@ from calibgui.engine.arrays import Array, BoolArray, Size
 from calibgui.engine.assessment.action_trials import Trial, try_action_safely
 from calibgui.engine.assessment.causes.finding import Action, ActionKind, Cause, Finding
 from calibgui.engine.assessment.causes.findings import list_findings
+from calibgui.engine.assessment.changes.camera_uncertainty import estimate_camera_uncertainty
 from calibgui.engine.assessment.changes.comparison import compare_cameras, find_covered_pixels
 from calibgui.engine.assessment.lens_extrapolation import map_disagreement
 from calibgui.engine.calibration.observations import Observation
@@ -51,10 +53,7 @@ from calibgui.engine.geometry.rotations import rotation_from_vector
 from calibgui.engine.images.sampling import make_mesh
 from calibgui.engine.numbers import format_two_digits
 from calibgui.engine.threads import with_one_blas_thread
-from calibgui.engine.uncertainty.projection_uncertainty import (
-    estimate_projection_uncertainty,
-    make_map_grid,
-)
+from calibgui.engine.uncertainty.projection_uncertainty import make_map_grid
 
 MAX_GOOD_PX = 0.5
 """Largest error of any pixel among corners, and of half of the image's, up to which a calibration
@@ -260,7 +259,7 @@ def _compute_rms(error: Array) -> float:
 
 def _map_uncertainty(calibration: Calibration, views: Sequence[Observation]) -> Array:
     """Map one standard deviation of a pixel (m, n), px."""
-    return estimate_projection_uncertainty(calibration, views).worst_direction
+    return estimate_camera_uncertainty(calibration, views).worst_direction
 
 
 def _summarise(error: Array, covered: BoolArray) -> PixelError:

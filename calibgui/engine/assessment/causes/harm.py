@@ -3,7 +3,7 @@
 Of the covariance C of the camera's parameters, C0 is what the corners' noise alone makes of them,
 and the rest is there because board and views are not as the model has them. Without a cause that
 explains a share s of the squared residuals that rest is gone, and so is this share of the noise;
-with J as in ``uncertainty/projection_uncertainty.py`` the cause adds
+with J as in ``changes/camera_uncertainty.py`` the cause adds
 
     cov(q) - (1 - s) cov0(q) = J (C - (1 - s) C0) J^T
 
@@ -25,15 +25,13 @@ from typing import NamedTuple
 import numpy as np
 
 from calibgui.engine.arrays import Array
+from calibgui.engine.assessment.changes.camera_uncertainty import estimate_camera_uncertainty
 from calibgui.engine.assessment.changes.comparison import find_covered_pixels
 from calibgui.engine.assessment.residuals.residual_statistics import summarise_residuals
 from calibgui.engine.calibration.observations import Observation
 from calibgui.engine.calibration.result import Calibration
 from calibgui.engine.images.sampling import make_mesh
-from calibgui.engine.uncertainty.projection_uncertainty import (
-    compute_worst_sigma,
-    estimate_projection_uncertainty,
-)
+from calibgui.engine.uncertainty.projection_uncertainty import compute_worst_sigma
 
 
 class Case(NamedTuple):
@@ -49,6 +47,8 @@ class Case(NamedTuple):
     """Their indices among the views of the user."""
     sigma: float
     """One standard deviation of a pixel, median over the image, px."""
+    by_noise_alone: float
+    """The part of it that the corners' noise explains, median over the image, px."""
     worst: float
     """One standard deviation of the pixel that is known worst, px; the image's size if none is."""
     total: Array
@@ -82,13 +82,14 @@ def prepare_case(
     calibration: Calibration, views: Sequence[Observation], names: Sequence[str]
 ) -> Case:
     """Prepare a case: find out how well pixels are known, by everything and by noise alone."""
-    total = estimate_projection_uncertainty(calibration, views)
+    total = estimate_camera_uncertainty(calibration, views)
     over_image = total.worst_direction
     known = over_image[np.isfinite(over_image)]  # a lens may image nothing in the corners
     if not known.size:
         known = np.array(calibration.camera.size)
     alone = replace(calibration, covariance=calibration.noise_covariance)
-    by_noise = estimate_projection_uncertainty(alone, views)
+    by_noise = estimate_camera_uncertainty(alone, views)
+    noise = by_noise.worst_direction[np.isfinite(over_image)]
     covered = find_covered_pixels(make_mesh(total.u, total.v), views)
     return Case(
         calibration,
@@ -96,6 +97,7 @@ def prepare_case(
         names,
         range(len(views)),
         sigma=float(np.median(known)),
+        by_noise_alone=float(np.median(noise)) if noise.size else float(known.max()),
         worst=float(known.max()),
         total=total.covariance[covered],
         by_noise=by_noise.covariance[covered],

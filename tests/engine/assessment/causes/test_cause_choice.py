@@ -155,7 +155,7 @@ def test_few_views_of_a_stretched_board_agree_enough() -> None:
 
 def test_three_views_that_do_not_tell_board_and_lens_apart_are_too_few() -> None:
     drawn = scene(barrel(), 3, seed=1).noisy(0.005, np.random.default_rng(1))
-    views = [Observation(view.uv, view.xy / [1.0003, 1.0]) for view in drawn]
+    views = [Observation(view.uv, view.xy / [1.0005, 1.0]) for view in drawn]
     (finding,) = found(views, fix=["p3"])
     assert finding.cause is Cause.FEW_VIEWS
     assert finding.message.startswith("3 views are too few to tell whether the lens model")

@@ -178,10 +178,11 @@ def test_corners_are_misplaced_where_other_views_have_motion_and_long_tails() ->
     assert set(finding.views[:2]) == {2, 5}
 
 
-def test_views_all_alike_are_too_few_whatever_they_have_in_common() -> None:
+@pytest.mark.parametrize("seed", [4, 5, 6])
+def test_views_all_alike_are_too_few_whatever_they_have_in_common(seed: int) -> None:
     """A burst magnifies errors of corners that all photographs share."""
-    camera, rng = barrel(), np.random.default_rng(4)
-    pose = looking(camera, np.random.default_rng(4))
+    camera, rng = barrel(), np.random.default_rng(seed)
+    pose = looking(camera, np.random.default_rng(seed))
     moved = rng.normal(0, 1.0, (12, 2, 3)) * [[[2e-3], [1.0]]]
     poses = [replace(pose, rvec=pose.rvec + r, tvec=pose.tvec + t) for r, t in moved]
     made = seen(camera, poses).noisy(0.02, rng)
