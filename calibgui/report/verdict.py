@@ -127,6 +127,8 @@ def _format_own_options(action: Action, names: Sequence[str]) -> str:
         case ActionKind.CHOOSE_LENS_MODEL:
             held = f" --fix {parameters}" if parameters else ""
             return f"--model {action.model or 'auto'}{held}"
+        case ActionKind.ESTIMATE_SKEW:
+            return f"--model {action.model} --free {parameters}"
         case ActionKind.LEAVE_OUT_CORNERS:
             return "--robust"
         case ActionKind.LEAVE_OUT_VIEWS:

@@ -45,6 +45,7 @@ FAULTS = {
     "20%-of-view-50px": Fault(corners.misplace_many, ("misplaced-corners",), _MISPLACED),
     "1%-of-all-5px": Fault(corners.misplace_everywhere, ("misplaced-corners",), _MISPLACED),
     "rolling-shutter": Fault(cameras.roll_shutter, ("rolling-shutter",), ("shutter",)),
+    "sheared-images": Fault(cameras.shear_images, ("sheared-images", "views-disagree"), ("shear",)),
     "focus-change": Fault(cameras.refocus, ("focus",), ("focus", "zoom")),
     "stabilisation": Fault(cameras.stabilise, ("moving-centre",), ("stabilis",)),
     "zoom-change": Fault(cameras.zoom, ("mixed-views", "focus", "views-disagree"), ("zoom",)),

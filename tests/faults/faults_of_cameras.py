@@ -66,6 +66,19 @@ def roll_shutter(rng: Rng) -> FaultySet:
     return state_fault(photographed, views, story)
 
 
+def shear_images(rng: Rng) -> FaultySet:
+    """Shift the rows of all images sideways in proportion, as where a camera turns evenly."""
+    photographed = draw_set(rng)
+    size, height = draw_log(rng, 0.3, 10.0), photographed.camera.size[1]
+    motion = size if rng.random() < 0.5 else -size
+
+    def shift(_: int, uv: Array) -> Array:
+        return np.asarray(uv + (uv[:, 1:] / height - 0.5) * [motion, 0.0])
+
+    views = photograph(photographed, shift=shift)
+    return state_fault(photographed, views, f"rows shift by {size:.1f} px, alike in all views")
+
+
 def refocus(rng: Rng) -> FaultySet:
     """Let the focus change the focal length from view to view."""
     photographed = draw_set(rng)

@@ -24,6 +24,10 @@ from calibgui.report.verdict import describe_options, describe_reason
         ),
         (Action(ActionKind.LEAVE_OUT_VIEWS, views=(0, 1)), "add --exclude 'a b.png' c.png"),
         (Action(ActionKind.FREE_HELD_VALUE, parameters=("fx", "k1")), "leave fx,k1 out of --fix"),
+        (
+            Action(ActionKind.ESTIMATE_SKEW, parameters=("skew",), model="brown-conrady"),
+            "add --model brown-conrady --free skew --cost image --method lucchese",
+        ),
         (Action(ActionKind.PHOTOGRAPH_MORE), ""),
     ],
 )

@@ -44,6 +44,9 @@ def _change_settings(settings: Settings, result: Result, action: Action) -> Sett
             held = dict.fromkeys(action.parameters, 0.0)
             model = action.model or None
             return replace(settings, model=model, fixed={**fixed, **held}, freed=())
+        case ActionKind.ESTIMATE_SKEW:
+            fixed = {n: v for n, v in settings.fixed.items() if n in ("fx", "fy", "cx", "cy")}
+            return replace(settings, model=action.model, fixed=fixed, freed=action.parameters)
         case ActionKind.LEAVE_OUT_CORNERS:
             return replace(settings, robust=True)
         case ActionKind.WEIGH_VIEWS:

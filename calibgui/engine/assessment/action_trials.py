@@ -105,6 +105,10 @@ def try_action(
             if _is_lens_chosen(calibration):  # what followed two kinds of views is hardly the best
                 return Trial(action, _choose_lens(kept, size, settings)[1], kept)
             return Trial(action, calibrate(kept, size, **settings), kept)
+        case ActionKind.ESTIMATE_SKEW:
+            fix = {name: value for name, value in settings["fix"].items() if name in PINHOLE}
+            settings |= {"model": action.model, "fix": fix, "free": action.parameters}
+            return Trial(action, calibrate(given, size, **settings), given)
         case ActionKind.WEIGH_VIEWS:
             return Trial(action, *calibrate_weighted(given, size, **settings))
         case _:

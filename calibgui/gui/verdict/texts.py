@@ -96,6 +96,8 @@ def describe_button(action: Action, names: Sequence[str]) -> str:
             return translate("VerdictTexts", "Free {0}").format(parameters)
         case ActionKind.HOLD_AT_ZERO:
             return translate("VerdictTexts", "Hold {0} at 0").format(parameters)
+        case ActionKind.ESTIMATE_SKEW:
+            return translate("VerdictTexts", "Estimate the skew")
         case ActionKind.WEIGH_VIEWS:
             return translate("VerdictTexts", "Weigh views by their noise")
         case ActionKind.LOOK_AT_VIEW:

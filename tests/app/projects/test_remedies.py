@@ -42,6 +42,10 @@ def project(tmp_path: Path) -> Project:
             Action(ActionKind.CHOOSE_LENS_MODEL, parameters=("k3",), model="kannala-brandt"),
             {"model": "kannala-brandt", "fixed": {"cx": None, "k3": 0.0}},
         ),
+        (
+            Action(ActionKind.ESTIMATE_SKEW, parameters=("skew",), model="rational"),
+            {"model": "rational", "fixed": {"cx": None}, "freed": ("skew",)},
+        ),
         (Action(ActionKind.LEAVE_OUT_CORNERS), {"robust": True}),
         (Action(ActionKind.WEIGH_VIEWS), {"weigh_views": True}),
         (Action(ActionKind.FREE_HELD_VALUE, parameters=("cx",)), {"fixed": {"p1": None}}),

@@ -12,7 +12,8 @@ without those behind it:
    unknowns of its own, takes much of what a wrong lens or two kinds of views leave: so it is
    estimated before it is named, and if one of these explains much of what is left, that is the
    cause; the board follows once it is gone. So are two kinds that explain more than any board does.
-   Where it is not the board, a lens of another kind (``rival_lens.py``) is fitted in any case.
+   Where it is not the board, a lens of another kind (``rival_lens.py``) is fitted in any case. A
+   shear of all images (``sheared_images.py``) is asked for where either would be named.
 2. **Two kinds of views** (``mixed_views.py``), which have twice the unknowns of one.
 3. **Focus, centre, bending, motion**, which differ from view to view: that which is most probable
    by far, or else shifts from row to row; then **blur**, which moves nothing.
@@ -39,6 +40,8 @@ from calibgui.engine.assessment.causes.finding import (
 from calibgui.engine.assessment.causes.harm import Case, prepare_case
 from calibgui.engine.assessment.causes.mixed_views import DISTORTION, Split, find_two_kinds
 from calibgui.engine.assessment.causes.rival_lens import fit_rival
+from calibgui.engine.assessment.causes.sheared_images import find_shear
+from calibgui.engine.assessment.residuals.cause_fits import MIN_LEAD
 from calibgui.engine.assessment.residuals.residual_checks import NoiseCheck, check_residuals
 from calibgui.engine.assessment.residuals.residual_statistics import summarise_residuals
 from calibgui.engine.assessment.residuals.systematic_errors import prepare_fit
@@ -88,9 +91,6 @@ _CHECKS_OF_BOARD = ("squares", "bow", "board")
 """Tests of a board that is the same in all views."""
 _CHECKS_OF_VIEWS = ("focus", "centre", "bending", "rows")
 """Tests of causes with few unknowns of each view's own."""
-_MIN_LEAD = 4.0
-"""Difference of Akaike's criterion from the next cause, from which one of the views' own is named:
-that has considerably less support (Burnham and Anderson 2002)."""
 _MIN_SHARE_OF_VIEWS, _MIN_SHARE_OF_LINES = 0.05, 0.3
 """Shares of the squared residuals that they explain, and shifts from row to row, from which one is
 named."""
@@ -145,6 +145,16 @@ def explain_most(case: Case) -> float:
 
 def find_systematic_cause(case: Case) -> Finding | None:
     """Find the one cause of residuals that are not noise; None if none matters."""
+    found = _find_cause(case)
+    if found is None or found.cause not in (Cause.LENS, Cause.BOARD_SHAPE):
+        return found
+    checks = check_residuals(case.calibration, case.views, case.names).checks
+    names = ("lens",) if found.cause is Cause.LENS else _CHECKS_OF_BOARD
+    explained = find_largest_share(check for check in checks if check.name in names)
+    return find_shear(case, explained or _MIN_SHARE_OF_RIVAL) or found
+
+
+def _find_cause(case: Case) -> Finding | None:
     report = check_residuals(case.calibration, case.views, case.names)
     failed = {check.name: check for check in report.checks if not check.passed}
     if report.are_lens_and_board_alike and len(case.views) < MIN_VIEWS_TO_JUDGE:
@@ -269,7 +279,7 @@ def _choose_cause_of_views(checks: Sequence[NoiseCheck]) -> NoiseCheck | None:
     the rows, that is what there is to be told of.
     """
     first, second = _order_by_probability(checks)[:2]
-    is_singled_out = second.criterion - first.criterion >= _MIN_LEAD
+    is_singled_out = second.criterion - first.criterion >= MIN_LEAD
     if first.name in _CHECKS_OF_VIEWS and first.share >= _MIN_SHARE_OF_VIEWS and is_singled_out:
         return first
     smooth, lines = (next(c for c in checks if c.name == name) for name in ("smooth", "lines"))

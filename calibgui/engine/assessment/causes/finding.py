@@ -41,6 +41,8 @@ class Cause(StrEnum):
     BENDING_BOARD = "bending-board"
     ROLLING_SHUTTER = "rolling-shutter"
     LINE_JITTER = "line-jitter"
+    SHEARED_IMAGES = "sheared-images"
+    """Each row is shifted sideways against the next, by the same angle in all images."""
     MIXED_VIEWS = "mixed-views"
     """Photographs of two cameras, zooms or boards; the evidence seldom tells which."""
     DISAGREEMENT = "views-disagree"
@@ -59,6 +61,8 @@ class ActionKind(StrEnum):
     LEAVE_OUT_VIEWS = "leave-out-views"
     FREE_HELD_VALUE = "free-held-value"
     HOLD_AT_ZERO = "hold-at-zero"
+    ESTIMATE_SKEW = "estimate-skew"
+    """Calibrate with a lens model that holds a skew, and free it."""
     WEIGH_VIEWS = "weigh-views"
     LOOK_AT_VIEW = "look-at-view"
     PHOTOGRAPH_MORE = "photograph-more"
@@ -89,6 +93,7 @@ class Action:
         return self.kind in (
             ActionKind.ESTIMATE_BOARD_SHAPE,
             ActionKind.CHOOSE_LENS_MODEL,
+            ActionKind.ESTIMATE_SKEW,
             ActionKind.WEIGH_VIEWS,
         )
 

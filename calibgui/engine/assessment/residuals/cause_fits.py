@@ -49,6 +49,9 @@ from calibgui.engine.calibration.score_tests import (
 from calibgui.engine.camera.camera import Camera
 from calibgui.engine.errors import CalibrationError
 
+MIN_LEAD = 4.0
+"""Difference of Akaike's criterion from the next cause, from which one is named: that has
+considerably less support (Burnham and Anderson 2002)."""
 _MAX_STEPS = 5
 """Number of steps of a fit, at most."""
 _MIN_DESCENT = 1e-3
