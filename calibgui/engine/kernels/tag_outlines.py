@@ -210,6 +210,73 @@ def _add_block(
             out[a, b] += total
 
 
+@compiled_part
+def _add_edge(
+    image: GreyImage,
+    edge: int,
+    corners: Array,
+    edges: Array,
+    bands: Array,
+    bows: Array,
+    blurs: Array,
+    box: Array,
+    levels: Array,
+    half: float,
+    w: _Floats,
+    counts: _Ints,
+    columns: _Ints,
+    out: Array,
+) -> None:
+    """Add the products of the pixels of an edge of a tag to the lower triangle of out (21, 21)."""
+    height, width = image.shape
+    middle_u = (corners[0, 0] + corners[1, 0] + corners[2, 0] + corners[3, 0]) / 4
+    middle_v = (corners[0, 1] + corners[1, 1] + corners[2, 1] + corners[3, 1]) / 4
+    length, tu, tv = edges[edge, 0], edges[edge, 1], edges[edge, 2]
+    flat = abs(tu) >= abs(tv)
+    along, across = (tu, tv) if flat else (tv, tu)
+    begin, end = corners[edge], corners[(edge + 1) % 4]
+    x0, y0 = (begin[0], begin[1]) if flat else (begin[1], begin[0])
+    x1 = end[0] if flat else end[1]
+    band = bands[edge]
+    wide = max(band[0], band[1])
+    reach = int(np.ceil(wide / abs(along) + 0.5))
+    far = _FAR * blurs[(edge + 1) % 2] + box[(edge + 1) % 4]
+    for x in range(int(np.floor(min(x0, x1) - wide)), int(np.ceil(max(x0, x1) + wide)) + 1):
+        way = (x - x0) / along
+        share = way / length
+        bow = -4 * bows[edge] * share * (1 - share)
+        # Of a normal (-t_v, t_u) the part across is t_u, or -t_v for an edge along v.
+        row = int(np.rint(y0 + way * across + bow / (along if flat else -along)))
+        for y in range(row - reach, row + reach + 1):
+            u, v = (x, y) if flat else (y, x)
+            if u < 1 or v < 1 or u > width - 2 or v > height - 2:
+                continue
+            s, d = _measure(u, v, edge, corners, edges, bows)
+            if not _is_within(s, d, length, band) or _is_earlier(
+                u, v, edge, corners, edges, bows, bands
+            ):
+                continue
+            which = 0 if s < 0.5 else 1
+            other = (edge + 3 + 2 * which) % 4
+            s2, d2 = _measure(u, v, other, corners, edges, bows)
+            if d2 > far:
+                which = 2
+            m, block = counts[which], w[which]
+            block[_D + m], block[_DO + m], block[_S + m], block[_SO + m] = d, d2, s, s2
+            block[_X + m] = (u - middle_u) / half
+            block[_Y + m] = (v - middle_v) / half
+            block[_GREY + m] = image[v, u]
+            counts[which] += 1
+            if counts[which] == BLOCK:
+                _add_block(block, edge, which, edges, blurs, box, levels, columns, BLOCK, out)
+                counts[which] = 0
+    for which in range(3):
+        if counts[which]:
+            m = counts[which]
+            _add_block(w[which], edge, which, edges, blurs, box, levels, columns, m, out)
+            counts[which] = 0
+
+
 @compiled
 def _accumulate(
     image: GreyImage,
@@ -224,63 +291,14 @@ def _accumulate(
     out: Array,
 ) -> None:
     """Add to out (n, 21, 21)."""
-    height, width = image.shape
     w, counts = np.zeros((3, _ROWS * BLOCK), dtype=_F), np.zeros(3, dtype=np.int64)
     columns = np.empty(_COLUMNS, dtype=np.int64)
     for i in range(len(corners)):
-        middle_u = middle_v = 0.0
-        for k in range(4):
-            middle_u += corners[i, k, 0] / 4
-            middle_v += corners[i, k, 1] / 4
         for edge in range(4):
-            length, tu, tv = edges[i, edge, 0], edges[i, edge, 1], edges[i, edge, 2]
-            flat = abs(tu) >= abs(tv)
-            along, across = (tu, tv) if flat else (tv, tu)
-            begin, end = corners[i, edge], corners[i, (edge + 1) % 4]
-            x0, y0 = (begin[0], begin[1]) if flat else (begin[1], begin[0])
-            x1 = end[0] if flat else end[1]
-            wide = max(bands[i, edge, 0], bands[i, edge, 1])
-            reach = int(np.ceil(wide / abs(along) + 0.5))
-            far = _FAR * blurs[i, (edge + 1) % 2] + box[i, (edge + 1) % 4]
-            for x in range(int(np.floor(min(x0, x1) - wide)), int(np.ceil(max(x0, x1) + wide)) + 1):
-                way = (x - x0) / along
-                share = way / length
-                bow = -4 * bows[i, edge] * share * (1 - share)
-                # Of a normal (-t_v, t_u) the part across is t_u, or -t_v for an edge along v.
-                row = int(np.rint(y0 + way * across + bow / (along if flat else -along)))
-                for y in range(row - reach, row + reach + 1):
-                    u, v = (x, y) if flat else (y, x)
-                    if u < 1 or v < 1 or u > width - 2 or v > height - 2:
-                        continue
-                    s, d = _measure(u, v, edge, corners[i], edges[i], bows[i])
-                    if not _is_within(s, d, length, bands[i, edge]) or _is_earlier(
-                        u, v, edge, corners[i], edges[i], bows[i], bands[i]
-                    ):
-                        continue
-                    which = 0 if s < 0.5 else 1
-                    other = (edge + 3 + 2 * which) % 4
-                    s2, d2 = _measure(u, v, other, corners[i], edges[i], bows[i])
-                    if d2 > far:
-                        which = 2
-                    m, block = counts[which], w[which]
-                    block[_D + m], block[_DO + m], block[_S + m], block[_SO + m] = d, d2, s, s2
-                    block[_X + m] = (u - middle_u) / half[i]
-                    block[_Y + m] = (v - middle_v) / half[i]
-                    block[_GREY + m] = image[v, u]
-                    counts[which] += 1
-                    if counts[which] == BLOCK:
-                        _add_block(
-                            block, edge, which, edges[i], blurs[i], box[i], levels[i], columns,
-                            BLOCK, out[i],
-                        )  # fmt: skip
-                        counts[which] = 0
-            for which in range(3):
-                if counts[which]:
-                    _add_block(
-                        w[which], edge, which, edges[i], blurs[i], box[i], levels[i], columns,
-                        counts[which], out[i],
-                    )  # fmt: skip
-                    counts[which] = 0
+            _add_edge(
+                image, edge, corners[i], edges[i], bands[i], bows[i], blurs[i], box[i], levels[i],
+                half[i], w, counts, columns, out[i],
+            )  # fmt: skip
         for a in range(_COLUMNS):
             for b in range(a):
                 out[i, b, a] = out[i, a, b]
