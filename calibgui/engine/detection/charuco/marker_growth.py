@@ -149,6 +149,9 @@ def _grow_alike(
     for _ in range(_MAX_ROUNDS):
         beside = (newest[:, None] + prints.neighbours).reshape(-1, 2)
         squares = _leave_out(np.unique(beside, axis=0), tried)
+        squares = squares[_match_places(squares, places).any(axis=1)]
+        if not len(squares):
+            break
         tried = np.concatenate([tried, squares])
         wanted = _predict_markers(image.shape, read, squares, outline)
         if refine is not None:
@@ -166,8 +169,6 @@ def _predict_markers(
 ) -> Markers[Layout]:
     """Predict markers at `squares` (n, 2), whose numbers are not known yet, from those beside them
     that were read; those that leave the image of `shape` (h, w) or an outline are left out."""
-    if not len(squares):
-        return read.select(np.zeros(0, dtype=np.int64))
     numbers, corners = np.full(len(squares), -1), np.zeros((len(squares), 4, 2))
     wanted = replace(read, squares=squares, numbers=numbers, corners=corners)
     uv, _ = predict_places(wanted.board_corners.reshape(-1, 2), read.board_corners, read.corners)
@@ -193,18 +194,22 @@ def _read_by_steps(
     Returns:
         Those that were read, with their numbers.
     """
-    may_be = (places[:, None] == wanted.squares[:, None]).all(axis=3).any(axis=0)
-    possible = np.flatnonzero(may_be.any(axis=1))
-    wanted, may_be = wanted.select(possible), may_be[possible]
-    if not len(possible):
+    if not len(wanted.squares):
         return wanted
     seen = list_differences(measure_cells(image, wanted.corners, prints.side))
     steps = prints.steps[: places.shape[1]]
     share = np.sign(seen) @ steps.T / np.abs(steps).sum(axis=1)
+    may_be = _match_places(wanted.squares, places)
     numbers = np.where(may_be, share, -np.inf).argmax(axis=1)
     right, height = prints.rate(seen, numbers)
     good = np.flatnonzero((right > _MIN_RIGHT_STEPS) & (height > least))
     return replace(wanted, numbers=numbers).select(good)
+
+
+def _match_places(squares: IntArray, places: IntArray) -> BoolArray:
+    """Return which numbers (n, m) may stand in squares (n, 2), given the `places` (k, m, 2) of the
+    numbers on each layout that the board may have."""
+    return np.asarray((places[:, None] == squares[:, None]).all(axis=3).any(axis=0))
 
 
 def _locate_all(read: Markers[Layout], layout: Layout, count: int) -> IntArray:

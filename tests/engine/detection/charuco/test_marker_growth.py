@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from calibgui.engine.arrays import GreyImage
+from calibgui.engine.arrays import Array, GreyImage
 from calibgui.engine.boards.april_grid import AprilGrid, TagLayout
 from calibgui.engine.boards.apriltags import draw_tag
 from calibgui.engine.boards.board import Board
@@ -102,3 +102,18 @@ def test_only_numbers_of_the_board_are_read_within_the_outline(
     outline = outline.mean(axis=0) + 1.3 * (outline - outline.mean(axis=0))
     (grown,) = grow_markers(image, [select_few(tags)], prints, None, outline)
     assert sorted(grown.numbers.tolist()) == [0, 1, 2, 5, 6]
+
+
+def test_places_beside_the_board_are_not_looked_at(
+    image: GreyImage, tags: Markers[TagLayout], prints: MarkerPrints
+) -> None:
+    looked_at: list[Array] = []
+
+    def keep(quads: Array) -> Array:
+        looked_at.append(quads)
+        return quads
+
+    few = select_few(tags)
+    (grown,) = grow_markers(image, [few], prints, 10, None, keep)
+    assert len(grown.numbers) == 10
+    assert sum(map(len, looked_at)) == 10 - len(few.numbers)
