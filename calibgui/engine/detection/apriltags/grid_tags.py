@@ -1,11 +1,12 @@
 """The tags of an AprilGrid: found in an image, read, and placed on the board.
 
-Tags are looked for among the dark quadrilaterals of the image, of its coarsest size first. At the
-others it takes long: it is done quickly, and only if a sample of the image (`PrintSample`) shows
-tags. So it is with the negative, of which few boards are printed. Noise breaks the outlines of
-tags, and the small black squares that touch their corners join them; the image is therefore
-searched smoothed first, and as it is where that leaves tags out. Tags beside those that were read
-so are read where these predict them (`marker_growth`).
+Tags are looked for among the dark quadrilaterals of the image, of its coarsest size first. A quick
+look at it shows most boards. Where it does not, the image is searched anyway, but its other sizes,
+at which that takes long, only if a sample of them (`PrintSample`) shows tags, and the negative, of
+which few boards are printed, only if a look at it does. Noise breaks the outlines of tags, and the
+small black squares that touch their corners join them; the image is therefore searched smoothed
+first, and as it is where that leaves tags out. Tags beside those that were read so are read where
+these predict them (`marker_growth`).
 """
 
 from __future__ import annotations
@@ -133,16 +134,15 @@ class GridTagFinder:
                 return
 
     def _list_readers(self, depth: int) -> Iterator[TagReader]:
-        """List the readers of one size of the image, the quickest made first; none if a look shows
-        no tags. The coarsest is searched anyway, but the negative, of which few boards are printed,
-        only if a quick look at it shows tags."""
+        """List the readers of one size of the image, the quickest made first: that of a quick look,
+        and if this shows tags those of all quadrilaterals. The coarsest size is searched in any
+        case, but the negative, of which few boards are printed."""
         is_coarsest = depth == len(self._levels) - 1
-        if self._is_negative or not is_coarsest:
-            look = self._make_look(depth)
-            if not _shows_tags(look):
-                return
-            if is_coarsest:
-                yield look
+        look = self._make_look(depth)
+        if is_coarsest:
+            yield look
+        if (self._is_negative or not is_coarsest) and not _shows_tags(look):
+            return
         for is_smoothed in (True, False):
             yield self._make_reader(depth, is_smoothed)
 
@@ -193,8 +193,8 @@ def find_grid_tags(
 ) -> tuple[GridTags, int] | None:
     """Find the tags of a board in an image, or its negative, the coarsest size first.
 
-    Where a first search of the image shows no board the negative is searched before it is searched
-    again: that takes longer.
+    Where a look at the image shows no board the negative is searched before the image is searched
+    in full: a look at it takes less.
 
     Args:
         finders: of the image, and of its negative if that is searched.

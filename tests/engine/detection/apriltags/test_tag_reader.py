@@ -71,8 +71,8 @@ def test_what_is_bright_along_its_sides_is_no_tag() -> None:
 
 def test_an_image_is_searched_once_for_each_colour(monkeypatch: pytest.MonkeyPatch) -> None:
     """The explanation of what is missing looks at what the search has seen; the negative and the
-    larger sizes of an image are searched only where a look at them shows tags, which is enough
-    where it shows most of a board."""
+    larger sizes of an image are searched only where a look at them shows tags. A look is enough
+    where it shows most of a board, whatever its colours."""
     searched: list[str] = []
     search = opencv.detect_dark_quads
 
@@ -86,17 +86,19 @@ def test_an_image_is_searched_once_for_each_colour(monkeypatch: pytest.MonkeyPat
     image = draw_without_board(5)
     with pytest.raises(NoBoardError, match="No AprilGrid"):
         find_corners(image, (8, 10), pattern=AprilGrid("t36h11"))
-    assert searched == ["all", "quick", "all"]
+    assert searched == ["quick", "quick", "all", "all"]
     searched.clear()
     with pytest.raises(NoBoardError, match="No AprilGrid"):
         find_corners(cv2.resize(image, (1920, 1440)), pattern=AprilGrid())
-    assert searched[:3] == ["all", "quick", "all"]
-    assert set(searched[3:]) == {"part"}
+    assert searched[:4] == ["quick", "quick", "all", "all"]
+    assert set(searched[4:]) == {"part"}
     searched.clear()
     board = Board(8, 10, 1.0, AprilGrid("t36h11", 0.3, 2, False))
-    bright = 255 - photograph_pattern((640, 480), board, 0.7, 0.8)
-    assert find_corners(bright, pattern=AprilGrid()).complete
-    assert searched == ["all", "quick"]
+    image = photograph_pattern((640, 480), board, 0.7, 0.8)
+    for levels, expected in ((image, ["quick"]), (255 - image, ["quick", "quick"])):
+        assert find_corners(levels, pattern=AprilGrid()).complete
+        assert searched == expected
+        searched.clear()
 
 
 def test_a_tag_is_verified_in_part_of_a_shadow_and_another_number_is_not() -> None:
