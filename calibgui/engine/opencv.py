@@ -222,10 +222,15 @@ def detect_dark_quads(
 
 def count_quads(image: GreyImage, window: int, perimeter: int, enough: int) -> int:
     """Count the quadrilaterals of an 8-bit image (h, w) that are darker than the mean of the
-    `window` px around and have a `perimeter` px or more; 0 if there are no outlines `enough`."""
+    `window` px around and have a `perimeter` px or more, up to `enough`; 0 if there are no outlines
+    `enough`."""
     dark = cv2.adaptiveThreshold(
         image, 255, cv2.ADAPTIVE_THRESH_MEAN_C, cv2.THRESH_BINARY_INV, window, _DARKER
     )
+    # Texture has thousands of specks, whose outlines are too short but take long to follow.
+    _, labels, stats, _ = cv2.connectedComponentsWithStats(dark, connectivity=8)
+    sides = stats[:, cv2.CC_STAT_WIDTH] + stats[:, cv2.CC_STAT_HEIGHT]
+    dark[(sides - 2 < _SPECK_SHARE * perimeter)[labels]] = 0
     outlines, _ = cv2.findContours(dark, cv2.RETR_LIST, cv2.CHAIN_APPROX_SIMPLE)
     if len(outlines) < enough:
         return 0
@@ -234,6 +239,8 @@ def count_quads(image: GreyImage, window: int, perimeter: int, enough: int) -> i
         length = cv2.arcLength(outline, closed=True)
         if length >= perimeter:
             count += len(cv2.approxPolyDP(outline, _OFF_QUAD * length, closed=True)) == 4
+            if count == enough:
+                break
     return count
 
 
@@ -266,6 +273,9 @@ _MIN_MARKER_SIDE = 10.0
 """Side of the smallest markers that are detected, px."""
 _DARKER = 7
 """Difference from the mean around by which pixels are dark, grey levels: OpenCV's for markers."""
+_SPECK_SHARE = 0.4
+"""Width and height, over the perimeter asked for, below which no outline is that long: half of it,
+or less if it is not straight."""
 _OFF_QUAD = 0.05
 """Greatest distance of an outline from its quadrilateral, perimeters."""
 _QUICK_WINDOW = 7

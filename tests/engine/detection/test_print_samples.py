@@ -97,6 +97,17 @@ def test_a_board_before_a_wall_is_found(size: tuple[int, int], at: tuple[int, in
     assert len(find_corners(image, pattern=_ASKED["aprilgrid"])) > 70
 
 
+def test_quadrilaterals_are_counted_among_specks_up_to_enough() -> None:
+    image = np.full((200, 400), 200, np.uint8)
+    image[2::5, 2::5] = 60  # 3200 of them
+    for k in range(30):
+        top, left = 10 + 60 * (k // 10), 10 + 38 * (k % 10)
+        image[top - 4 : top + 18, left - 4 : left + 18] = 200
+        image[top : top + 14, left : left + 14] = 60
+    counts = [opencv.count_quads(image, 11, 20, enough) for enough in (20, 50, 100)]
+    assert counts == [20, 30, 0]
+
+
 def test_a_block_that_the_border_cuts_counts_as_others() -> None:
     """Else the tiles at the border of an image of fine texture would be the first."""
     noise = np.random.default_rng(0).integers(0, 256, (330, 690)).astype(np.uint8)
