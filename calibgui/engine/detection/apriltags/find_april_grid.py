@@ -29,7 +29,12 @@ from calibgui.engine.detection.apriltags.outlined_corners import (
     has_corner_squares,
     locate_outlined_corners,
 )
-from calibgui.engine.detection.apriltags.tag_gap import explain_wide_gap, fit_gap, measure_gap
+from calibgui.engine.detection.apriltags.tag_gap import (
+    explain_wide_gap,
+    fit_gap,
+    measure_gap,
+    measure_gap_of_tags,
+)
 from calibgui.engine.detection.charuco.assembly import FittedCorners, assemble_corners
 from calibgui.engine.detection.charuco.corners_between_markers import (
     predict_places,
@@ -80,6 +85,8 @@ def find_april_grid(
     negative = GridTagFinder(levels, searched, finder)
     found = find_grid_tags([finder, negative], pattern, grid_size)
     if found is None:
+        if pattern == AprilGrid() and grid_size is None:
+            raise _describe_nothing()  # there is no board whatever were stated
         raise _explain_missing_board(levels, grid_size, finder)
     read, which = found
     return _locate_corners(grey, levels, read, which == 1, pattern, grid_size, outline, method)
@@ -91,11 +98,7 @@ def _explain_missing_board(
     """Return the error that says what an image, in 8 bits, shows instead of the stated board."""
     found = find_grid_tags([finder], AprilGrid(), None)
     if found is None:
-        return NoBoardError(
-            "No AprilGrid was found.",
-            "Take the picture again: two rows of tags or more in view, sharp, evenly lit and near"
-            " enough to be read.",
-        )
+        return _describe_nothing()
     tag_print, tags = found[0]
     cols, rows = tags.layout.cols, _count_rows(tags.squares)
     order = "top row down" if tags.layout.from_top else "bottom row up"
@@ -107,6 +110,15 @@ def _explain_missing_board(
         f" two corners each{stated}, {'with' if has_squares else 'without'} dark squares between"
         " the tags.",
         "State the board like this, or leave out what can be read.",
+    )
+
+
+def _describe_nothing() -> NoBoardError:
+    """Return the error that says that an image shows no AprilGrid."""
+    return NoBoardError(
+        "No AprilGrid was found.",
+        "Take the picture again: two rows of tags or more in view, sharp, evenly lit and near"
+        " enough to be read.",
     )
 
 
@@ -134,15 +146,15 @@ def _locate_corners(
         rows = grid_size[0] // 2
     first = np.array([0 if tags.layout.from_top else rows - 1, 0])
     on_board = tags.squares + first
-    gap = 1 / tags.side - 1
+    gap = min(1 / tags.side - 1, 1.0)  # as measured
     size = 2 * rows, 2 * cols
-    lattice = _predict_corners(grey, tags.corners, on_board, size, gap, is_inverted)
     border = tag_print.border / tag_print.side
     has_squares = has_corner_squares(grey, tags, border)
     if stated.corner_squares not in (None, has_squares):
         raise _explain_missing_board(levels, grid_size, GridTagFinder(levels, None))
     fit: XCornerFit | FittedCorners | None = None
     if has_squares:
+        lattice = _predict_corners(grey, tags.corners, on_board, size, gap, is_inverted)
         lattice = _refine_corners(grey, lattice, gap, border)
         gap = measure_gap(lattice.uv, gap)
         if gap > MAX_GAP_BETWEEN_SQUARES:
@@ -154,8 +166,9 @@ def _locate_corners(
             rejected += failing
     else:
         dark_tags = invert_levels(levels) if is_inverted else levels
-        gap = measure_gap(lattice.uv, gap)
-        lattice, fit, rejected = _fit_outlines(grey, dark_tags, read, lattice, first, gap)
+        gap = measure_gap_of_tags(on_board, tags.corners, gap)
+        uv, fit, rejected = _fit_outlines(grey, dark_tags, read, size, first, gap)
+        lattice = Lattice(uv, dark=not is_inverted)
         gap = measure_gap(lattice.uv, gap)
     require_enough_corners(lattice)
     uv = lattice.uv[lattice.found] if fit is None else fit.uv
@@ -175,10 +188,10 @@ def _fit_outlines(
     grey: GreyImage,
     levels: GreyImage,
     read: GridTags,
-    predicted: Lattice,
+    grid_size: GridSize,
     first: IntArray,
     gap: float,
-) -> tuple[Lattice, FittedCorners, list[RejectedCorner]]:
+) -> tuple[Array, FittedCorners, list[RejectedCorner]]:
     """Fit the outlines of the tags, leaving out the corners that do not lie where the others expect
     them.
 
@@ -186,12 +199,15 @@ def _fit_outlines(
         grey: (h, w) grey levels.
         levels: the same in 8 bits, tags dark on bright.
         read: the tags that were read.
-        predicted: the lattice of the whole board.
+        grid_size: rows and columns of corners.
         first: (2,) row and column of tag 0 on the board.
         gap: between tags, sides of a tag.
+
+    Returns:
+        The corners (rows, cols, 2) px, NaN where there is none, their fit, and those left out.
     """
     grid, fit, rejected = locate_outlined_corners(
-        grey, levels, read, first, predicted.shape[0] // 2, gap
+        grey, levels, read, first, grid_size[0] // 2, gap
     )
     order = np.lexsort(grid.T[::-1])
     grid, fit = grid[order], fit.select(order)
@@ -200,9 +216,9 @@ def _fit_outlines(
     length = np.linalg.norm(steps, axis=2).min(axis=1)
     good = _find_regular_corners(places, fit.uv, length, np.ones(len(grid), dtype=np.bool_))
     rejected += list_rejected_corners(fit.uv[~good], "off place")
-    uv = np.full_like(predicted.uv, np.nan)
+    uv = np.full((*grid_size, 2), np.nan)
     uv[tuple(grid[good].T)] = fit.uv[good]
-    return Lattice(uv, predicted.dark), fit.select(np.flatnonzero(good)), rejected
+    return uv, fit.select(np.flatnonzero(good)), rejected
 
 
 def _locate_places(lattice: Lattice, gap: float) -> Array:

@@ -144,14 +144,16 @@ def _grow_alike(
     layouts = [reading.layout for reading in readings]
     known = len(prints.steps) if count is None else min(count, len(prints.steps))
     places = np.stack([_locate_all(read, layout, known) for layout in layouts])
-    least = _MIN_RELATIVE_SWING * float(np.median(prints.rate_markers(image, read)[1]))
     tried = newest = read.squares
+    least: float | None = None
     for _ in range(_MAX_ROUNDS):
         beside = (newest[:, None] + prints.neighbours).reshape(-1, 2)
         squares = _leave_out(np.unique(beside, axis=0), tried)
         squares = squares[_match_places(squares, places).any(axis=1)]
         if not len(squares):
             break
+        if least is None:
+            least = _MIN_RELATIVE_SWING * float(np.median(prints.rate_markers(image, read)[1]))
         tried = np.concatenate([tried, squares])
         wanted = _predict_markers(image.shape, read, squares, outline)
         if refine is not None:

@@ -388,3 +388,11 @@ def test_noise_moves_no_corners_of_tags_without_small_squares() -> None:
         noisy = np.clip(np.rint(image + rng.normal(0, 2, image.shape)), 0, 255).astype(np.uint8)
         near = quads + rng.uniform(-1, 1, quads.shape)
         assert np.abs(grid_tags._refine_quads(noisy, near) - quads).max() < 2
+
+
+def test_a_gap_measured_wider_than_a_tag_is_no_error_of_the_pattern() -> None:
+    """Of a checkerboard with tags in every second row and column it may be 1.0004."""
+    board = Board(8, 10, 20.0, TaggedCheckerboard("t36h11", 1, 2, from_top=True))
+    image = photograph_pattern((640, 480), board, 0.7, 0.8)
+    with pytest.raises(NoBoardError):
+        find_corners(image, pattern=AprilGrid())
