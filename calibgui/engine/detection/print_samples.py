@@ -14,10 +14,13 @@ best blocks, so that a board smaller than it does not drown in what is around. O
 330 px in 12 megapixels of leaves, polygons, bricks or grain the tiles are among the first three.
 
 Where hundreds of things are as dark quadrilaterals as marks are, as in brickwork, small ones are
-looked for in such tiles at every size (`detect_dark_quads`).
+looked for in such tiles at every size (`QuadSearch`).
 """
 
 from __future__ import annotations
+
+from collections.abc import Callable
+from functools import cached_property
 
 import numpy as np
 
@@ -49,14 +52,30 @@ _MAX_COUNT = 600
 longer than to find a board: brickwork has 600 to 2000, a board of 300 marks no more than 600."""
 
 
-def detect_dark_quads(image: GreyImage, is_quick: bool = False) -> Array:
-    """Return corners (n, 4, 2) px of the dark quadrilaterals of an 8-bit image (h, w), quickly or
-    not. Where there are hundreds the small ones are looked for in a sample."""
-    halved = opencv.halve_image(image)
-    if opencv.count_quads(halved, _COUNTING_WINDOW, _MIN_PERIMETER, _MAX_COUNT) < _MAX_COUNT:
-        return opencv.detect_dark_quads(image, is_quick)
-    large = opencv.detect_dark_quads(image, is_quick, least_side=_MARGIN)
-    return np.concatenate([large, PrintSample(halved).detect_dark_quads(image)])
+class QuadSearch:
+    """A search of an image for dark quadrilaterals; how many there are is counted once."""
+
+    def __init__(self, image: GreyImage) -> None:
+        """
+        Args:
+            image: (h, w) 8-bit grey levels.
+        """
+        self._image = image
+
+    @cached_property
+    def _sample(self) -> PrintSample | None:
+        """The tiles in which small quadrilaterals are looked for, None if that is everywhere."""
+        halved = opencv.halve_image(self._image)
+        count = opencv.count_quads(halved, _COUNTING_WINDOW, _MIN_PERIMETER, _MAX_COUNT)
+        return None if count < _MAX_COUNT else PrintSample(halved)
+
+    def detect_dark_quads(self, is_quick: bool = False) -> Array:
+        """Return corners (n, 4, 2) px of the dark quadrilaterals, quickly or not. Where there are
+        hundreds the small ones are looked for in a sample."""
+        if self._sample is None:
+            return opencv.detect_dark_quads(self._image, is_quick)
+        large = opencv.detect_dark_quads(self._image, is_quick, least_side=_MARGIN)
+        return np.concatenate([large, self._sample.detect_dark_quads(self._image)])
 
 
 class PrintSample:
@@ -73,16 +92,23 @@ class PrintSample:
         rows, cols = np.unravel_index(best[scores.flat[best] > _MIN_DETAIL], scores.shape)
         self._corners = _TILE * np.column_stack([rows, cols])
 
-    def detect_dark_quads(self, image: GreyImage) -> Array:
+    def detect_dark_quads(
+        self,
+        image: GreyImage,
+        prepare: Callable[[GreyImage], GreyImage] = np.ascontiguousarray,
+    ) -> Array:
         """Return corners (n, 4, 2) px of the dark quadrilaterals in the tiles of the image, its
-        negative or a filtered copy, 8 bits, quickly; some of them twice."""
+        negative or a filtered copy, 8 bits, quickly; some of them twice.
+
+        Args:
+            image: (h, w) grey levels.
+            prepare: filters a tile before it is searched.
+        """
         found = [np.zeros((0, 4, 2))]
         for row, col in self._corners.tolist():
             top, left = max(row - _MARGIN, 0), max(col - _MARGIN, 0)
             part = image[top : row + _TILE + _MARGIN, left : col + _TILE + _MARGIN]
-            quads = opencv.detect_dark_quads(
-                np.ascontiguousarray(part), is_quick=True, is_part=True
-            )
+            quads = opencv.detect_dark_quads(prepare(part), is_quick=True, is_part=True)
             found.append(quads + np.array([left, top]))
             if sum(map(len, found)) > _MAX_QUADS:
                 break

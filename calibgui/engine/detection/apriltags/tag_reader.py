@@ -81,7 +81,8 @@ class ReadTags(NamedTuple):
 
 
 class TagReader:
-    """A reader of the tags in an image's quadrilaterals, which are sampled once for each n."""
+    """A reader of the tags in an image's quadrilaterals, which are sampled once for each n and read
+    once for each print."""
 
     def __init__(self, image: GreyImage, quads: Array) -> None:
         """
@@ -92,6 +93,7 @@ class TagReader:
         self.image = image
         self.quads = quads
         self._cells: dict[int, BoolArray] = {}
+        self._read: dict[TagPrint, ReadTags] = {}
 
     def join(self, more: TagReader) -> TagReader:
         """Return a reader of its quadrilaterals and then those of another, in the same image, which
@@ -104,6 +106,12 @@ class TagReader:
 
     def read(self, tag_print: TagPrint) -> ReadTags:
         """Read the quadrilaterals as tags of a print; those that are none are left out."""
+        if tag_print not in self._read:
+            self._read[tag_print] = self._read_anew(tag_print)
+        return self._read[tag_print]
+
+    def _read_anew(self, tag_print: TagPrint) -> ReadTags:
+        """Read the quadrilaterals; see `read`."""
         if not len(self.quads):
             return ReadTags(*np.zeros((3, 0), dtype=np.int64))
         n, b = tag_print.side, tag_print.border

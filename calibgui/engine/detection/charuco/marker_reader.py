@@ -33,7 +33,7 @@ from calibgui.engine.detection.charuco.marker_growth import (
 )
 from calibgui.engine.detection.charuco.markers import Markers, are_some_near, identify_board
 from calibgui.engine.detection.charuco.thresholds import CHARUCO_THRESHOLDS
-from calibgui.engine.detection.print_samples import PrintSample, detect_dark_quads
+from calibgui.engine.detection.print_samples import PrintSample, QuadSearch
 from calibgui.engine.detection.region_of_interest import are_inside
 
 _MAX_COARSE_SIDE = 1600
@@ -197,7 +197,7 @@ class MarkerReader:
         """Find the quadrilaterals of one level of the pyramid, once."""
         if depth not in self._candidates:
             level, is_coarsest = self._levels[depth], depth == len(self._levels) - 1
-            quads = detect_dark_quads(level, is_quick=not is_coarsest)
+            quads = QuadSearch(level).detect_dark_quads(is_quick=not is_coarsest)
             self._candidates[depth] = MarkerCandidates(level, quads)
         return self._candidates[depth]
 
