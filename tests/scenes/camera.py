@@ -44,6 +44,9 @@ class Camera:
             r2 = qx * qx + qy * qy
             scale = (1 + self._conditions.distortion * r2 / self._half**2) / self._f
             depth = 1.0
+        elif self._conditions.k1:
+            r = np.sqrt(qx * qx + qy * qy) / self._f
+            scale, depth = _invert_cubic(r, self._conditions.k1) / self._f, 1.0
         else:
             scale, depth = 1 / self._f, 1.0
         ray = (scale * qx, scale * qy, depth)
@@ -62,9 +65,22 @@ class Camera:
             q = ray[..., :2] * (self._f * theta / np.maximum(r, 1e-300))[..., None]
             return q + self._centre
         ideal = self._f * ray[..., :2] / ray[..., 2:]
+        if self._conditions.k1:
+            r2 = np.sum(ideal**2, axis=-1, keepdims=True) / self._f**2
+            return np.asarray(ideal * (1 + self._conditions.k1 * r2) + self._centre)
         goal = np.linalg.norm(ideal, axis=-1)
         d = self._conditions.distortion / self._half**2
         r = goal.copy()
         for _ in range(50):  # Newton on r (1 + d r^2) = goal
             r -= (r * (1 + d * r * r) - goal) / (1 + 3 * d * r * r)
         return ideal * (r / np.maximum(goal, 1e-300))[..., None] + self._centre
+
+
+def _invert_cubic(r: Array, k1: float) -> Array:
+    """x / r, where x (1 + k1 x^2) = `r`, by Newton's steps; infinite where no point is seen."""
+    last = np.sqrt(-1 / (3 * k1)) if k1 < 0 else np.inf
+    x = np.minimum(r, last)
+    for _ in range(30):
+        x = np.minimum(x - (x * (1 + k1 * x * x) - r) / np.maximum(1 + 3 * k1 * x * x, 0.01), last)
+    seen = np.abs(x * (1 + k1 * x * x) - r) < 1e-9
+    return np.where(seen, x / np.maximum(r, 1e-300), np.inf)

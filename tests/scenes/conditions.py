@@ -25,6 +25,8 @@ class Conditions:
     """Over the image's width."""
     distortion: float = 0.0
     """d in p (1 + d r^2) = ideal point, r over the half diagonal; barrel if positive."""
+    k1: float = 0.0
+    """Of a lens p = (1 + k1 r^2) ideal point, r that point's over the focal length."""
     fisheye: bool = False
     """Equidistant lens instead of a pinhole."""
     blur: float = 0.7

@@ -137,21 +137,20 @@ class BoardPriors:
         steps = first + rest[:, :2]
         return steps, compute_curvatures(steps, second + rest[:, 2:])
 
-    def follow_edges(self, edges: ReadEdges) -> EdgeGeometry:
-        """Estimate the geometry again from the `edges` that were read; of few corners, and where
-        the image cuts edges, from the directions of these, too.
+    def follow_edges(self, edges: ReadEdges, sigma: float) -> EdgeGeometry:
+        """Estimate the geometry again from the `edges` that were read; of few corners from the
+        directions of these, too.
 
-        Of more corners the directions count only where the map that follows them predicts what is
-        left out better than the polynomials do: these follow uneven paper better.
+        Of more corners the directions count only if the polynomials, which err most at the ends of
+        lines, miss them by clearly more than the standard deviation `sigma`, px, that they have.
         """
         if len(edges.uv) < _THRESHOLDS.many_corners:
-            return fit_edge_map(self._found, edges)[0]
-        if edges.middle.any() and len(edges.uv) < _THRESHOLDS.many_cut_corners:
-            followed, misfit = fit_edge_map(self._found, edges)
+            return fit_edge_map(self._found, edges, sigma)
+        if np.isfinite(sigma):
             flat = grid_map.fit_radial_homography(self._cells, edges.uv)
             _, misses = self._fit_polynomials(edges.uv - flat.locate(self._cells))
-            if misfit**2 < np.mean(misses**2):
-                return followed
+            if np.mean(misses**2) > (_THRESHOLDS.max_told_misfit * sigma) ** 2:
+                return fit_edge_map(self._found, edges, sigma)
         return self._bend_edges(edges)
 
     def _bend_edges(self, edges: ReadEdges) -> EdgeGeometry:
@@ -282,8 +281,9 @@ class PredictedBoardPriors(BoardPriors):
         del uv
         return self._geometry
 
-    def follow_edges(self, edges: ReadEdges) -> EdgeGeometry:
+    def follow_edges(self, edges: ReadEdges, sigma: float) -> EdgeGeometry:
         """Return the predicted geometry, whatever the edges show."""
+        del sigma
         return self._bend_edges(edges)
 
 

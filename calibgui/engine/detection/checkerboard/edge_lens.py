@@ -14,9 +14,9 @@ parabolas. The map is fitted to both by least squares,
 
 which are known equally well. It is a homography through a radial lens (``grid_map``), whose inverse
 says at once how far a point is from a row's edge: its row less the edge's, over the gradient. To
-the image's corners three coefficients of the lens do not reach where it bends by 30 %: a fourth, by
-which the map varies linearly, is at choice. As the map draws the corner itself o(0) away from c,
-where the line nearest to o is mean of o - sqrt(3) m / h S, it bends the edge aside by
+the image's corners three coefficients of the lens do not reach where it bends by 20 %: three more,
+by which the map varies linearly, are at choice. As the map draws the corner itself o(0) away from
+c, where the line nearest to o is mean of o - sqrt(3) m / h S, it bends the edge aside by
 
     kappa / 2 (h^2 / 3 - m^2) - (mean of o - sqrt(3) m / h S) + o(0).
 """
@@ -32,11 +32,11 @@ from calibgui.engine.detection import grid_map
 from calibgui.engine.detection.checkerboard.edge_bend import ReadEdges
 from calibgui.engine.detection.grid_map import InverseRadialHomography
 
-_PLACES = np.array([-(0.6**0.5), 0.0, 0.6**0.5])
+PLACES = np.array([-(0.6**0.5), 0.0, 0.6**0.5])
 """(3,) places s - m on an edge, over h."""
 _WEIGHTS = np.array([5.0, 8.0, 5.0]) / 18
 """(3,) weights of these."""
-_PRODUCTS = np.stack([_WEIGHTS, 3**0.5 * _PLACES * _WEIGHTS])
+PRODUCTS = np.stack([_WEIGHTS, 3**0.5 * PLACES * _WEIGHTS])
 """(2, 3) weights in the mean and in the slope."""
 _MAX_STEPS = 30
 """Number of steps, tried ones included, from the lens that the corners show; two are usual."""
@@ -45,12 +45,16 @@ _LEAST_DAMPING, _FIRST_DAMPING, _DAMPING_FACTOR = 1e-13, 1e-11, 10.0
 a step has failed; and the factor by which it changes with each step that fails or does not."""
 _CONVERGED_SHARE = 0.9
 """Share of the sum of squares that a step leaves at which it was the last."""
-_MIN_CORNERS = 16
-"""Least number of corners that may tell one more of the lens's coefficients than three: of 3 x 3 it
-is chosen by chance now and then, and their error grows from 1.07 to 1.5 times the bound."""
-LENS, NEXT_COEFFICIENT = -1, 0
-"""Stand for the degrees of the lens's parameters and of the coefficient that would follow: both
-come before the polynomials'."""
+MIN_CORNERS = 16
+"""Least number of corners that may tell more than three coefficients of a lens and a polynomial: of
+3 x 3 it is chosen by chance now and then, and their error grows from 1.07 to 1.5 times the
+bound."""
+LENS = -1
+"""Stands for the degree of the lens's parameters. Those of the coefficients that follow are counted
+from 0: all come before the polynomials'."""
+MORE_COEFFICIENTS = 3
+"""Number of these. With one the outermost of 54 corners lie up to 0.03 px off where the image cuts
+the board, at 20 % barrel of r (1 + k1 r^2) = r': it is endless in powers of r'."""
 _PARAMETERS = 14
 """Number of parameters of a homography through a lens of three coefficients."""
 _BY_LAST_COLUMN = np.array([2, 5, 8])
@@ -69,7 +73,7 @@ class EdgeLens(NamedTuple):
     columns: Array
     """(2, 2, n, k) how means and slopes vary."""
     degree: IntArray
-    """(k,) order in which parameters are added: `LENS`, or `NEXT_COEFFICIENT`."""
+    """(k,) order in which parameters are added: `LENS`, or that of a coefficient that follows."""
     bend: Array
     """(2, n) px, how far the map bends edges 1 and 2 aside."""
     bend_columns: Array
@@ -100,8 +104,9 @@ def fit_edge_lenses(cells: Array, edges: ReadEdges) -> list[EdgeLens]:
         offset, columns = _measure_offsets(inverse, points, x)
         if start.coefficients.any():
             inverse = _refine_lens(inverse, offset, columns, points, x)
-            if len(cells) >= _MIN_CORNERS:
-                inverse = inverse._replace(bend=np.append(inverse.bend, 0.0))
+            if len(cells) >= MIN_CORNERS:
+                more = np.zeros(MORE_COEFFICIENTS)
+                inverse = inverse._replace(bend=np.append(inverse.bend, more))
             offset, columns = _measure_offsets(inverse, points, x)
         (at_corner,), (by_parameters,) = _measure_offsets(inverse, corners, x)
         if not start.coefficients.any():
@@ -113,7 +118,7 @@ def fit_edge_lenses(cells: Array, edges: ReadEdges) -> list[EdgeLens]:
         stretch = np.sum(step * change, axis=2) / np.sum(step**2, axis=2) / scale
         bend = taken - (rest[0] - to_corner * rest[1]) + unit * at_corner
         by_line = varied[0] - to_corner[..., None] * varied[1]
-        degree = np.where(np.arange(varied.shape[-1]) < _PARAMETERS, LENS, NEXT_COEFFICIENT)
+        degree = np.maximum(np.arange(varied.shape[-1]) - _PARAMETERS, LENS)
         fits.append(
             EdgeLens(
                 unit / scale * first.transpose(0, 2, 1),
@@ -170,14 +175,14 @@ def _refine_lens(
 
 
 def _average(values: Array) -> Array:
-    """Return means and slopes (2, ...) of values (3, ...) at the `_PLACES`."""
-    return np.asarray(np.tensordot(_PRODUCTS, values, 1))
+    """Return means and slopes (2, ...) of values (3, ...) at the `PLACES`."""
+    return np.asarray(np.tensordot(PRODUCTS, values, 1))
 
 
 def _sample_edges(uv: Array, edges: ReadEdges, unit: float) -> Array:
     """Sample the parabolas at corners `uv` (n, 2), in units of px: (3, 2, n, 2) the points at
-    `_PLACES` of edges 1 and 2."""
-    s = (edges.middle + _PLACES[:, None, None] * edges.half) / unit
+    `PLACES` of edges 1 and 2."""
+    s = (edges.middle + PLACES[:, None, None] * edges.half) / unit
     bow = edges.curvature * unit * s**2 / 2
     points = s[..., None] * edges.compute_tangents() + bow[..., None] * edges.normals
     return np.asarray((uv[:, None] + points).transpose(0, 2, 1, 3))

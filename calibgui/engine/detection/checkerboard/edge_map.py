@@ -19,7 +19,8 @@ Else what a homography moves straight would be bent. A slope has sqrt(3) / A tim
 deviation of its mean, in px per square; so w is A / sqrt(3). Whether there is a lens, of how many
 coefficients, and a polynomial, of what degree, is decided by the generalised cross-validation
 score, as in ``board_priors``. What the map leaves unexplained says how well its parameters are
-known, and with them how edges bend.
+known, and with them how edges bend. If that is far more than the corners' covariances, as on uneven
+paper, it is followed along the lines (``edge_lines``).
 
 Along a row only the corners tell how far a point lies, as many as there are columns; how far it
 lies across is told by the directions as well. So the polynomial has other powers along the mean
@@ -39,10 +40,12 @@ from calibgui.engine.detection import grid_map
 from calibgui.engine.detection.checkerboard.edge_bend import ReadEdges
 from calibgui.engine.detection.checkerboard.edge_lens import (
     LENS,
-    NEXT_COEFFICIENT,
+    MIN_CORNERS,
+    MORE_COEFFICIENTS,
     EdgeLens,
     fit_edge_lenses,
 )
+from calibgui.engine.detection.checkerboard.edge_lines import follow_lines
 from calibgui.engine.detection.checkerboard.fit_thresholds import FIT_THRESHOLDS
 
 _THRESHOLDS = FIT_THRESHOLDS.priors
@@ -95,20 +98,27 @@ def _compute_terms(shape: GridSize, found: bytes) -> _Terms:
     return _Terms(np.stack(values), axis, powers.sum(axis=1)[term])
 
 
-def fit_edge_map(found: BoolArray, edges: ReadEdges) -> tuple[EdgeGeometry, float]:
+def fit_edge_map(found: BoolArray, edges: ReadEdges, sigma: float = np.inf) -> EdgeGeometry:
     """Fit the map, and differentiate it at the corners.
 
     Args:
         found: (rows, cols) True where a lattice has one of its n corners.
         edges: what was read there.
-
-    Returns:
-        The geometry, and the rms by which the map would miss a mean or slope left out, px.
+        sigma: standard deviation of the corners, px. If the map misses edges by clearly more, what
+            it leaves is followed along their lines where that predicts better.
     """
     cells = np.argwhere(found)[:, ::-1].astype(np.float64)
-    fits = [_fit_polynomial(found, lens, edges) for lens in fit_edge_lenses(cells, edges)]
+    lenses = fit_edge_lenses(cells, edges)
+    fits = [_fit_polynomial(found, lens, edges) for lens in lenses]
     score, geometry = min(fits, key=lambda fit: fit[0])
-    return geometry, float(np.sqrt(score / (4 * len(cells))))
+    misfit = float(np.sqrt(score / (4 * len(cells))))
+    if len(cells) >= MIN_CORNERS and misfit > _THRESHOLDS.max_told_misfit * sigma:
+        for lens in lenses:
+            lines = follow_lines(found, edges, lens.rest)
+            if lines.misfit < misfit:
+                misfit = lines.misfit
+                geometry = EdgeGeometry(lens.first, lens.bend.T + lines.bend, lines.variance)
+    return geometry
 
 
 def _fit_polynomial(
@@ -132,13 +142,13 @@ def _fit_polynomial(
     bends = np.concatenate([lens.bend_columns, bends], axis=2)
     degree = np.concatenate([lens.degree, degree])
     # Of the lens all but the scale of its equations counts; a polynomial has much of it in common.
-    least = np.where(degree <= NEXT_COEFFICIENT, _MIN_PARAMETER, _THRESHOLDS.min_edge_independence)
+    least = np.where(degree < MORE_COEFFICIENTS, _MIN_PARAMETER, _THRESHOLDS.min_edge_independence)
     scale = np.linalg.norm(J, axis=0)
     J, bends = J / scale, bends / scale
     independent = np.diag(_factorise(J.T @ J)) > least
     J, bends, degree = J[:, independent], bends[..., independent], degree[independent]
     polynomials = range(_THRESHOLDS.min_edge_degree, degree[-1] + 1)
-    tried = np.array([LENS, NEXT_COEFFICIENT, *polynomials])
+    tried = np.array([LENS, *range(MORE_COEFFICIENTS), *polynomials])
     counts = np.searchsorted(degree, tried, side="right")
     most = 2 * len(rest) // 3
     counts = np.append(min(counts[0], most), counts[1:][counts[1:] <= most])

@@ -76,10 +76,10 @@ class PriorThresholds:
     max_degree: int = 7
     """Highest degree of the polynomials tried."""
     many_corners: int = 40
-    """Number of corners from which on they tell how edges bend, without their directions ..."""
-    many_cut_corners: int = 100
-    """... and where the image cuts edges. There corners are alone to one side, and lenses bend
-    most: at 30 % barrel those cut of 47 lay 1.6 times off the bound, with the directions 1.1."""
+    """Number of corners from which on they tell how edges bend, without their directions."""
+    max_told_misfit: float = 1.2
+    """Greatest rms miss, over the corners' standard deviation, up to which what many corners tell
+    is believed, or what a lens does."""
     min_edge_degree: int = 3
     """Lowest degree of the polynomials tried that follow edges, too, beside none: a lens and a
     homography come before."""
@@ -107,6 +107,9 @@ class EdgeFitThresholds:
     max_near_arm: float = 9.0
     """Longest arm that is read for the first two approximations, px. The last one reads all of the
     arms: with 18 to 74 px of them corners in 12 megapixels lay 1.2 to 1.6 times off the bound."""
+    max_short_arm: float = 25.0
+    """Length of the arms up to which many corners tell enough of how edges bend, unless the image
+    cuts these, px. To follow the edges takes up to a third of the search's time."""
     min_ink_spread: float = 0.002
     """Spread of the dark squares below which it counts as none, squares."""
     max_ink_spread: float = 0.2

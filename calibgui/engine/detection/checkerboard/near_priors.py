@@ -73,8 +73,9 @@ class NearPriors(BoardPriors):
         second = np.stack([right - 2 * here + left, down - 2 * here + up], axis=1)
         return steps, compute_curvatures(steps, second / _DIFFERENCE_STEP**2)
 
-    def follow_edges(self, edges: ReadEdges) -> EdgeGeometry:
+    def follow_edges(self, edges: ReadEdges, sigma: float) -> EdgeGeometry:
         """Estimate the geometry from the corners alone, which do not lie in even rows."""
+        del sigma
         return self._bend_edges(edges)
 
     def estimate_gradients(self, steps: Array, values: Array) -> Array:

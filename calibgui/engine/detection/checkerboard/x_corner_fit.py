@@ -19,7 +19,7 @@ the whole board (`board_priors`), as does the spread w of the ink.
 
 Two steps near the corners give what the board needs, and the last one reads whole edges. Where
 these are longer, the board is asked once more, and the corners follow without reading the edges
-again. Few corners do not tell how long edges bend: then the edges' directions do (`edge_map`). What
+again. Where corners do not tell how long edges bend the edges' directions do (`edge_map`). What
 the board leaves open of the curvatures, which grows with the arms' length, is added to the
 covariance.
 
@@ -175,9 +175,11 @@ def fit_x_corners(
     model = _estimate_start(image, lattice, board, plain, bare_edge)
     arm = model.arm
     is_large = bool((arm > _THRESHOLDS.max_near_arm).any())
+    is_long = float(compute_median(arm.ravel())) > _THRESHOLDS.max_short_arm
     for is_next_large in (False, is_large):
-        near = _approach(image, model)
-        followed = board.follow_edges(_list_edges(near)) if is_next_large else None
+        near, sigma = _approach(image, model)
+        known = sigma if is_long else np.inf
+        followed = board.follow_edges(_list_edges(near), known) if is_next_large else None
         model = _update_priors(near, board, arm, followed)
     products, odd_part = accumulate_normal_equations(image, model, model, odd=True)
     before = model
@@ -193,7 +195,8 @@ def fit_x_corners(
     by_bend = np.zeros_like(covariance)
     if is_large:
         edges = _list_edges(model, image.shape[::-1])
-        followed = board.follow_edges(edges)
+        is_told = is_long or bool(edges.middle.any())
+        followed = board.follow_edges(edges, _average_sigma(covariance) if is_told else np.inf)
         better = _update_priors(model, board, arm, followed)
         bend = followed.bend - edges.measure_bend(edges.curvature)
         lights = [
@@ -230,11 +233,18 @@ def fit_x_corners(
     return replace_fits(fit, other, uneven, np.ones(len(lit_square), np.bool_))
 
 
-def _approach(image: GreyImage, model: XCornerModel) -> XCornerModel:
-    """Return the model after a step from what is near the corners."""
+def _approach(image: GreyImage, model: XCornerModel) -> tuple[XCornerModel, float]:
+    """Return the model after a step from what is near the corners, and their standard deviation,
+    px."""
     near = replace(model, arm=np.minimum(model.arm, _THRESHOLDS.max_near_arm))
     products, _ = accumulate_normal_equations(image, near, near, odd=False)
-    return take_step(near, products)[0]
+    stepped, inverse, square = take_step(near, products)
+    return stepped, _average_sigma(square[:, None, None] * inverse)
+
+
+def _average_sigma(covariance: Array) -> float:
+    """Average the standard deviations, px, of corners of `covariance` (n, 2, 2)."""
+    return float(np.sqrt(compute_median(np.trace(covariance, axis1=1, axis2=2)) / 2))
 
 
 def _estimate_start(

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from calibgui.engine.detection.checkerboard.board_priors import compute_curvatures
+from calibgui.engine.detection.checkerboard.board_priors import BoardPriors, compute_curvatures
 from calibgui.engine.detection.checkerboard.edge_bend import ReadEdges, clip_arms
 from calibgui.engine.detection.checkerboard.edge_map import EdgeGeometry, fit_edge_map
 from tests.scenes.camera import Camera
@@ -61,15 +61,18 @@ def measure(
     square: float,
     rng: np.random.Generator,
     sigma: float = SIGMA,
+    kind: type[Camera] = Camera,
+    rows: float = 6.3,
     **lens: Any,
 ) -> list[Array]:
     """The errors of corners that are known to `sigma` px, and the standard deviations that are
-    claimed for what errors of the curvatures add, both in standard deviations of the corners."""
-    height = 6.3 * square
+    claimed for what errors of the curvatures add, both in standard deviations of the corners, in an
+    image as high as so many `rows`."""
+    height = rows * square
     conditions = Conditions(
         grid_size=grid_size, square=square, size=(int(4 / 3 * height), int(height)), **lens
     )
-    camera, size = Camera(conditions, rng), np.array(conditions.size)
+    camera, size = kind(conditions, rng), np.array(conditions.size)
     at, normals, kappa, arm = draw_edges(camera, grid_size)
     seen = np.all((at > 8) & (at < size - 9), axis=1)
     whole = ReadEdges(at[seen], normals[seen], kappa[seen], np.zeros_like(arm[seen]), arm[seen])
@@ -81,12 +84,12 @@ def measure(
     mean += known * rng.standard_normal(half.shape)
     slope -= 3**0.5 * known / half * rng.standard_normal(half.shape)
     off = mean - middle * slope
-    got, _ = fit_edge_map(
-        seen.reshape(grid_size),
+    got = BoardPriors(seen.reshape(grid_size)).follow_edges(
         edges._replace(
             uv=edges.uv + np.linalg.solve(edges.normals, off[..., None])[..., 0],
             normals=edges.normals - slope[..., None] * edges.compute_tangents(),
         ),
+        sigma,
     )
     error = off - (got.bend - edges.measure_bend(edges.curvature))
     sigmas = known * np.sqrt(1 + 3 * (middle / half) ** 2)
@@ -117,14 +120,46 @@ def test_edges_beside_the_axis_of_a_strong_lens_tell_it_too(grid_size: tuple[int
     assert 0.8 < np.mean(error**2 / (1 + claimed**2)) < 1.15
 
 
-@pytest.mark.parametrize("distortion", [0.0, 0.136, 0.43])
-def test_edges_that_the_image_cuts_tell_it_too(distortion: float) -> None:
-    """In the image's corners a strong lens has more than three coefficients."""
+@pytest.mark.parametrize(
+    "lens", [{}, {"distortion": 0.136}, {"distortion": 0.43}, {"k1": -0.3, "focal": 1.0}]
+)
+def test_edges_that_the_image_cuts_tell_it_too(lens: dict[str, float]) -> None:
+    """In the image's corners a strong lens has more than three coefficients, or four."""
     rng = np.random.default_rng(1)
-    results = [measure((6, 9), 250.0, rng, sigma=0.0015, distortion=distortion) for _ in range(10)]
+    results = [measure((6, 9), 250.0, rng, sigma=0.0015, **lens) for _ in range(10)]
     error, claimed = (np.concatenate(values) for values in zip(*results, strict=True))
     assert np.sqrt(np.mean(error**2)) < 1.06
     assert 0.8 < np.mean(error**2 / (1 + claimed**2)) < 1.1
+
+
+def test_many_corners_leave_it_to_their_edges_where_they_do_not_tell() -> None:
+    """At the ends of lines polynomials through the corners alone are up to nine standard deviations
+    off."""
+    rng, lens = np.random.default_rng(1), {"k1": -0.25, "focal": 0.8, "turn": 10.0}
+    results = [measure((8, 11), 210.0, rng, sigma=0.0018, rows=11.0, **lens) for _ in range(4)]
+    error, claimed = (np.concatenate(values) for values in zip(*results, strict=True))
+    assert np.sqrt(np.mean(error**2)) < 1.06
+    assert 0.8 < np.mean(error**2 / (1 + claimed**2)) < 1.1
+
+
+class UnevenPaper(Camera):
+    """A camera before paper whose print is displaced in waves by up to 0.001 squares."""
+
+    def image_from_board(self, x: Array, y: Array) -> Array:
+        along, down = 1.2 * x + 0.9 * y, 1.3 * y - 0.8 * x
+        return super().image_from_board(x + 0.001 * np.sin(along), y + 0.001 * np.sin(down))
+
+
+@pytest.mark.parametrize("distortion", [0.0, 0.2])
+def test_edges_on_uneven_paper_are_followed_along_their_lines(distortion: float) -> None:
+    """Bends that no map draws: they would leave errors of three standard deviations and more."""
+    rng, lens = np.random.default_rng(1), {"distortion": distortion, "turn": 10.0}
+    results = [
+        measure((6, 9), 150.0, rng, sigma=0.0018, kind=UnevenPaper, **lens) for _ in range(6)
+    ]
+    error, claimed = (np.concatenate(values) for values in zip(*results, strict=True))
+    assert np.sqrt(np.mean(error**2)) < 1.15
+    assert 0.8 < np.mean(error**2 / (1 + claimed**2)) < 1.15
 
 
 def test_arms_are_clipped_to_what_is_read_of_the_image() -> None:
@@ -157,7 +192,7 @@ def test_corners_that_a_wrong_curvature_moved_tell_the_same() -> None:
         bend = arm**2 / 6 * (kappa - taken)
         uv = at + np.linalg.solve(normals, bend[..., None])[..., 0]
         edges = ReadEdges(uv, normals, taken, np.zeros_like(arm), arm)
-        return fit_edge_map(np.ones(grid_size, np.bool_), edges)[0]
+        return fit_edge_map(np.ones(grid_size, np.bool_), edges)
 
     right, wrong = fit(kappa), fit(np.zeros_like(kappa))
     shift = wrong.bend - right.bend
@@ -170,7 +205,7 @@ def test_a_handful_of_corners_has_a_geometry_too() -> None:
     found = np.array([[1, 1, 0], [1, 1, 1], [0, 0, 1]], np.bool_)
     camera = Camera(Conditions(grid_size=(3, 3), square=100.0), np.random.default_rng(1))
     at, normals, kappa, arm = (values[found.ravel()] for values in draw_edges(camera, (3, 3)))
-    got, _ = fit_edge_map(found, ReadEdges(at, normals, kappa, np.zeros_like(arm), arm))
+    got = fit_edge_map(found, ReadEdges(at, normals, kappa, np.zeros_like(arm), arm))
     assert np.abs(got.bend).max() < 1e-3
     assert np.isfinite(got.variance).all()
 
@@ -192,5 +227,5 @@ def test_perspective_bends_no_edges(seed: int) -> None:
         nothing,
         np.tile([25.0, 14.0], (54, 1)),
     )
-    geometry, _ = fit_edge_map(np.ones((6, 9), dtype=np.bool_), edges)
+    geometry = fit_edge_map(np.ones((6, 9), dtype=np.bool_), edges)
     assert np.abs(geometry.bend).max() < 0.002
