@@ -206,9 +206,7 @@ def _fit_outlines(
     Returns:
         The corners (rows, cols, 2) px, NaN where there is none, their fit, and those left out.
     """
-    grid, fit, rejected = locate_outlined_corners(
-        grey, levels, read, first, grid_size[0] // 2, gap
-    )
+    grid, fit, rejected = locate_outlined_corners(grey, levels, read, first, grid_size[0] // 2, gap)
     order = np.lexsort(grid.T[::-1])
     grid, fit = grid[order], fit.select(order)
     places = AprilGrid(spacing=gap).locate_points(grid.astype(np.float64))
