@@ -40,6 +40,8 @@ class Detector(QObject):
         """Images that the user wants searched though boards are marked by hand."""
         self._search_key = _find_search_key(session.project)
         """What the batch searches for, and how."""
+        self._told = ""
+        """What was said of a search that was stopped."""
         session.changed.connect(self._drop_needless)
 
     @property
@@ -71,6 +73,7 @@ class Detector(QObject):
         if not asked:
             self.finished.emit(True)
             return
+        self._session.withdrawn.emit(self._told)
         self._batch = {view.image: view.roi for view in asked}
         self._found_in_batch = dict.fromkeys(self._batch)
         grid_size = project.grid_size or infer_grid_size(project.views)
@@ -214,12 +217,11 @@ class Detector(QObject):
         views = self._batch_views
         waiting = sum(view.status is ViewStatus.WAITING for view in views)
         if waiting:
-            self._session.notified.emit(
-                self.tr(
-                    "The search was stopped: {0} of {1} images have been searched. Calibrate "
-                    "searches the others."
-                ).format(len(views) - waiting, len(views))
-            )
+            self._told = self.tr(
+                "The search was stopped: {0} of {1} images have been searched. Calibrate "
+                "searches the others."
+            ).format(len(views) - waiting, len(views))
+            self._session.notified.emit(self._told)
 
 
 def _find_search_key(project: Project) -> Hashable:

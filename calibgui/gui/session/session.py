@@ -33,6 +33,8 @@ class Session(QObject):
     """An operation could not be done (a CalibrationError), or met a bug (anything else)."""
     notified = Signal(str)
     """There is a message for the user."""
+    withdrawn = Signal(str)
+    """This message for the user holds no longer."""
 
     def __init__(self, parent: QObject | None = None) -> None:
         super().__init__(parent)

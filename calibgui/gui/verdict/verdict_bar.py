@@ -267,6 +267,10 @@ class VerdictBar(QFrame):
         is_searched = all(view.status is not ViewStatus.WAITING for view in project.views)
         if project.views and is_searched and not project.usable:
             return self.tr("No photograph can be used: click one to see why.")
+        if project.by_hand and not project.usable:
+            return self.tr(
+                "Mark the board in the photographs (M), or let them be searched: Set-up."
+            )
         return self.tr("How far the camera can be trusted is said here once it is calibrated.")
 
     def _show_buttons(self) -> None:

@@ -56,8 +56,9 @@ class Banner(QFrame):
         self._show(text, choices)
 
     def withdraw(self, text: str) -> None:
-        """Take the question `text` back, shown or covered; others stay."""
-        if self._kept.pop(text, None) is not None and self.text.text() == text:
+        """Take the question or message `text` back, shown or covered; others stay."""
+        self._kept.pop(text, None)
+        if not self.isHidden() and self.text.text() == text:
             self._show_next()
 
     def hide_failure(self) -> None:

@@ -172,6 +172,7 @@ class MainWindow(QMainWindow):
         self.session.changed.connect(self._refresh)
         self.session.failed.connect(self._show_failed_work)
         self.session.notified.connect(self.banner.show_text)
+        self.session.withdrawn.connect(self.banner.withdraw)
         Offers(self.session, self.detector, self.calibrator, self.files, self.images, self.banner)
         self.verdict.panel_wanted.connect(self._show_panel_named)
         self.verdict.calibration_wanted.connect(self._calibrate_anew)

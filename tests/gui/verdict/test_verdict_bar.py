@@ -129,6 +129,15 @@ def test_no_photograph_that_can_be_used_is_said(plain: Project, window: MainWind
     assert reason.text().startswith("How far the camera can be trusted")
 
 
+def test_marking_by_hand_is_said_to_be_awaited(plain: Project, window: MainWindow) -> None:
+    waiting = tuple(replace(v, status=ViewStatus.WAITING, corners=None) for v in plain.views)
+    by_hand = replace(plain, views=waiting, results={}, by_hand=True)
+    window.session.begin(Document(by_hand))
+    assert window.verdict.reason.text().startswith("Mark the board in the photographs (M)")
+    window.session.edit("Search", lambda p: replace(p, by_hand=False))
+    assert window.verdict.reason.text().startswith("How far the camera can be trusted")
+
+
 def test_a_lack_of_views_is_put_down_to_the_images_that_cannot_be_used(
     plain: Project, open_project: Open
 ) -> None:

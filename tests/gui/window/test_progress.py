@@ -81,7 +81,12 @@ def test_one_button_ends_a_search(
     assert cancel.geometry() == place
     qtbot.mouseClick(window.calibrate, Qt.MouseButton.LeftButton)
     qtbot.waitUntil(lambda: not window.session.jobs.running)
-    assert "search was stopped" in window.banner.text.text()
+    assert "search was stopped" in window.banner.text.text() and window.banner.isVisible()
+    qtbot.mouseClick(window.calibrate, Qt.MouseButton.LeftButton)
+    qtbot.waitUntil(lambda: window.detector.running)
+    assert not window.banner.isVisible(), "it goes on"
+    qtbot.mouseClick(window.calibrate, Qt.MouseButton.LeftButton)
+    qtbot.waitUntil(lambda: not window.session.jobs.running)
     job = window.session.jobs.start("Working", lambda job: job.cancelling.wait(60))
     qtbot.waitUntil(cancel.isVisible)
     job.cancel()
