@@ -260,6 +260,8 @@ class FilmStrip(QWidget):
             self.threshold.blockSignals(False)
         self._show_threshold(top)
         self.threshold.setEnabled(top > 0)
+        if self._order.criterion is not Criterion.NAME:
+            self.list.scrollTo(self.list.currentIndex())  # it may have another place
 
     def _show_threshold(self, error: float) -> None:
         """Show the threshold as a number, and what excluding by it would do."""
@@ -299,6 +301,7 @@ class FilmStrip(QWidget):
 
     def _sort_by(self, criterion: int) -> None:
         self._order.sort_by(Criterion(criterion))
+        self.list.horizontalScrollBar().setValue(0)  # the first are what was asked for
 
     def _current_changed(self, current: QModelIndex) -> None:
         if current.isValid() and current.data(Role.PATH) != self._session.image:

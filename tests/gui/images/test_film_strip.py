@@ -50,6 +50,27 @@ def test_sorting_by_name_status_and_error(full: MainWindow) -> None:
     assert listed(full)[0] == "0.png"
 
 
+def test_what_is_sorted_by_error_stays_in_sight(full: MainWindow, qtbot: QtBot) -> None:
+    view, session = full.images.list, full.session
+    full.resize(960, 720)
+    bar = view.horizontalScrollBar()
+    qtbot.waitUntil(lambda: bar.maximum() > 0)
+    bar.setValue(bar.maximum())
+    full.images.sorting.setCurrentIndex(2)
+    assert bar.value() == 0
+
+    def is_in_sight() -> bool:
+        return view.viewport().rect().contains(view.visualRect(view.currentIndex()).center())
+
+    view.setCurrentIndex(view.model().index(0, 0))
+    for change in (lambda: full.images.exclude(full.images.chosen), session.document.undo):
+        before = session.result
+        change()
+        qtbot.waitUntil(lambda before=before: session.result is not before)
+        qtbot.waitUntil(is_in_sight)
+    assert view.currentIndex().row() == 0
+
+
 def test_several_images_are_excluded_and_removed_by_keys(
     full: MainWindow, qtbot: QtBot, qapp: QApplication
 ) -> None:
