@@ -136,12 +136,16 @@ class CoveragePanel(Panel):
             text = self.tr("The next view (red): {0} {1}")
             self.advice.setText(text.format(view.instruction, diagnosis.hint))
             return
-        self.advice.setText(
-            self.tr(
+        before, after = map(format_two_digits, (view.before, view.after))
+        text = (
+            self.tr("The next view (red): {0} It hardly lowers the uncertainty of {1} px.")
+            if before == after
+            else self.tr(
                 "The next view (red): {0} It lowers the uncertainty over the image from "
                 "{1} to {2} px."
-            ).format(view.instruction, *map(format_two_digits, (view.before, view.after)))
+            )
         )
+        self.advice.setText(text.format(view.instruction, before, after))
 
     def _select(self, k: int, corner: int) -> None:  # noqa: ARG002 - a view has one tilt
         self._ring_view(k)

@@ -74,6 +74,21 @@ def test_selection_is_ringed(panel: CoveragePanel) -> None:
     assert len(panel.tilts._ring.getData()[0]) == 0
 
 
+def test_a_gain_that_two_digits_do_not_show_is_not_said_to_be_one(
+    shown: Shown[CoveragePanel],
+    result: Result,
+    best: NextView,
+    jobs: Jobs,
+    qtbot: QtBot,
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    little = replace(best, before=3.31, after=3.28)
+    monkeypatch.setattr(coverage, "propose_views", lambda *_: (little,))
+    panel = shown(CoveragePanel, result)
+    qtbot.waitUntil(lambda: not jobs.running)
+    assert panel.advice.text().endswith("It hardly lowers the uncertainty of 3.3 px.")
+
+
 def test_the_next_view_is_drawn_and_told(
     panel: CoveragePanel, jobs: Jobs, best: NextView, qtbot: QtBot
 ) -> None:
