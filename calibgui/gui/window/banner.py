@@ -6,11 +6,15 @@ from collections.abc import Callable, Mapping
 from types import MappingProxyType
 
 from PySide6.QtCore import QEvent, Qt
-from PySide6.QtWidgets import QFrame, QHBoxLayout, QPushButton, QToolButton, QWidget
+from PySide6.QtGui import QResizeEvent
+from PySide6.QtWidgets import QFrame, QGridLayout, QHBoxLayout, QPushButton, QToolButton, QWidget
 
 from calibgui.engine.errors import CalibrationError
 from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.wrapped_label import WrappedLabel
+
+_NARROW = 640
+"""Width below which a message and two buttons have no room beside each other, px."""
 
 
 class Banner(QFrame):
@@ -32,9 +36,15 @@ class Banner(QFrame):
         self.dismiss.setToolTip(self.tr("Dismiss this message"))
         self.dismiss.setAccessibleName(self.dismiss.toolTip())
         self.dismiss.clicked.connect(self._end)
-        self._row = QHBoxLayout(self)
-        self._row.addWidget(self.text, 1)
-        self._row.addWidget(self.dismiss, 0, Qt.AlignmentFlag.AlignTop)
+        self._choices = QWidget()
+        self._row = QHBoxLayout(self._choices)
+        self._row.setContentsMargins(0, 0, 0, 0)
+        self._row.addStretch(1)
+        self._grid = QGridLayout(self)
+        self._grid.setColumnStretch(0, 1)
+        self._grid.addWidget(self.text, 0, 0)
+        self._grid.addWidget(self._choices, 0, 1)
+        self._grid.addWidget(self.dismiss, 0, 2, Qt.AlignmentFlag.AlignTop)
         self._failure = False
         self._kept: dict[str, Mapping[str, Callable[[], None]]] = {}
         """Open questions with their choices, and messages, that come back; the latest is last."""
@@ -88,12 +98,21 @@ class Banner(QFrame):
             button = QPushButton(name)
             button.clicked.connect(self._end)
             button.clicked.connect(lambda _=False, does=does: does())
-            self._row.insertWidget(self._row.count() - 1, button)
+            self._row.addWidget(button)
             self.buttons.append(button)
+        self._choices.setVisible(bool(choices))
         self.text.setText(text)
         self._failure = failure
         self._restyle()
         self.show()
+
+    def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name
+        """Put the choices below the text where it would be left a narrow column."""
+        super().resizeEvent(event)
+        if event.size().width() < _NARROW:
+            self._grid.addWidget(self._choices, 1, 0, 1, 3)
+        else:
+            self._grid.addWidget(self._choices, 0, 1)
 
     def changeEvent(self, event: QEvent) -> None:  # noqa: N802 - Qt's name
         super().changeEvent(event)

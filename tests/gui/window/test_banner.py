@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 import pytest
+from PySide6.QtCore import QPoint
 from pytestqt.qtbot import QtBot
 
 from calibgui.engine.errors import CalibrationError
@@ -54,6 +55,22 @@ def test_a_message_that_a_question_covers_comes_back(banner: Banner) -> None:
     assert not banner.buttons
     banner.dismiss.click()
     assert not banner.isVisible()
+
+
+def test_choices_leave_the_width_of_a_narrow_window_to_the_message(
+    window: MainWindow, qtbot: QtBot
+) -> None:
+    banner = window.banner
+    text = "The program ended without saving. Its state of 1 January 2026 has been kept."
+    banner.show_text(text, {"&Recover": lambda: None, "Go on &without": lambda: None})
+    qtbot.waitUntil(lambda: banner.buttons[0].y() == banner.buttons[1].y())
+    assert banner.buttons[0].mapTo(banner, QPoint()).y() < banner.text.geometry().bottom()
+    window.resize(600, 720)
+    qtbot.waitUntil(lambda: banner.width() == window.pages.width() < 640)
+    qtbot.waitUntil(lambda: banner.text.width() > 500)
+    button = banner.buttons[0]
+    assert button.mapTo(banner, QPoint()).y() > banner.text.geometry().bottom()
+    qtbot.waitUntil(lambda: button.mapTo(banner, button.rect().bottomLeft()).y() < banner.height())
 
 
 def test_a_first_message_of_two_lines_is_not_cut(window: MainWindow, qtbot: QtBot) -> None:
