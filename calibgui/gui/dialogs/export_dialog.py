@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import os
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
@@ -137,7 +138,10 @@ class ExportDialog(QDialog):
             self.tr("Preparing {0}").format(exporter.title),
             lambda _: exporter.write(self._result, draft),
             lambda report: self._drafted(exporter, report),
-            failed=lambda error: self.note.setText(str(error)),
+            # The draft's folder is of no use to the user.
+            failed=lambda error: self.note.setText(
+                str(error).replace(f"{draft.parent}{os.sep}", "")
+            ),
             owner=self,
         )
 

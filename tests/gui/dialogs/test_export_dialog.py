@@ -13,7 +13,8 @@ from PySide6.QtWidgets import QFileDialog
 from pytestqt.qtbot import QtBot
 
 from calibgui.dataset import Result
-from calibgui.formats import EXPORTERS
+from calibgui.engine.errors import CalibrationError
+from calibgui.formats import EXPORTERS, ExportReport
 from calibgui.formats.camera_refit import express_in_format
 from calibgui.gui.dialogs.export_dialog import ExportDialog
 from calibgui.gui.jobs.jobs import Jobs
@@ -115,6 +116,18 @@ def test_a_format_that_fails_says_why(jobs: Jobs, result: Result, qtbot: QtBot) 
     assert "not a finite number" in dialog.note.text()
     assert not dialog.save.isEnabled() and not dialog.copy.isEnabled()
     dialog.reject()
+
+
+def test_a_refusal_names_the_file_without_the_drafts_folder(
+    dialog: ExportDialog, jobs: Jobs, qtbot: QtBot, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def refuse(_: Result, path: Path) -> ExportReport:
+        raise CalibrationError(f"{path} is not written: it cannot be.", "Take another format.")
+
+    refusing = replace(EXPORTERS["lensfun"], write=refuse)
+    monkeypatch.setitem(EXPORTERS, "lensfun", refusing)
+    choose(dialog, "lensfun", jobs, qtbot)
+    assert dialog.note.text().startswith("camera.xml is not written: it cannot be.")
 
 
 def test_closing_removes_the_drafts(dialog: ExportDialog, qtbot: QtBot) -> None:
