@@ -84,7 +84,7 @@ def invert_map(
     with np.errstate(all="ignore"):  # points without an inverse overflow; they end as NaN below
         for _ in range(_MAX_ITERATIONS):
             mapped = forward(a[active])
-            step = _solve_pairs(mapped.by_point, mapped.points - target[active])
+            step = solve_pairs(mapped.by_point, mapped.points - target[active])
             a[active] = _stop_before_pole(a[active], a[active] - step, radial.pole)
             length = np.hypot(*step.T)
             moving = ~(length <= _MAX_STEP * (1 + np.hypot(*a[active].T))) & np.isfinite(length)
@@ -141,8 +141,8 @@ def _stop_before_pole(a: Array, moved: Array, pole: float) -> Array:
     return np.where((radius < pole)[:, None], moved, moved * (halfway / radius)[:, None])
 
 
-def _solve_pairs(J: Array, miss: Array) -> Array:
-    """Return J^-1 miss (n, 2) for J (n, 2, 2) and miss (n, 2)."""
+def solve_pairs(J: Array, miss: Array) -> Array:
+    """Return J^-1 miss (n, 2) for J (n, 2, 2) and miss (n, 2), not finite where J is singular."""
     det = J[:, 0, 0] * J[:, 1, 1] - J[:, 0, 1] * J[:, 1, 0]
     solved = [
         J[:, 1, 1] * miss[:, 0] - J[:, 0, 1] * miss[:, 1],

@@ -191,8 +191,8 @@ def _validate(views: Sequence[Observation], calibrations: Sequence[Calibration])
         folds.append(
             Fold(
                 np.array(out),
-                _compute_rms(calibration.residuals),
-                _compute_rms(held_out),
+                compute_rms(calibration.residuals),
+                compute_rms(held_out),
                 calibration.camera,
                 calibration.board_shape,
             )
@@ -202,8 +202,8 @@ def _validate(views: Sequence[Observation], calibrations: Sequence[Calibration])
         folds=tuple(folds),
         by_view=np.array([residual.rms for residual in complete]),
         lengths=np.concatenate([np.linalg.norm(view.image, axis=1) for view in complete]),
-        training=_compute_rms(trained),
-        held_out=_compute_rms(complete),
+        training=compute_rms(trained),
+        held_out=compute_rms(complete),
     )
 
 
@@ -226,7 +226,7 @@ def resect_views(
     return compute_view_residuals(refine_poses(start, observations, *how), observations, *how)
 
 
-def _compute_rms(residuals: Sequence[ViewResiduals]) -> float:
+def compute_rms(residuals: Sequence[ViewResiduals]) -> float:
     """Return the root mean square length of the residuals of views together, px."""
     image = np.concatenate([view.image for view in residuals])
     return float(np.sqrt(np.mean(np.sum(image**2, axis=1))))

@@ -27,7 +27,11 @@ from calibgui.engine.assessment.changes.comparison import (
     compare_cameras,
     find_covered_pixels,
 )
-from calibgui.engine.assessment.choices.cross_validation import DEFAULT_FOLDS, resect_views
+from calibgui.engine.assessment.choices.cross_validation import (
+    DEFAULT_FOLDS,
+    compute_rms,
+    resect_views,
+)
 from calibgui.engine.calibration.calibrate import calibrate
 from calibgui.engine.calibration.methods import DEFAULT_METHOD, METHODS
 from calibgui.engine.calibration.methods.dlt import DLT, make_dlt
@@ -98,7 +102,7 @@ class MethodTrial:
     @property
     def rms(self) -> float:
         """RMS length of the residuals, px."""
-        return _compute_rms(self.calibration.residuals)
+        return compute_rms(self.calibration.residuals)
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -311,7 +315,7 @@ class _Attempt:
                 unseen += resect_views(found, self._views[fold :: self._folds])
         except CalibrationError as error:
             return float("nan"), error.message
-        return _compute_rms(unseen), ""
+        return compute_rms(unseen), ""
 
     def _try_lines(self, name: str, method: LineMethod) -> LineTrial:
         """Straighten the rows and columns of the board, and compare with the chosen camera."""
@@ -353,12 +357,6 @@ class _Attempt:
                 return float("nan")
             squares += [rms**2] * sum(len(view.uv) for view in unseen)
         return float(np.sqrt(np.mean(squares)))
-
-
-def _compute_rms(residuals: Sequence[ViewResiduals]) -> float:
-    """Return the root mean square length of the residuals of views together, px."""
-    image = np.concatenate([view.image for view in residuals])
-    return float(np.sqrt(np.mean(np.sum(image**2, axis=1))))
 
 
 def measure_radial_shift(camera: Camera, radius: float) -> float:

@@ -24,13 +24,16 @@ from calibgui.engine.arrays import IntArray
 from calibgui.engine.calibration.methods.method import (
     Refinement,
     evaluate_state,
-    predict_decrease,
     refine_by_bundle_adjustment,
     subtract_states,
 )
 from calibgui.engine.calibration.observations import Observations
 from calibgui.engine.calibration.options import Options
-from calibgui.engine.calibration.refinement.levenberg_marquardt import Solution
+from calibgui.engine.calibration.refinement.levenberg_marquardt import (
+    Solution,
+    measure_scaled_step,
+    predict_full_decrease,
+)
 from calibgui.engine.calibration.refinement.residuals import State
 from calibgui.engine.calibration.refinement.schur import NormalEquations
 from calibgui.engine.calibration.result import Calibration, Iteration, Report, Status
@@ -90,7 +93,7 @@ def refine_by_alternation(
             replace(
                 here.history[0],
                 index=index,
-                step=_measure_scaled_step(before, state, here.normal, options.free),
+                step=_measure_turn(before, state, here.normal, options.free),
                 seconds=time.perf_counter() - began,
             )
         )
@@ -117,14 +120,10 @@ def remark_unfinished_alternation(calibration: Calibration) -> tuple[str, ...]:
 def _has_converged(normal: NormalEquations, observations: Observations) -> bool:
     """Return whether a step of all unknowns together predicts no decrease worth taking."""
     rounding = _ROUNDING * float(np.sum(observations.uv**2))
-    return predict_decrease(normal) <= max(_MAX_DECREASE * normal.cost, rounding)
+    return predict_full_decrease(normal) <= max(_MAX_DECREASE * normal.cost, rounding)
 
 
-def _measure_scaled_step(
-    before: State, after: State, normal: NormalEquations, free: IntArray
-) -> float:
+def _measure_turn(before: State, after: State, normal: NormalEquations, free: IntArray) -> float:
     """Return the length of a turn, unknowns scaled to a unit diagonal of J^T J."""
     by_shared, by_pose = subtract_states(after, before)
-    square = np.sum(np.diag(normal.U) * by_shared[free] ** 2)
-    square += np.sum(np.diagonal(normal.V, axis1=1, axis2=2) * by_pose**2)
-    return float(np.sqrt(square))
+    return measure_scaled_step(normal, by_shared[free], by_pose)

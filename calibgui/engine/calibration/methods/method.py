@@ -33,7 +33,6 @@ from calibgui.engine.calibration.refinement.levenberg_marquardt import (
     minimise,
 )
 from calibgui.engine.calibration.refinement.residuals import State, build_stage_two
-from calibgui.engine.calibration.refinement.schur import NormalEquations, solve_normal_equations
 from calibgui.engine.calibration.refinement.whitening import whiten_observations
 from calibgui.engine.calibration.result import Calibration, Cost, Report, Status
 from calibgui.engine.camera.models import find_model, list_parameter_names
@@ -342,12 +341,6 @@ def evaluate_state(
     if report is not None:
         report(iteration)
     return found._replace(history=(iteration,), status=Status.CONVERGED)
-
-
-def predict_decrease(normal: NormalEquations) -> float:
-    """Return the decrease of the cost that an undamped step of all unknowns predicts."""
-    by_shared, by_pose = solve_normal_equations(normal, 0.0)
-    return -float(by_shared @ normal.shared + np.sum(by_pose * normal.pose))
 
 
 def subtract_states(a: State, b: State) -> tuple[Array, Array]:

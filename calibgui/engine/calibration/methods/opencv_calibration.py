@@ -33,11 +33,13 @@ from calibgui.engine.calibration.methods.method import (
     Method,
     Refinement,
     evaluate_state,
-    predict_decrease,
 )
 from calibgui.engine.calibration.observations import Observations
 from calibgui.engine.calibration.options import Options
-from calibgui.engine.calibration.refinement.levenberg_marquardt import StartError
+from calibgui.engine.calibration.refinement.levenberg_marquardt import (
+    StartError,
+    predict_full_decrease,
+)
 from calibgui.engine.calibration.refinement.residuals import State
 from calibgui.engine.calibration.result import Report, Status
 from calibgui.engine.errors import CalibrationError
@@ -99,7 +101,7 @@ def _refine(
     state = State(np.append(found.params, 0.0), rotation_from_vector(found.rvecs), found.tvecs)
     solution = evaluate_state(observations, state, options, report)
     rounding = _MIN_VARIANCE * observations.count
-    gain = predict_decrease(solution.normal)
+    gain = predict_full_decrease(solution.normal)
     if gain > _MAX_DECREASE * solution.normal.cost + rounding:
         solution = solution._replace(status=Status.MAX_ITERATIONS)
     return Refinement(observations, solution)

@@ -129,7 +129,7 @@ def minimise(
         trial = state.take_step(*step, free)
         at_trial = normal_at(trial)
         if at_trial.total_cost < normal.total_cost:
-            length = _measure_scaled_step(normal, *step)
+            length = measure_scaled_step(normal, *step)
             decreased = normal.total_cost - at_trial.total_cost
             if damping > _START_DAMPING or not _leaves_factors(normal, decrease, decreased):
                 factors = None
@@ -194,8 +194,12 @@ def _is_minimum(
     is_small = decrease <= max_decrease * normal.total_cost
     if is_small and damping / _MIN_INFORMATION <= _MAX_UNDAMPED_DECREASE / _MAX_DECREASE:
         return True
-    full_step = solve_normal_equations(normal, 0.0)
-    return _predict_decrease(normal, *full_step) <= _MAX_UNDAMPED_DECREASE * normal.total_cost
+    return predict_full_decrease(normal) <= _MAX_UNDAMPED_DECREASE * normal.total_cost
+
+
+def predict_full_decrease(normal: NormalEquations) -> float:
+    """Return the decrease of the cost that an undamped step of all unknowns predicts."""
+    return _predict_decrease(normal, *solve_normal_equations(normal, 0.0))
 
 
 def _predict_decrease(normal: NormalEquations, by_shared: Array, by_pose: Array) -> float:
@@ -210,7 +214,7 @@ def _measure_scaled_gradient(normal: NormalEquations) -> float:
     return float(np.sqrt(max(shared.max(initial=0.0), poses.max(initial=0.0))))
 
 
-def _measure_scaled_step(normal: NormalEquations, by_shared: Array, by_pose: Array) -> float:
+def measure_scaled_step(normal: NormalEquations, by_shared: Array, by_pose: Array) -> float:
     """Return the length of a step, unknowns scaled to a unit diagonal of J^T J."""
     square = normal.U.diagonal() @ by_shared**2
     square += np.vdot(normal.V.diagonal(axis1=1, axis2=2), by_pose**2)

@@ -48,6 +48,7 @@ import numpy as np
 import scipy
 
 from calibgui.engine.arrays import Array, BoolArray, IntArray
+from calibgui.engine.camera.inverse import solve_pairs
 from calibgui.engine.camera.model import Lens, LensProjection, LensUnprojection
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.kernels import with_kernel
@@ -79,7 +80,7 @@ _MIN_COMPILED_POINTS = 1000
 """Number of points from which their images are computed by compiled code."""
 
 
-class LocallyImaged(NamedTuple):
+class LocalProjection(NamedTuple):
     """Image points of rays, with the few control points that each depends on."""
 
     points: Array
@@ -146,12 +147,12 @@ class SplinedStereographic(Lens):
         u = stereographic_from_rays(rays)[0]
         return np.asarray(u + evaluate_surface(self, u, k)[0])
 
-    def project_locally(self, rays: Array, k: Array) -> LocallyImaged:
+    def project_locally(self, rays: Array, k: Array) -> LocalProjection:
         """Map rays to image points, with the derivatives that are not 0, as `project`."""
         u, by_ray = stereographic_from_rays(rays)
         shift, by_u = evaluate_surface(self, u, k)
         weights, first = self._weigh_control_points(u)
-        return LocallyImaged(u + shift, (np.eye(2) + by_u) @ by_ray, weights, first)
+        return LocalProjection(u + shift, (np.eye(2) + by_u) @ by_ray, weights, first)
 
     def unproject(self, d: Array, k: Array) -> LensUnprojection:
         """Map image points to rays of length 1, by Newton's method.
@@ -400,7 +401,8 @@ def iterate_newton(
     for _ in range(int(max_iterations)):
         if not active.size:
             break
-        step = _solve_pairs(J[active], -miss[active])
+        with np.errstate(all="ignore"):  # a singular J gives no step
+            step = solve_pairs(J[active], -miss[active])
         trial = np.clip(u[active] + share[active, None] * step, -lens.edge, lens.edge)
         there, slope = lens.measure_miss(trial, d[active], k)
         better = np.hypot(*there.T) < np.hypot(*miss[active].T)
@@ -421,11 +423,3 @@ def _weigh_neighbours(x: Array) -> tuple[list[Array], list[Array]]:
     values = [y**3, 3 * x**3 - 6 * x**2 + 4, 3 * y**3 - 6 * y**2 + 4, x**3]
     slopes = [-(y**2), 3 * x**2 - 4 * x, 4 * y - 3 * y**2, x**2]
     return [value / 6 for value in values], [slope / 2 for slope in slopes]
-
-
-def _solve_pairs(J: Array, right: Array) -> Array:
-    """Return J^-1 times `right` (n, 2) for J (n, 2, 2), not finite where J is singular."""
-    a, b, c, d = J[:, 0, 0], J[:, 0, 1], J[:, 1, 0], J[:, 1, 1]
-    x, y = right.T
-    with np.errstate(all="ignore"):
-        return np.stack([d * x - b * y, a * y - c * x], axis=1) / (a * d - b * c)[:, None]
