@@ -14,6 +14,7 @@ from calibgui.dataset import Result
 from calibgui.engine.arrays import Array
 from calibgui.engine.calibration import Calibration
 from calibgui.report.coverage import count_corners_per_cell, measure_attitudes
+from calibgui.report.names import join_words
 
 _MIN_TILT = np.deg2rad(15)
 """Tilt, rad, below which a view adds little to the focal length."""
@@ -69,7 +70,7 @@ def _advise_regions(uv: Array, calibration: Calibration) -> Iterator[str]:
     names = [_REGION_NAMES[i][j] for i, j in np.argwhere(empty)]
     if names:
         yield (
-            f"bring the board into the image's {_join_names(names)}, where few or no corners were "
+            f"bring the board into the image's {join_words(names)}, where few or no corners were "
             "seen: the lens correction is extrapolated there"
         )
 
@@ -88,8 +89,3 @@ def _advise_tilts(tilt: Array, direction: Array) -> Iterator[str]:
     axes = np.abs(np.exp(2j * tilted).mean())
     if axes > 0.9:
         yield "tilt the board about another axis too: all tilts are about the same one"
-
-
-def _join_names(names: list[str]) -> str:
-    """Join names to "a, b and c"."""
-    return names[0] if len(names) == 1 else f"{', '.join(names[:-1])} and {names[-1]}"

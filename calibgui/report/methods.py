@@ -22,6 +22,7 @@ from calibgui.engine.assessment import (
     MethodTrial,
 )
 from calibgui.engine.calibration import Calibration
+from calibgui.report.names import join_words
 from calibgui.report.numbers import format_count, format_with_sigma
 from calibgui.report.tables import align_columns, format_bullet
 
@@ -256,7 +257,8 @@ def _describe_best(best: MethodRow, near: Sequence[MethodRow]) -> str:
     """Say in a sentence which methods predict unseen views best."""
     share = f"{100 * _NEAR_SHARE:.0f} %"
     others = (
-        f"within {share} of it {'is' if len(near) == 1 else 'are'} {_join(r.name for r in near)}"
+        f"within {share} of it {'is' if len(near) == 1 else 'are'} "
+        f"{join_words(row.name for row in near)}"
         if near
         else f"no other method comes within {share} of it"
     )
@@ -269,7 +271,7 @@ def _describe_losses(best: MethodRow, others: Sequence[MethodRow]) -> str:
     if not others:
         return ""
     losses = [f"{row.name} {row.unseen - best.unseen:.2g}" for row in others]
-    return f"Farther off, in px RMS more than it: {_join(losses)}."
+    return f"Farther off, in px RMS more than it: {join_words(losses)}."
 
 
 def _describe_agreement(best: MethodRow, others: Sequence[MethodRow]) -> str:
@@ -284,12 +286,14 @@ def _describe_agreement(best: MethodRow, others: Sequence[MethodRow]) -> str:
     if not agreeing:
         return (
             f"No other method's focal lengths and centre all lie within {limit} of "
-            f"{best.name}'s; the largest distances, in standard deviations: {_join(apart)}."
+            f"{best.name}'s; the largest distances, in standard deviations: {join_words(apart)}."
         )
     text = f"All that they estimate of fx, fy, cx and cy lies within {limit} of {best.name}'s in "
-    text += _join(agreeing)
+    text += join_words(agreeing)
     return (
-        f"{text}; not in {_join(apart)}, the largest distance in brackets." if apart else f"{text}."
+        f"{text}; not in {join_words(apart)}, the largest distance in brackets."
+        if apart
+        else f"{text}."
     )
 
 
@@ -313,14 +317,8 @@ def _describe_lines(lines: Sequence[MethodRow]) -> str:
     errors = [f"{format_length(row.unseen)} px by {row.name}" for row in known]
     return (
         "Rows and columns of unseen views are straight, in RMS distance, to "
-        f"{_join(errors)}, without lengths."
+        f"{join_words(errors)}, without lengths."
     )
-
-
-def _join(words: Iterable[str]) -> str:
-    """Join words as in "a, b and c"."""
-    *first, last = words
-    return f"{', '.join(first)} and {last}" if first else last
 
 
 def tabulate_methods(comparison: MethodComparison) -> str:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from pathlib import PurePath
 
 _MAX_NAME_CHARACTERS = 28
@@ -20,6 +20,12 @@ def shorten_name(path: str) -> str:
     name = make_printable(PurePath(path).name)
     half = (_MAX_NAME_CHARACTERS - 1) // 2
     return name if len(name) <= _MAX_NAME_CHARACTERS else f"{name[:half]}..{name[-half:]}"
+
+
+def join_words(words: Iterable[str]) -> str:
+    """Join words to "a, b and c"."""
+    *first, last = list(words) or [""]
+    return f"{', '.join(first)} and {last}" if first else last
 
 
 def tell_apart(paths: Sequence[str]) -> list[str]:

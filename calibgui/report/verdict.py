@@ -17,6 +17,7 @@ from calibgui.engine.assessment import (
 )
 from calibgui.engine.calibration import DEFAULT_METHOD, Cost
 from calibgui.engine.numbers import format_two_digits
+from calibgui.report.names import join_words
 
 _HEADLINES = {
     Grade.GOOD: "GOOD",
@@ -145,4 +146,4 @@ def join_names(names: Sequence[str], most: int = 3) -> str:
     """Join names to "a, b and c", or to "a, b, c and 4 more"."""
     if len(names) > most:
         return f"{', '.join(names[:most])} and {len(names) - most} more"
-    return " and ".join(filter(None, [", ".join(names[:-1]), *names[-1:]]))
+    return join_words(names)

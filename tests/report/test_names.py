@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from calibgui.report.names import number_names, tell_apart
+from calibgui.report.names import join_words, number_names, tell_apart
 
 
 @pytest.mark.parametrize(
@@ -36,3 +36,7 @@ def test_a_number_is_the_names_own_or_its_place(names: list[str], numbers: list[
 )
 def test_paths_are_as_long_as_tells_them_apart(paths: list[str], ends: list[str]) -> None:
     assert tell_apart(paths) == ends
+
+
+def test_words_are_joined_by_commas_and_one_and() -> None:
+    assert [join_words("abc"[:count]) for count in range(4)] == ["", "a", "a and b", "a, b and c"]
