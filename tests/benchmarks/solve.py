@@ -4,8 +4,8 @@ Two comparisons, all programs on one thread.
 
 whole: from corners to result. Ours is ``calibrate`` with everything that it returns: checks,
 Stage I of up to 25 views, from which it starts (that of all is done when somebody reads it),
-standard deviations of camera and poses, doubt about the plate, residuals in the image and on the
-plate. OpenCV is timed as users call it, without standard deviations, and with
+standard deviations of camera and poses, doubt about the board, residuals in the image and on the
+board. OpenCV is timed as users call it, without standard deviations, and with
 them as long as that takes less than 20 seconds.
 
 solve: from one start, ours, to the minimum. Ours includes the standard deviations of camera and
@@ -70,7 +70,7 @@ DRAWN = {
     "whole, OpenCV with SDs": "OpenCV with standard deviations",
 }
 """What the figure shows, and how it is called there."""
-PLATES = ("affine", "bow", "free")
+BOARD_SHAPES = ("affine", "bow", "free")
 LONGEST = 20.0
 """Seconds beyond which OpenCV's standard deviations are not waited for."""
 CRITERIA = (cv2.TERM_CRITERIA_COUNT + cv2.TERM_CRITERIA_EPS, 100, 1e-12)
@@ -212,7 +212,7 @@ def main() -> None:
     times: dict[str, dict[int, float]] = {}
     with threadpool_limits(1):
         solve(*started(corners(2), "lucchese"), "lucchese")  # compiles, once
-        for board_shape in PLATES:
+        for board_shape in BOARD_SHAPES:
             whole(corners(8), "brown-conrady", board_shape)
         for count in arguments.views:
             row = measured(count, arguments.repeats if count <= 500 else 3, clock, times)
@@ -235,8 +235,8 @@ def measured(
     rms: dict[str, float] = {}
     row["whole, paper's model"], _ = run(partial(whole, views, "lucchese"))
     row["whole"], rms["whole"] = run(partial(whole, views, "brown-conrady"))
-    for board_shape in PLATES:
-        row[f"whole, {board_shape} plate"], _ = run(
+    for board_shape in BOARD_SHAPES:
+        row[f"whole, {board_shape} board"], _ = run(
             partial(whole, views, "brown-conrady", board_shape)
         )
     row["whole, OpenCV"], rms["OpenCV"] = run(partial(opencv, views))

@@ -99,7 +99,7 @@ def example(model: str, aspect: float = 1.0) -> Camera:
 
 
 def imaged(camera: Camera, pose: Pose, xy: Array) -> Array:
-    """(n, 2) where the camera sees plate points (n, 2), px; NaN behind it or beyond the lens."""
+    """(n, 2) where the camera sees points of the board, px; NaN behind it or beyond the lens."""
     point = xy @ Rotation.from_rotvec(np.array(pose.rvec)).as_matrix()[:, :2].T + pose.tvec
     return pixels_from_rays(point, camera)
 
@@ -118,11 +118,11 @@ def looking(
     Args:
         camera: that looks.
         rng: source of the choice.
-        tilt: range of the angle between plate and sensor, degrees.
+        tilt: range of the angle between board and sensor, degrees.
         fill: range of the board's width over the image's.
         roll: largest turn about the board's normal, degrees.
         towards: direction of the tilt, degrees; any if None.
-        board: the target.
+        board: the board.
     """
     direction = np.deg2rad(rng.uniform(0, 360) if towards is None else towards)
     angle = np.deg2rad(rng.uniform(*tilt))

@@ -33,7 +33,7 @@ def make_splined_views(
         lens: the lens; its coefficients are random, a hundredth of a radian.
         count: number of views.
         rng: source of the choice.
-        board: the target, 6 x 7 corners if None.
+        board: the board, 6 x 7 corners if None.
         noise: standard deviation of the corners, px.
         weighted: whether each corner has a covariance of its own, and every third view misses some.
     """

@@ -1,4 +1,4 @@
-"""plate.json reads back, refuses what is no plate, and serves a later calibration."""
+"""The file of a board's shape reads back, refuses others, and serves a later calibration."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from calibgui.engine.boards.shape import BoardShape, BoardShapeModel
 from calibgui.engine.errors import CalibrationError
 from calibgui.formats.board_shape_json import read_board_shape, write_board_shape
 
-PLATE = BoardShape(
+SHAPE = BoardShape(
     BoardShapeModel.FREE,
     [[0.0, 0.0], [30.0, 0.0], [0.0, 30.0]],
     [[0.1, -0.2, 1 / 3], [0.0, 0.0, 0.0], [0.0, 0.05, -0.1]],
@@ -20,11 +20,11 @@ PLATE = BoardShape(
 
 
 def test_reads_back_to_the_last_bit(tmp_path: Path) -> None:
-    write_board_shape(PLATE, tmp_path / "plate.json")
+    write_board_shape(SHAPE, tmp_path / "plate.json")
     back = read_board_shape(tmp_path / "plate.json")
     assert back.model is BoardShapeModel.FREE
     for name in ("nominal", "deviation", "sigma"):
-        np.testing.assert_array_equal(getattr(back, name), getattr(PLATE, name))
+        np.testing.assert_array_equal(getattr(back, name), getattr(SHAPE, name))
 
 
 @pytest.mark.parametrize(

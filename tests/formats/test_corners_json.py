@@ -83,7 +83,7 @@ def test_everything_this_program_knows_reads_back(
 
 
 def test_edited_plate_points_count_for_more_than_the_grid(tmp_path: Path, result: Result) -> None:
-    """A measured plate: the corners keep their grid, the calibration gets the file's points."""
+    """A measured board: the corners keep their grid, the calibration gets the file's points."""
     content = json.loads(dumps(encode_corners(CornerSet((640, 480), result.views, result.board))))
     content["views"][1]["board"][3] = [90.25, 0.5]
     view = _read(tmp_path, content).views[1]

@@ -208,7 +208,7 @@ def test_what_is_left_of_the_sample_looks_like_noise() -> None:
 
 
 def test_the_comparison_of_plates_can_be_stopped_or_cancelled() -> None:
-    """The best so far is then a camera with the nominal plate."""
+    """The best so far is then a camera with the board as drawn."""
     told: list[Iteration] = []
 
     def stop(iteration: Iteration) -> bool:

@@ -75,7 +75,7 @@ def test_every_corner_has_its_place(found: Found, stored: list[tuple[Array, Arra
     # What separates the methods is coma, see the next test; 7 px separate the nearest corners.
     assert np.max(distance) < {"edges": 1.25, "saddle": 1.0}[found.method]
     assert np.median(distance) < {"edges": 0.25, "saddle": 0.20}[found.method]
-    # One numbering for all views: what our grid calls (m, n) is the same point of the plate.
+    # One numbering for all views: what our grid calls (m, n) is the same point of the board.
     board_shapes = [xy[index] for (_, xy), index in zip(stored, nearest, strict=True)]
     assert np.ptp(board_shapes, axis=0).max() == 0
 
@@ -88,7 +88,7 @@ def test_the_corners_are_nearer_the_truth_than_the_stored_ones(
     There the lens smears the edges unevenly, so that a corner lies elsewhere for each size of
     window: OpenCV's cornerSubPix with half-windows of 4, 5, 7 and 9 px gives medians of 0.20,
     0.13, 0.05 and 0.00 px to the stored corners, which are those of 9. Such a shift is smooth
-    and goes into the lens's coefficients. What does not is error, and with the plate's own
+    and goes into the lens's coefficients. What does not is error, and with the board's own
     shape estimated from each, less of it is left of ours, in all views.
     """
     index = [nearest for _, nearest in from_stored(found, stored)]
@@ -110,7 +110,7 @@ def test_the_image_cost(found: Found) -> None:
     assert summary.count == 25 * 156
     assert summary.sigma_x <= {"edges": 0.085, "saddle": 0.102}[found.method]
     assert summary.sigma_y <= {"edges": 0.097, "saddle": 0.112}[found.method]
-    # Bouguet's published values; the plate's own imperfection moves them (NOTES 7).
+    # Bouguet's published values; the board's own imperfection moves them (NOTES 7).
     np.testing.assert_allclose(camera.focal, [657.30, 657.75], atol=1.0)
     np.testing.assert_allclose(camera.centre, [302.98, 242.48], atol=1.5)
 

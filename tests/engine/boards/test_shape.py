@@ -1,4 +1,4 @@
-"""What is known of a plate beforehand."""
+"""What is known of the shape of a board beforehand."""
 
 from __future__ import annotations
 

@@ -41,7 +41,7 @@ def _point(camera: Camera, uv: Array, distance: float) -> Array:
 
 
 def _reprojected(truth: Calibration, again: Calibration, uv: Array, distance: float) -> Array:
-    """Where a re-calibration sees the points behind the pixels, by the mean of its plates."""
+    """Where a re-calibration sees the points behind the pixels, by the mean of its boards."""
     p = _point(truth.camera, uv, distance)
     moved = []
     for old, new in zip(truth.poses, again.poses, strict=True):

@@ -16,7 +16,7 @@ from calibgui.engine.geometry.rotations import rotation_from_vector
 
 CAMERA = Camera((640, 480), [657, 655, 305, 243, 0.25, 0.06, -0.05, 1e-4, 3e-4, 0])
 BOARD = Board(9, 12, 25.0)
-PLATE = BOARD.points()
+POINTS = BOARD.points()
 
 
 def clean(count: int, seed: int, noise: float = 0.1) -> list[Observation]:
@@ -26,21 +26,21 @@ def clean(count: int, seed: int, noise: float = 0.1) -> list[Observation]:
     while len(views) < count:
         R = rotation_from_vector(rng.uniform(-0.6, 0.6, 3))
         T = np.array([rng.uniform(-60, 60), rng.uniform(-40, 40), rng.uniform(450, 650)])
-        point = PLATE @ R[:, :2].T + T - R[:, :2] @ PLATE.mean(axis=0)
+        point = POINTS @ R[:, :2].T + T - R[:, :2] @ POINTS.mean(axis=0)
         uv = pixels_from_rays(point, CAMERA)
         if ((uv > 0) & (uv < CAMERA.size)).all():
-            views.append(Observation(uv + rng.normal(0, noise, uv.shape), PLATE))
+            views.append(Observation(uv + rng.normal(0, noise, uv.shape), POINTS))
     return views
 
 
 def displaced(views: list[Observation], share: float, seed: int) -> tuple[list[Observation], Array]:
     """The views with a share of all corners moved by 3 to 50 px, and which (K, n) those are."""
     rng = np.random.default_rng(seed)
-    moved = rng.random((len(views), len(PLATE))) < share
+    moved = rng.random((len(views), len(POINTS))) < share
     spoilt = []
     for view, bad in zip(views, moved, strict=True):
-        direction = rng.uniform(0, 2 * np.pi, len(PLATE))
-        length = bad * rng.uniform(3, 50, len(PLATE))
+        direction = rng.uniform(0, 2 * np.pi, len(POINTS))
+        length = bad * rng.uniform(3, 50, len(POINTS))
         shift = length[:, None] * np.stack([np.cos(direction), np.sin(direction)], axis=1)
         spoilt.append(Observation(view.uv + shift, view.xy))
     return spoilt, moved
@@ -65,10 +65,10 @@ def test_five_percent_of_displaced_corners_change_nothing(seed: int) -> None:
 def test_two_spoilt_views_are_named_and_left_out(fault: str) -> None:
     views = clean(12, 7)
     truth = calibrate(views, CAMERA.size)
-    grid = np.arange(len(PLATE)).reshape(BOARD.rows, BOARD.cols)
+    grid = np.arange(len(POINTS)).reshape(BOARD.rows, BOARD.cols)
     order = grid[:, ::-1].ravel() if fault == "mirrored" else grid.T.ravel()
     for k in (2, 9):
-        views[k] = Observation(views[k].uv[order], PLATE)
+        views[k] = Observation(views[k].uv[order], POINTS)
     screening = screen_outliers(views, CAMERA.size)
     assert [(r.view, r.is_whole_view) for r in screening.rejected] == [(2, True), (9, True)]
     assert fault in screening.rejected[0].reason
