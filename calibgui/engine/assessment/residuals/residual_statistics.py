@@ -18,6 +18,9 @@ import numpy as np
 from calibgui.engine.arrays import Array, freeze
 from calibgui.engine.calibration.result import Calibration, ViewResiduals
 
+_BINS = 50
+"""Number of bins of a histogram."""
+
 
 @dataclass(frozen=True, slots=True)
 class ResidualSummary:
@@ -110,23 +113,23 @@ class Histogram:
         return np.exp(-0.5 * ((x - self.mean) / s) ** 2) / (s * np.sqrt(2 * np.pi))
 
 
-def make_component_histogram(values: Array, bins: int = 50) -> Histogram:
+def make_component_histogram(values: Array) -> Histogram:
     """Make the histogram of one residual component with a Gaussian (figures 11a and 11b).
 
     Its range is symmetric about 0.
     """
     values = values[np.isfinite(values)]
     limit = float(np.abs(values).max(initial=1e-12))
-    density, edges = np.histogram(values, bins=bins, range=(-limit, limit), density=True)
+    density, edges = np.histogram(values, bins=_BINS, range=(-limit, limit), density=True)
     sd = float(values.std())
     return Histogram(edges, density, float(values.mean()), sd, sd, is_rayleigh=False)
 
 
-def make_length_histogram(values: Array, bins: int = 50) -> Histogram:
+def make_length_histogram(values: Array) -> Histogram:
     """Make the histogram of residual lengths with a Rayleigh density (figure 11c)."""
     values = values[np.isfinite(values)]
     limit = float(values.max(initial=1e-12))
-    density, edges = np.histogram(values, bins=bins, range=(0.0, limit), density=True)
+    density, edges = np.histogram(values, bins=_BINS, range=(0.0, limit), density=True)
     scale = float(np.sqrt(np.mean(values**2) / 2))
     return Histogram(
         edges, density, float(values.mean()), float(values.std()), scale, is_rayleigh=True
