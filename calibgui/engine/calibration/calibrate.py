@@ -24,7 +24,10 @@ from calibgui.engine.arrays import Array, BoolArray, IntArray, Size
 from calibgui.engine.boards.shape import BoardShape, BoardShapeModel, BoardShapePrior
 from calibgui.engine.calibration.board_shape.parametrisation import place_on_board_shape
 from calibgui.engine.calibration.held_values import blame_held_values
-from calibgui.engine.calibration.initialisation.knots import check_knots, choose_knots
+from calibgui.engine.calibration.initialisation.control_points import (
+    check_control_points,
+    choose_control_points,
+)
 from calibgui.engine.calibration.initialisation.start import check_facing
 from calibgui.engine.calibration.methods import DEFAULT_METHOD, check_method, find_method
 from calibgui.engine.calibration.methods.method import Given, Method
@@ -186,7 +189,7 @@ def calibrate(
         observations = replace(observations, cov=None)
     _check_size(observations, size, names)
     if model == PREFIX:
-        model = choose_knots(observations, size)
+        model = choose_control_points(observations, size)
     lens, parameters = find_model(model), list_parameter_names(model)
     if lens.control_points is not None and not as_drawn:
         raise CalibrationError(
@@ -200,7 +203,7 @@ def calibrate(
     began = time.perf_counter()
     start, values, remarks = steps.initialise(given)
     seconds = time.perf_counter() - began
-    check_knots(start, observations, lens)
+    check_control_points(start, observations, lens)
     settings = {
         "cost": cost.value,
         "model": model,

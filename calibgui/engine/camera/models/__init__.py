@@ -21,7 +21,7 @@ from calibgui.engine.camera.models.rational import Rational
 from calibgui.engine.camera.models.scaramuzza import Scaramuzza
 from calibgui.engine.camera.models.splined_stereographic import (
     DEFAULT_FOV,
-    DEFAULT_KNOTS,
+    DEFAULT_CONTROL_POINTS,
     PREFIX,
     SplinedStereographic,
     find_splined_model,
@@ -46,7 +46,7 @@ MODELS: dict[str, Lens] = {
     "mei": Mei(),
     "division": Division(),
     "scaramuzza": Scaramuzza(),
-    PREFIX: SplinedStereographic(*DEFAULT_KNOTS, DEFAULT_FOV),
+    PREFIX: SplinedStereographic(*DEFAULT_CONTROL_POINTS, DEFAULT_FOV),
 }
 """The lens models by their ids; ``Lens.title`` is what people read. `find_model` also knows splined
 models with other numbers of control points."""

@@ -55,9 +55,9 @@ from calibgui.engine.kernels import with_kernel
 
 PREFIX = "splined-stereographic"
 """Beginning of the ids of all splined models; by itself it is the model with the defaults."""
-DEFAULT_KNOTS, DEFAULT_FOV = (16, 11), 120
+DEFAULT_CONTROL_POINTS, DEFAULT_FOV = (16, 11), 120
 """Control points along x and y, and degrees from left to right, of the model named `PREFIX`."""
-_MIN_KNOTS, _MAX_COUNT = 4, 3000
+_MIN_ALONG_AXIS, _MAX_COUNT = 4, 3000
 """Least number of control points along an axis, and largest in all: the solver needs memory for
 the square of twice their number."""
 _PULL, _TANGENTIAL = 0.0625, 100.0
@@ -112,11 +112,11 @@ class SplinedStereographic(Lens):
             CalibrationError: if there are fewer than 4 along an axis or too many in all, or if the
                 angle is not between 0 and 360 degrees.
         """
-        if min(Nx, Ny) < _MIN_KNOTS or Nx * Ny > _MAX_COUNT or not 0 < fov < 360:
+        if min(Nx, Ny) < _MIN_ALONG_AXIS or Nx * Ny > _MAX_COUNT or not 0 < fov < 360:
             raise CalibrationError(
                 f"There is no splined model of {Nx} x {Ny} control points over {fov} degrees.",
-                f"Give at least {_MIN_KNOTS} x {_MIN_KNOTS} and at most {_MAX_COUNT} control points"
-                " and an angle below 360 degrees.",
+                f"Give at least {_MIN_ALONG_AXIS} x {_MIN_ALONG_AXIS} and at most {_MAX_COUNT} "
+                "control points and an angle below 360 degrees.",
             )
         self.Nx, self.Ny, self.fov = Nx, Ny, fov
         self.id = f"{PREFIX}-{Nx}x{Ny}-{fov}"

@@ -1,4 +1,4 @@
-"""The knots of a splined lens: chosen to cover the corners, and refused where they do not."""
+"""The control points of a splined lens: chosen to cover the corners, or refused."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from calibgui.engine.calibration.calibrate import calibrate
-from calibgui.engine.calibration.initialisation.knots import choose_knots
+from calibgui.engine.calibration.initialisation.control_points import choose_control_points
 from calibgui.engine.calibration.observations import Observation, pack_observations
 from calibgui.engine.camera.camera import Camera
 from calibgui.engine.camera.models import find_model
@@ -19,8 +19,8 @@ FISHEYE = Camera(VGA, [190, 191, 322, 236, -0.03, 0.004, -0.001, 0], "kannala-br
 VIEWS = scene(FISHEYE, 12).views
 
 
-def test_the_knots_cover_the_corners_and_little_more() -> None:
-    lens = find_model(choose_knots(pack_observations(VIEWS), VGA))
+def test_the_control_points_cover_the_corners_and_little_more() -> None:
+    lens = find_model(choose_control_points(pack_observations(VIEWS), VGA))
     assert isinstance(lens, SplinedStereographic)
     rays = rays_from_pixels(np.concatenate([view.uv for view in VIEWS]), FISHEYE)
     reach = np.abs(2 * rays[:, :2] / (1 + rays[:, 2:])).max(axis=0)
@@ -38,8 +38,8 @@ def test_a_calibration_without_an_angle_names_the_one_it_took() -> None:
     assert np.sqrt(np.mean(residuals**2)) < 0.1
 
 
-def test_knots_that_do_not_cover_the_corners_are_refused() -> None:
-    with pytest.raises(CalibrationError, match="times as far from the axis as the knots"):
+def test_control_points_that_do_not_cover_the_corners_are_refused() -> None:
+    with pytest.raises(CalibrationError, match="times as far from the axis as the control points"):
         calibrate(VIEWS, VGA, model="splined-stereographic-16x11-60")
 
 
