@@ -173,16 +173,8 @@ def calibrate(
     else:
         held_shape, shape_model = None, parse_choice(BoardShapeModel, board_shape, "board shape")
     as_drawn = held_shape is None and shape_model is BoardShapeModel.NOMINAL
-    if not as_drawn and cost is not Cost.IMAGE:
-        raise CalibrationError(
-            f"The cost {cost.value!r} registers the views on a flat board as it is drawn.",
-            "Use the cost 'image' with another board shape.",
-        )
-    if not (as_drawn or steps.is_weighted):
-        raise CalibrationError(
-            f"The method {steps.name!r} takes the board as it is drawn.",
-            f"Use the method {DEFAULT_METHOD!r} with another board shape.",
-        )
+    if not as_drawn:
+        _check_takes_board_shape(cost, steps)
     size, names = check_image_size(size), names or name_views(len(views))
     observations = pack_observations(views, names)
     if not steps.is_weighted:
@@ -249,6 +241,20 @@ def calibrate(
         estimate = estimate_board_shape(estimate, observations, options, prior, report)
     digest = _compute_digest(observations, settings)
     return assemble_calibration(estimate, options, undetermined, digest, remarks, seconds)
+
+
+def _check_takes_board_shape(cost: Cost, method: Method) -> None:
+    """Refuse a cost or a method that takes the board as it is drawn."""
+    if cost is not Cost.IMAGE:
+        raise CalibrationError(
+            f"The cost {cost.value!r} registers the views on a flat board as it is drawn.",
+            "Use the cost 'image' with another board shape.",
+        )
+    if not method.is_weighted:
+        raise CalibrationError(
+            f"The method {method.name!r} takes the board as it is drawn.",
+            f"Use the method {DEFAULT_METHOD!r} with another board shape.",
+        )
 
 
 def _tabulate_stage_one(given: Given, cost: Cost) -> tuple[StageOne, ...]:
