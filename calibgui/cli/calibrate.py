@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import argparse
 import contextlib
+import itertools
 from pathlib import Path
 
 from calibgui.app.calibrating.redetection import calibrate_twice
@@ -32,6 +33,7 @@ from calibgui.cli.corners import add_corner_options, check_corner_options, read_
 from calibgui.cli.notices import explain_solve
 from calibgui.cli.outputs import add_overwrite_option, check_corner_outputs, refuse_other_format
 from calibgui.dataset import DEFAULT_SQUARE, Result
+from calibgui.dataset.judging import judge_result
 from calibgui.engine.boards import BoardShape, BoardShapeModel, BoardShapePrior
 from calibgui.engine.calibration import DEFAULT_METHOD, METHODS, Cost, DegenerateError
 from calibgui.engine.camera import MODELS, PINHOLE, SplinedStereographic
@@ -166,6 +168,9 @@ def run(options: argparse.Namespace, console: Console) -> None:
     search = not is_corners_file(options.paths)
     with explain_solve(console, corner_set), _show_comparison(settings, console) as advance:
         result = calibrate_twice(corner_set, settings, search=search, progress=advance)
+    with console.show_progress("judging the calibration", "step") as advance:
+        steps = itertools.count(1)
+        judge_result(result, check=lambda: advance(next(steps), 0))
     messages, errors = _write_files(result, options)
     _print_report(result, messages, options, console)
     diagnosis = result.calibration.diagnosis

@@ -170,7 +170,7 @@ def judge_calibration(
         names: names of the views, for messages; numbers by default.
         check: a function that is called now and then, and raises to abandon the work.
     """
-    found = list_findings(calibration, views, names)
+    found = list_findings(calibration, views, names, check or (lambda: None))
     covered = _find_covered(calibration.camera.size, views)
     errors: list[Array] = []
     tried = []

@@ -42,7 +42,7 @@ from calibgui.engine.assessment.causes.mixed_views import DISTORTION, Split, fin
 from calibgui.engine.assessment.causes.rival_lens import fit_rival
 from calibgui.engine.assessment.causes.sheared_images import find_shear
 from calibgui.engine.assessment.residuals.cause_fits import MIN_LEAD
-from calibgui.engine.assessment.residuals.residual_checks import NoiseCheck, check_residuals
+from calibgui.engine.assessment.residuals.residual_checks import NoiseCheck
 from calibgui.engine.assessment.residuals.residual_statistics import summarise_residuals
 from calibgui.engine.assessment.residuals.systematic_errors import prepare_fit
 from calibgui.engine.boards.shape import BoardShapeModel
@@ -134,13 +134,13 @@ def find_split(case: Case) -> Split | None:
     """Find out whether the views may be of two kinds; None if not, or if they are too few."""
     if len(case.views) < MIN_VIEWS_TO_JUDGE:
         return None
+    case.check()
     return find_two_kinds(prepare_fit(case.calibration, case.views))
 
 
 def explain_most(case: Case) -> float:
     """Return the share of the squared residuals that the best cause explains."""
-    report = check_residuals(case.calibration, case.views, case.names)
-    return find_largest_share(report.checks)
+    return find_largest_share(case.report.checks)
 
 
 def find_systematic_cause(case: Case) -> Finding | None:
@@ -148,14 +148,13 @@ def find_systematic_cause(case: Case) -> Finding | None:
     found = _find_cause(case)
     if found is None or found.cause not in (Cause.LENS, Cause.BOARD_SHAPE):
         return found
-    checks = check_residuals(case.calibration, case.views, case.names).checks
     names = ("lens",) if found.cause is Cause.LENS else _CHECKS_OF_BOARD
-    explained = find_largest_share(check for check in checks if check.name in names)
+    explained = find_largest_share(check for check in case.report.checks if check.name in names)
     return find_shear(case, explained or _MIN_SHARE_OF_RIVAL) or found
 
 
 def _find_cause(case: Case) -> Finding | None:
-    report = check_residuals(case.calibration, case.views, case.names)
+    report = case.report
     failed = {check.name: check for check in report.checks if not check.passed}
     if report.are_lens_and_board_alike and len(case.views) < MIN_VIEWS_TO_JUDGE:
         return _describe_lens_or_board(case, failed)
@@ -218,7 +217,8 @@ def _find_cause_beside_board(case: Case, failed: Mapping[str, NoiseCheck]) -> Fi
         free = calibrate(case.views, case.calibration.camera.size, **settings)
     except CalibrationError:
         return None
-    beside = prepare_case(free, case.views, case.names)._replace(numbers=case.numbers)
+    beside = prepare_case(free, case.views, case.names, case.check)
+    beside = replace(beside, numbers=case.numbers)
     found = _find_wrong_lens(beside, explained=1.0)
     if found is None:
         split = find_split(beside)

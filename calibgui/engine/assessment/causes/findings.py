@@ -19,7 +19,8 @@ pixels (``harm.py``).
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -52,7 +53,6 @@ from calibgui.engine.assessment.causes.input_errors import (
 from calibgui.engine.assessment.causes.rival_lens import fit_rival
 from calibgui.engine.assessment.causes.side_by_side import TwoPictures, find_two_pictures
 from calibgui.engine.assessment.residuals.outliers import Screening, select_corners
-from calibgui.engine.assessment.residuals.residual_checks import check_residuals
 from calibgui.engine.calibration.calibrate import calibrate
 from calibgui.engine.calibration.observations import Observation, name_views
 from calibgui.engine.calibration.problem import recover_image_arguments
@@ -93,7 +93,10 @@ did not fit for another cause it was 0.8."""
 
 @with_one_blas_thread
 def list_findings(
-    calibration: Calibration, views: Sequence[Observation], names: Sequence[str] | None = None
+    calibration: Calibration,
+    views: Sequence[Observation],
+    names: Sequence[str] | None = None,
+    check: Callable[[], None] = lambda: None,
 ) -> tuple[Finding, ...]:
     """List what is wrong with a calibration, the most harmful first.
 
@@ -101,13 +104,17 @@ def list_findings(
         calibration: a calibration with any cost.
         views: the views that it was made from.
         names: names of the views, for messages; numbers by default.
+        check: a function that is called now and then, and raises to abandon the work.
     """
-    found = _find(calibration, views, names or name_views(len(views)))
+    found = _find(calibration, views, names or name_views(len(views)), check)
     return tuple(sorted(found, key=lambda finding: finding.harm, reverse=True))
 
 
 def _find(
-    calibration: Calibration, views: Sequence[Observation], names: Sequence[str]
+    calibration: Calibration,
+    views: Sequence[Observation],
+    names: Sequence[str],
+    check: Callable[[], None],
 ) -> Iterator[Finding]:
     """Yield what is wrong; the order of the tests is that of the description above."""
     frame = find_wrong_frame(calibration.camera, views)
@@ -120,18 +127,18 @@ def _find(
     if wrong is not None:
         yield wrong
         return
-    case = prepare_case(calibration, views, names)
+    case = prepare_case(calibration, views, names, check)
     open_coefficients = _find_open_coefficients(case)
     if calibration.cost is not Cost.IMAGE:
         calibration = _minimise_image_cost(calibration, views)
-        case = prepare_case(calibration, views, names)
+        case = prepare_case(calibration, views, names, check)
     pictures = find_two_pictures(calibration, views)
     if pictures is not None:
         yield _describe_two_pictures(case, pictures)
         return
     screening = screen_misplaced_corners(calibration, views)
     if screening is not None:
-        left = _leave_out(screening, views, names)
+        left = _leave_out(screening, views, names, check)
         if not _misses_views(case, screening, left):
             misplaced = describe_misplaced_corners(calibration, screening, views, names)
             if misplaced is not None:
@@ -180,12 +187,17 @@ def _describe_two_pictures(case: Case, found: TwoPictures) -> Finding:
     )
 
 
-def _leave_out(screening: Screening, views: Sequence[Observation], names: Sequence[str]) -> Case:
+def _leave_out(
+    screening: Screening,
+    views: Sequence[Observation],
+    names: Sequence[str],
+    check: Callable[[], None],
+) -> Case:
     """Prepare what is left without the corners that were rejected."""
     used = [k for k, kept in enumerate(screening.kept) if kept.any()]
     left = [select_corners(views[k], screening.kept[k]) for k in used]
-    case = prepare_case(screening.calibration, left, [names[k] for k in used])
-    return case._replace(numbers=used)
+    case = prepare_case(screening.calibration, left, [names[k] for k in used], check)
+    return replace(case, numbers=used)
 
 
 def _misses_views(case: Case, screening: Screening, left: Case) -> bool:
@@ -254,7 +266,7 @@ def _is_noise_enough(case: Case) -> bool:
 
     Views that are too much alike magnify the least that their residuals have in common.
     """
-    checks = check_residuals(case.calibration, case.views, case.names).checks
+    checks = case.report.checks
     smooth = max((check.share for check in checks if check.name == "smooth"), default=0.0)
     explained = max(smooth, find_largest_share(checks))
     return float(np.sqrt(1 - explained)) * case.by_noise_alone > _MAX_NOISE_PX

@@ -18,15 +18,16 @@ standard deviation, which includes what the board and the views' disagreement do
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import replace
-from typing import NamedTuple
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
 from calibgui.engine.arrays import Array
 from calibgui.engine.assessment.changes.camera_uncertainty import estimate_camera_uncertainty
 from calibgui.engine.assessment.changes.comparison import find_covered_pixels
+from calibgui.engine.assessment.residuals.residual_checks import NoiseReport, check_residuals
 from calibgui.engine.assessment.residuals.residual_statistics import summarise_residuals
 from calibgui.engine.calibration.observations import Observation
 from calibgui.engine.calibration.result import Calibration
@@ -34,7 +35,8 @@ from calibgui.engine.images.sampling import make_mesh
 from calibgui.engine.uncertainty.projection_uncertainty import compute_worst_sigma
 
 
-class Case(NamedTuple):
+@dataclass(frozen=True, eq=False)
+class Case:
     """A calibration whose given values and corners are sound, and what is known of its pixels."""
 
     calibration: Calibration
@@ -57,6 +59,13 @@ class Case(NamedTuple):
     """(n, 2, 2) part of it that the corners' noise explains, px^2."""
     rms: float
     """Root mean square residual, px."""
+    check: Callable[[], None]
+    """Function that is called now and then, and raises to abandon the work."""
+
+    @cached_property
+    def report(self) -> NoiseReport:
+        """All that the residuals were tested for, once for all who ask."""
+        return check_residuals(self.calibration, self.views, self.names, lambda *_: self.check())
 
     def measure_harm(self, share: float = 0.0) -> float:
         """Measure what a cause of a share of the squared residuals does to pixels, px rms.
@@ -79,9 +88,13 @@ class Case(NamedTuple):
 
 
 def prepare_case(
-    calibration: Calibration, views: Sequence[Observation], names: Sequence[str]
+    calibration: Calibration,
+    views: Sequence[Observation],
+    names: Sequence[str],
+    check: Callable[[], None] = lambda: None,
 ) -> Case:
     """Prepare a case: find out how well pixels are known, by everything and by noise alone."""
+    check()
     total = estimate_camera_uncertainty(calibration, views)
     over_image = total.worst_direction
     known = over_image[np.isfinite(over_image)]  # a lens may image nothing in the corners
@@ -102,4 +115,5 @@ def prepare_case(
         total=total.covariance[covered],
         by_noise=by_noise.covariance[covered],
         rms=summarise_residuals(calibration.residuals).rms,
+        check=check,
     )

@@ -49,6 +49,8 @@ _MIN_EIGENVALUE = 1e-9
 undetermined: a c that all views share does what the common camera's step does."""
 _MAX_STEPS = 50
 """Number of times that views change their kind, at most."""
+_MAX_SEEDS = 64
+"""Number of views that the search begins with, at most: its time is their number times all."""
 _MIN_PART = 0.65
 """Part of what a camera or board of each view's own explains, from which there may be two kinds."""
 _SPREAD_OF_PART = 0.86
@@ -114,7 +116,7 @@ def split_views(products: ViewProducts) -> Split:
     common = _explain_groups(products, np.zeros(K, dtype=np.intp))[0]
     whole = _explain_each(products) - common
     best, odd = 0.0, np.zeros(K, dtype=bool)
-    for k in range(K):
+    for k in _choose_seeds(products):
         gain, found = _seek_split(products, k)
         if gain - common > best:
             best, odd = gain - common, found
@@ -128,6 +130,15 @@ def split_views(products: ViewProducts) -> Split:
     needed = scipy.special.chdtri(m, _MAX_FALSE_ALARM_RATE / 2.0 ** (K - 1)) * variance
     share = (best - needed) / products.cost if best > needed else 0.0
     return Split(odd, best / whole, share, max(whole - K * m * variance, 0.0) / products.cost)
+
+
+def _choose_seeds(products: ViewProducts) -> list[int]:
+    """Choose the views that the search begins with: of many those that differ most."""
+    K = len(products.b)
+    if K <= _MAX_SEEDS:
+        return list(range(K))
+    gains = [float(b @ _solve(N, b)) for N, b in zip(products.N, products.b, strict=True)]
+    return np.argsort(gains)[-_MAX_SEEDS:].tolist()
 
 
 def _seek_split(products: ViewProducts, seed: int) -> tuple[float, BoolArray]:

@@ -21,7 +21,7 @@ from calibgui.engine.assessment.changes.comparison import compare_cameras
 from calibgui.engine.calibration.calibrate import calibrate
 from calibgui.engine.calibration.observations import Observation
 from calibgui.engine.camera.camera import Camera
-from calibgui.engine.errors import CalibrationError
+from calibgui.engine.errors import CalibrationError, Cancelled
 from calibgui.engine.geometry.pose import Pose
 from tests.engine.scenes import VGA, barrel, looking, scene, seen
 from tests.faults.campaign import inject_fault
@@ -190,6 +190,19 @@ def test_views_all_alike_are_too_few_whatever_they_have_in_common(seed: int) -> 
     (finding,) = found([Observation(view.uv + shared, view.xy) for view in made])
     assert finding.cause is Cause.FEW_VIEWS
     assert finding.message == "The views are too few, or too much alike."
+
+
+def test_the_search_for_causes_tells_of_its_steps_and_can_be_abandoned() -> None:
+    calibration, steps = calibrate(CLEAN, VGA), []
+
+    def abandon() -> None:
+        steps.append(len(steps))
+        if len(steps) == 5:
+            raise Cancelled
+
+    with pytest.raises(Cancelled):
+        list_findings(calibration, CLEAN, check=abandon)
+    assert len(steps) == 5
 
 
 def test_two_views_are_too_few() -> None:

@@ -5,6 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from calibgui.engine.arrays import BoolArray
+from calibgui.engine.assessment.causes import mixed_views
 from calibgui.engine.assessment.causes.finding import Cause
 from calibgui.engine.assessment.causes.findings import list_findings
 from calibgui.engine.assessment.causes.mixed_views import split_views
@@ -35,6 +37,27 @@ def test_two_kinds_are_parted(odd: list[int]) -> None:
     assert sorted(np.flatnonzero(split.is_odd)) == odd
     assert split.is_certain
     assert split.share == pytest.approx(apart / products.cost, abs=0.05)
+
+
+@pytest.mark.parametrize("odd", [2, 90])
+def test_two_kinds_of_many_are_parted_from_a_few_beginnings(
+    odd: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    rng = np.random.default_rng(3)
+    c = np.zeros((200, 4))
+    chosen = sorted(rng.choice(200, odd, replace=False).tolist())
+    c[chosen] = [3.0, -2.0, 1.0, 4.0]
+    products = make_products(c, 0.5, rng)
+    sought: list[int] = []
+    seek = mixed_views._seek_split
+
+    def seek_and_count(products: ViewProducts, seed: int) -> tuple[float, BoolArray]:
+        sought.append(seed)
+        return seek(products, seed)
+
+    monkeypatch.setattr(mixed_views, "_seek_split", seek_and_count)
+    assert np.flatnonzero(split_views(products).is_odd).tolist() == chosen
+    assert len(sought) == 64
 
 
 def test_noise_is_of_no_two_kinds() -> None:
