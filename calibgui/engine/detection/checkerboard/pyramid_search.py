@@ -85,6 +85,8 @@ class _LevelContent:
     plain: float
     """How far from the corners nothing is printed, squares: see `find_candidates`."""
     on_refusal: OnRefusal
+    is_judged: bool = False
+    """True if the lattices that are refused by what is seen at once were dropped."""
 
 
 def find_candidates(
@@ -221,9 +223,11 @@ def _analyse_level(
 
 
 def _drop_refused(content: _LevelContent) -> _LevelContent:
-    """Drop the lattices of a level that are refused by what is seen at once."""
+    """Drop the lattices of a level that are refused by what is seen at once, unless they were."""
+    if content.is_judged:
+        return content
     kept = [each for each in content.lattices if not _refuse(each, content)]
-    return replace(content, lattices=kept)
+    return replace(content, lattices=kept, is_judged=True)
 
 
 def _refuse(lattice: Lattice, content: _LevelContent) -> bool:

@@ -51,6 +51,23 @@ def test_a_lattice_that_a_level_shows_again_is_not_grown_again(
     assert [len(lattice) for lattice in grown].count(990) == 1
 
 
+def test_a_lattice_that_waits_for_finer_levels_is_judged_once(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """One level of this halftone has several of small squares, of which two wait."""
+    judged: list[Lattice] = []
+    refuse = pyramid_search._refuse
+
+    def keep(lattice: Lattice, content: Any) -> bool:
+        judged.append(lattice)
+        return refuse(lattice, content)
+
+    monkeypatch.setattr(pyramid_search, "_refuse", keep)
+    list(pyramid_search.find_candidates(draw_without_board(26)))
+    assert judged
+    assert len(set(map(id, judged))) == len(judged)
+
+
 def test_lattices_that_chance_explains_are_not_grown(monkeypatch: pytest.MonkeyPatch) -> None:
     """One level of these waves has four, all of them ragged."""
     assert count_sparse(monkeypatch, 47, plain=0.26) == 0
