@@ -62,7 +62,7 @@ def disable_copies(corner_set: CornerSet) -> CornerSet:
         views[copy] = replace(views[copy], enabled=False, reason=reason)
     for copy, original in _find_edited(views, usable, seen):
         reason = (
-            f"Looks like a copy of {views[original].image}, drawn on or stored again: it has the "
+            f"Looks like a copy of {views[original].name}, drawn on or stored again: it has the "
             "same noise, and counts once."
         )
         views[copy] = replace(views[copy], enabled=False, reason=reason)
@@ -89,23 +89,28 @@ def _find_resaved(
             files.setdefault(image.removesuffix(suffix), []).append((k, observation))
     found = []
     for alike in files.values():
-        alike.sort(key=lambda one: views[one[0]].image.lower().endswith(_LOSSY))
+        alike.sort(key=lambda one: _is_lossy(views[one[0]]))
         (original, best), *others = alike
         found += [(k, original) for k, other in others if _is_one_photograph(best, other)]
     return found
+
+
+def _is_lossy(view: View) -> bool:
+    """Return whether a view's file stores a photograph less exactly than others do."""
+    return view.image.lower().endswith(_LOSSY)
 
 
 def _find_edited(
     views: Sequence[View], usable: Sequence[int], seen: Sequence[Observation]
 ) -> list[tuple[int, int]]:
     """Find the enabled views that have the noise of another one. Takes and returns as
-    `_find_resaved`; the original is the one with more corners, or the first."""
+    `_find_resaved`; the original is the one with more corners, or the more exact."""
     known = [
         (k, one)
         for k, one in zip(usable, seen, strict=True)
         if views[k].enabled and one.cov is not None
     ]
-    known.sort(key=lambda one: -len(one[1].uv))
+    known.sort(key=lambda one: (-len(one[1].uv), _is_lossy(views[one[0]])))
     observations = [one for _, one in known]
     found: dict[int, int] = {}
     for a, b in sorted(_find_nearest_views(observations)):

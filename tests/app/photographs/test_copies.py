@@ -97,6 +97,9 @@ def test_a_copy_that_was_drawn_on_counts_once(photographs: list[NDArray[np.uint8
     )
     assert set(found) == {"x.png", "y.jpg"}
     assert all(reason.startswith("Looks like a copy of a.png") for reason in found.values())
+    found = list_copies_by_noise(("a.jpg", edited[1]), ("b.png", second), ("c/x.png", first))
+    assert list(found) == ["a.jpg"]
+    assert "copy of x.png," in found["a.jpg"]
     assert list_copies_by_noise(("a.png", first), ("b.png", second), ("c.png", third)) == {}
 
 
