@@ -115,7 +115,7 @@ _MESSAGES = {
     Cause.FOCUS: "The focal length differs between the views.",
     Cause.MOVING_CENTRE: "The principal point differs between the views, as if the images were "
     "stabilised or cropped.",
-    Cause.BENDING_BOARD: "The board bends from view to view.",
+    Cause.BENDING_BOARD: "The board bends from view to view, or lies under glass or plastic.",
     Cause.ROLLING_SHUTTER: "Camera or board moved while the image's rows were read, or the "
     "images were warped.",
     Cause.LINE_JITTER: "The image's rows are shifted sideways against each other.",

@@ -107,8 +107,8 @@ _ADVICE_ON_CAUSES = {
     "and do not touch zoom and focus.",
     "centre": "The principal point differs between the views: switch image stabilisation off, and "
     "do not crop or straighten the photographs.",
-    "bending": "The board bends from view to view, as paper in the hand does: mount it on "
-    "something stiff.",
+    "bending": "The board bends from view to view, as paper in the hand does, or is seen through "
+    "glass: mount it on something stiff, and take off glass or plastic that covers it.",
     "rows": "Camera or board moved while a rolling shutter read the rows, or a program has warped "
     "the photographs: put both on a stand, or expose all rows at once, and switch off what "
     "stabilises or straightens.",

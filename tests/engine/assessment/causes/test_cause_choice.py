@@ -209,3 +209,24 @@ def test_photographs_stored_upside_down_are_named_and_not_a_board(every: int) ->
     assert finding.cause is Cause.MIXED_VIEWS
     assert set(finding.views) in (set(upright), set(range(len(turned))) - set(upright))
     assert "upside down" in finding.message and "Turn them by 180 degrees" in finding.remedy
+
+
+def test_a_board_under_glass_is_not_said_to_bend_for_certain() -> None:
+    """Glass of 6 mm moves corners by the angle at which they are seen."""
+    camera, rng = barrel(), np.random.default_rng(12)
+    poses = [looking(camera, rng) for _ in range(14)]
+    views = []
+    for pose, view in zip(poses, seen(camera, poses).views, strict=True):
+        R = rotation_from_vector(np.array(pose.rvec))
+        board = np.column_stack([view.xy, np.zeros(len(view.xy))])
+        towards = -(R.T @ np.array(pose.tvec)) - board
+        flat, height = np.linalg.norm(towards[:, :2], axis=1), np.abs(towards[:, 2])
+        sine = flat / np.hypot(flat, height)
+        shift = 6.0 * (flat / height - sine / 1.5 / np.sqrt(1 - (sine / 1.5) ** 2))
+        board[:, :2] -= towards[:, :2] * (shift / flat)[:, None]
+        uv = pixels_from_rays(board @ R.T + pose.tvec, camera)
+        views.append(Observation(uv + rng.normal(0, 0.03, uv.shape), view.xy))
+    finding = found(views)[0]
+    assert finding.cause is Cause.BENDING_BOARD
+    assert "glass" in finding.message
+    assert "glass" in finding.remedy
