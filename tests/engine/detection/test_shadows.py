@@ -11,6 +11,7 @@ from calibgui.engine.boards.charuco import Charuco
 from calibgui.engine.boards.checkerboard import CHECKERBOARD
 from calibgui.engine.boards.pattern import Pattern
 from calibgui.engine.boards.puzzleboard import PuzzleBoard
+from calibgui.engine.boards.tagged_checkerboard import TaggedCheckerboard
 from calibgui.engine.detection.find_corners import find_corners
 from tests.scenes.shadows import cast_shadow
 
@@ -19,16 +20,17 @@ _PATTERNS: list[tuple[Pattern, tuple[int, int]]] = [
     (Charuco("DICT_4X4_50", 0.75, False), (7, 10)),
     (AprilGrid("t36h11", 0.3, 2, False), (8, 10)),
     (PuzzleBoard((50, 101)), (7, 10)),
+    (TaggedCheckerboard("t36h11", 1, 2, True), (7, 10)),
 ]
 
 
-@pytest.mark.parametrize(("depth", "penumbra"), [(0.3, 1.0), (0.3, 30.0), (0.7, 30.0)])
+@pytest.mark.parametrize(("depth", "penumbra"), [(0.3, 1.0), (0.7, 30.0), (0.4, 80.0)])
 @pytest.mark.parametrize(("pattern", "size"), _PATTERNS, ids=lambda p: getattr(p, "kind", ""))
 def test_no_corner_is_sure_of_a_wrong_place(
     pattern: Pattern, size: tuple[int, int], depth: float, penumbra: float
 ) -> None:
     """Near the shadow's edge, corners of ChArUco boards lay five times as far off as they said, of
-    AprilGrids three times."""
+    AprilGrids three times; in a penumbra of 80 px those of tagged checkerboards five times."""
     photograph = cast_shadow(Board(*size, 26.0, pattern), 3, depth, penumbra)
     corners = find_corners(photograph.image, size, pattern=pattern)
     (truth,) = photograph.boards

@@ -68,10 +68,10 @@ def fit_tagged_corners(
         found = lattice.found
         outermost = np.ones(lattice.shape, dtype=np.bool_)
         outermost[1:-1, 1:-1] = False
-        fit, bare = fit_without_marks(image, lattice, tags, plain, own_light=False)
+        fit, bare = fit_without_marks(image, lattice, tags, plain)
         near = plain if bare is image else _NEAR
         suspect = outermost[found] | verification.find_suspect_corners(fit.residual)
-        fit = fit_near(bare, lattice, near, fit, suspect, own_light=False)
+        fit = fit_near(bare, lattice, near, fit, suspect)
         good = verification.find_described_corners(fit, lattice)
         if good.all():
             return lattice, fit, rejected

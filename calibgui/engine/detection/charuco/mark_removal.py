@@ -60,7 +60,7 @@ class Marks(NamedTuple):
 
 
 def fit_without_marks(
-    image: GreyImage, lattice: Lattice, marks: Marks, plain: float, own_light: bool = True
+    image: GreyImage, lattice: Lattice, marks: Marks, plain: float
 ) -> tuple[XCornerFit, GreyImage]:
     """Fit the edge model at all corners, without the marks where these are blurred.
 
@@ -69,12 +69,11 @@ def fit_without_marks(
         lattice: the corners, in the lattice of the whole board.
         marks: those of the whole board.
         plain: how far from its edges a square is of one colour, squares.
-        own_light: see `fit_x_corners`.
 
     Returns:
         The fit, and the image without the marks; as it is if no corner is disturbed.
     """
-    fit = fit_x_corners(image, lattice, plain, own_light=own_light)
+    fit = fit_x_corners(image, lattice, plain)
     nearest = plain * lattice.spacing()[lattice.found]
     disturbed = ~(compute_median(fit.blur) <= _MAX_SHARP_BLUR * nearest)
     if not disturbed.any():
@@ -82,7 +81,7 @@ def fit_without_marks(
     drawn = fit.uv
     for _ in range(_REMOVALS):
         bare = remove_marks(image, lattice, fit, marks)
-        without = fit_x_corners(bare, lattice, own_light=own_light)
+        without = fit_x_corners(bare, lattice, is_bare=True)
         fit = replace_fits(fit, without, np.ones(len(disturbed), np.bool_), disturbed)
     return fit.widen(_MOVE_ERROR * compute_lengths(fit.uv - drawn)), bare
 

@@ -11,8 +11,9 @@ Such corners leave less unexplained with gradients of their own, by more than no
 
 of the four more unknowns is 1 on average for any other. What a camera does to all corners alike, as
 one that sharpens to one side, gradients explain a little of, too, and those that have them would be
-moved against the others. So a corner has its own only if it leaves more unexplained than most, or
-if on most of a board of plain squares gradients explain much of it.
+moved against the others. So a corner has its own only if its F stands out from the board's, if it
+leaves more unexplained than most, or if on most of a board of plain squares gradients explain much
+of it.
 
 Those corners are fitted with them, and once more to the nearer half of their edges. An edge of the
 light may cross the farther one, and bend the edges as no gradient does: where the two places differ
@@ -46,7 +47,12 @@ _STEPS = 3
 
 
 def find_uneven_light(
-    model: XCornerModel, products: Array, square: Array, least_noise: float, is_plain: bool
+    model: XCornerModel,
+    products: Array,
+    square: Array,
+    least_noise: float,
+    is_plain: bool,
+    is_bare: bool,
 ) -> BoolArray:
     """Find the corners (n,) that gradients of the light of their own describe clearly better.
 
@@ -57,6 +63,8 @@ def find_uneven_light(
         least_noise: least square of the noise that is believed, grey levels^2.
         is_plain: whether nothing is printed in the squares: blurred, that looks like light at all
             corners.
+        is_bare: whether that was taken out of the image: some corners are left more of it than
+            others, and none stands out.
     """
     _, _, lit_square = take_lit_step(model, products)
     free = products[:, 6, 6] - UNKNOWNS
@@ -67,8 +75,11 @@ def find_uneven_light(
     share = compute_median(gain / np.maximum(free * square, least_noise))
     if is_plain and share > _THRESHOLDS.min_median_share:
         return np.asarray(is_clear)
+    F = gain / (_GRADIENTS * np.maximum(lit_square, least_noise))
+    stands_out = F > _THRESHOLDS.min_gain * max(float(compute_median(F)), 1.0)
     usual = float(compute_median(np.sqrt(square)))
-    return np.asarray(is_clear & (np.sqrt(square) > _THRESHOLDS.min_relative_residual * usual))
+    is_poor = np.sqrt(square) > _THRESHOLDS.min_relative_residual * usual
+    return np.asarray(is_clear & (is_poor | (stands_out & (not is_bare))))
 
 
 def fit_local_light(

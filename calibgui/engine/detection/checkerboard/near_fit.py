@@ -30,7 +30,6 @@ def fit_near(
     plain: float,
     fit: XCornerFit,
     suspect: BoolArray,
-    own_light: bool = True,
 ) -> XCornerFit:
     """Return the fit with the suspect corners (n,) fitted to what is plain around them only, where
     that is enough.
@@ -41,7 +40,6 @@ def fit_near(
         plain: how far from the corners is looked, squares.
         fit: at all n corners.
         suspect: (n,) those that are fitted again.
-        own_light: see `fit_x_corners`.
     """
     found = lattice.found
     large = plain * lattice.spacing() > _MIN_ARM
@@ -49,6 +47,6 @@ def fit_near(
         return fit
     places = np.argwhere(found & large)[:, ::-1].astype(np.float64)
     near = x_corner_fit.fit_x_corners(
-        image, lattice.select(large), priors=NearPriors(places, 2 * plain), own_light=own_light
+        image, lattice.select(large), priors=NearPriors(places, 2 * plain)
     )
     return replace_fits(fit, near, large[found], suspect[large[found]])

@@ -153,7 +153,7 @@ def fit_x_corners(
     bare_edge: float = 0.5,
     geometry: tuple[Array, Array] | None = None,
     priors: BoardPriors | None = None,
-    own_light: bool = True,
+    is_bare: bool = False,
 ) -> XCornerFit:
     """Fit the model at every corner of `lattice`, whose positions are the start.
 
@@ -165,8 +165,8 @@ def fit_x_corners(
         geometry: steps and curvatures of the edges, if a known camera predicts them better than
             the corners found; see ``BoardPriors.estimate_geometry``.
         priors: what is taken from the board as a whole, where its lines are not evenly spaced.
-        own_light: whether corners may have light of their own; what is printed beside one may look
-            like it.
+        is_bare: whether what was printed in the squares was taken out of the image: what is left of
+            it looks like light.
     """
     found = lattice.found
     board = priors or (
@@ -187,9 +187,7 @@ def fit_x_corners(
     least_noise = estimate_least_noise(image)
     # What is printed looks like light where it is blurred.
     is_plain = priors is None and min(plain, bare_edge) == 0.5
-    uneven = np.zeros(len(square), np.bool_)
-    if own_light:
-        uneven = find_uneven_light(before, products, square, least_noise, is_plain)
+    uneven = find_uneven_light(before, products, square, least_noise, is_plain, is_bare)
     noise = np.maximum(_estimate_noise(square, odd_part), least_noise)
     covariance = noise[:, None, None] * inverse
     by_bend = np.zeros_like(covariance)
