@@ -62,9 +62,11 @@ from calibgui.engine.detection.lattice import (
 )
 from calibgui.engine.errors import NoBoardError
 
+_MAX_GAP_ROUNDS = 16
+"""Number of times that gaps are tried again; each time next to the corners that are found."""
 _MAX_ROUNDS = 4
-"""Number of times that gaps are tried again, and that corners are left out and the rest fitted
-again; a board that has not come to rest by then is none."""
+"""Number of times that corners are left out and the rest fitted again; a board that has not come to
+rest by then is none."""
 _TOO_MANY_FAIL = "too many of its corners fail"
 _STATE_SIZE = "State the number of inner corners, rows x columns, or leave it out."
 
@@ -241,7 +243,7 @@ def refine_board(
     """
     is_sparse = compute_filled_share(lattice) < THRESHOLDS.search.min_filled_in_texture
     seen = lattice
-    for _ in range(_MAX_ROUNDS):
+    for _ in range(_MAX_GAP_ROUNDS):
         if is_sparse and (objection := find_objection(seen, grey, plain=plain)):
             # To try so many gaps again, as textures have, takes several times as long.
             return Refusal(lattice.shape, objection)

@@ -17,6 +17,7 @@ from calibgui.engine.boards.puzzleboard import PuzzleBoard
 from calibgui.engine.detection.checkerboard import find_checkerboard
 from calibgui.engine.detection.corners import Corners
 from calibgui.engine.detection.find_corners import find_corners
+from calibgui.engine.detection.lattice import Lattice
 from calibgui.engine.errors import NoBoardError
 from calibgui.engine.images.reading import read_image
 from tests.scenes.checkerboards import draw as draw_scene
@@ -389,3 +390,12 @@ def test_other_cameras(
         corners = find_corners(read_image(path).pixels)
         full += corners.shape == grid_size and corners.complete
     assert full >= least
+
+
+def test_a_wide_gap_is_filled_line_by_line() -> None:
+    scene = draw_scene(Conditions(grid_size=(5, 18), square=28.0, tilt=10.0, turn=0.0, parts=2), 1)
+    col = np.indices((5, 18))[1]
+    ends = Lattice(scene.uv, dark=True).select((col < 2) | (col > 15))
+    board = find_checkerboard.refine_board(scene.photograph(1), ends, "edges")
+    assert isinstance(board, find_checkerboard.RefinedBoard)
+    assert len(board) == 90
