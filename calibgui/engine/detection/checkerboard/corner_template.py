@@ -303,7 +303,7 @@ _CROSSING_BLURS = np.array([0.005, 0.02, 0.04, 0.07, 0.1, 0.14, 0.18, 0.22, 0.27
 """Blurs s of the modelled crossings, squares."""
 _CROSSING_OVERLAPS = np.array([-0.1, -0.08, -0.06, -0.04, -0.02, 0.0, 0.02, 0.04, 0.06, 0.08, 0.1])
 """Overlaps g of the modelled crossings, squares."""
-_PLAIN, _PLAIN_IF_PRINTED = 0.5, 0.25
+_PLAIN, PLAIN_IF_PRINTED = 0.5, 0.25
 """How far from the edges squares are taken to be of one colour, squares: throughout, or where
 something is printed in them."""
 
@@ -324,7 +324,7 @@ def check_crossing(
         nothing printed in them.
     """
     limit = _THRESHOLDS.max_crossing_dissimilarity
-    for reach in sorted({_PLAIN_IF_PRINTED, min(plain, _PLAIN_IF_PRINTED)}, reverse=True):
+    for reach in sorted({PLAIN_IF_PRINTED, min(plain, PLAIN_IF_PRINTED)}, reverse=True):
         near = _compute_typical_patch(corners.shorten_steps(reach), image)
         if _measure_dissimilarity(near, _model_crossings(reach)) > limit:
             continue
@@ -340,8 +340,8 @@ def is_plain_crossing(corners: OrientedCorners, image: GreyImage, is_printed: bo
     """Return whether the typical one of the corners is, nearby, the crossing of two edges in a
     point, where the squares neither overlap nor part as discs do; more strictly if something
     `is_printed` in the squares."""
-    near = _compute_typical_patch(corners.shorten_steps(_PLAIN_IF_PRINTED), image)
-    crossings = _model_crossings(_PLAIN_IF_PRINTED, overlap=False)
+    near = _compute_typical_patch(corners.shorten_steps(PLAIN_IF_PRINTED), image)
+    crossings = _model_crossings(PLAIN_IF_PRINTED, overlap=False)
     limit = (
         _THRESHOLDS.max_printed_dissimilarity if is_printed else _THRESHOLDS.max_dissimilarity_alone
     )

@@ -19,11 +19,13 @@ a board of a thousand corners, most of which are not there.
 
 What these rules expect of edges is a print seen through a good lens. A camera that sharpens to one
 side, beats with a screen's pixels or is far out of focus, and marks in the squares, break them on
-boards whose every corner is sound. So they do not overrule what no texture shows: a full rectangle
-of corners, seen to end on all four sides (`stands_alone` of `verification`). Of that it is only
-asked that two edges cross at its corners, as those of discs do not in a grid of circles, and that
-they are narrower than waves; if the edges bulge, as marks make them seem to, that they are sharp,
-since blur makes discs cross as well.
+boards whose every corner is sound. So they do not overrule what no texture shows: a rectangle of
+corners, some of which may be hidden, seen to end on all sides that lie in the image
+(`stands_alone` of `verification`). Of that it is only asked that the lines run straight through it,
+not shifted from square to square, and either that its edges are sharp and straight near the
+corners and of one print, or that two edges cross at its corners, as those of discs do not in a grid
+of circles, and are narrower than waves; if the edges bulge, as marks make them seem to, that they
+are sharp, since blur makes discs cross as well.
 """
 
 from __future__ import annotations
@@ -34,6 +36,7 @@ import numpy as np
 
 from calibgui.engine.arrays import Array, GreyImage, compute_lengths, compute_median
 from calibgui.engine.detection.checkerboard.corner_template import (
+    PLAIN_IF_PRINTED,
     OrientedCorners,
     check_crossing,
     is_plain_crossing,
@@ -57,6 +60,8 @@ _DOTS_AROUND = "its pattern goes on around it in dots of other sizes"
 _LIKE_DOTS = "its squares differ in size like printed dots"
 OBJECTIONS_TO_CIRCLES = (_NO_CROSSING, _LIKE_DISCS, _DOTS_AROUND, _LIKE_DOTS)
 """The reasons for which a grid of circles that looks like a checkerboard is refused."""
+_MOST = 0.5
+"""Share of the spreads that are known if most are."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -134,7 +139,7 @@ def _judge_edges(
         return ""
     if _do_edges_bulge(edges):
         return _LIKE_DISCS
-    spreads = np.column_stack([edge.spread for edge in edges])
+    spreads = _list_spreads(edges)
     is_uneven = not have_same_spread(spreads, limits.max_spread_inside)
     if is_grown and is_uneven and does_pattern_continue(lattice, image):
         return _DOTS_AROUND
@@ -149,13 +154,43 @@ def _is_beyond_doubt(
     """Return whether a lattice is a board whatever its edges look like away from the corners."""
     if not stands_alone(lattice, image):
         return False
+    limits = THRESHOLDS.prefilter
     edges = _measure_edges(corners, image, plain)
+    width = _measure_width(edges, corners)
     # Marks in the squares look like a bulge, and blurred discs like crossing edges.
     is_printed = _do_edges_bulge(edges)
-    limits = THRESHOLDS.prefilter
+    if not is_printed and _measure_unevenness(_list_spreads(edges)) > limits.max_spread_alone:
+        return False
+    if width <= limits.max_edge_blur_printed:
+        near = _measure_edges(corners, image, PLAIN_IF_PRINTED) if is_printed else edges
+        if not _do_edges_bulge(near) and _is_spread_of_ink(_list_spreads(near)):
+            return True
     max_width = limits.max_edge_blur_printed if is_printed else limits.max_edge_blur_alone
-    return _measure_width(edges, corners) <= max_width and is_plain_crossing(
-        corners, image, is_printed
+    return width <= max_width and is_plain_crossing(corners, image, is_printed)
+
+
+def _list_spreads(edges: tuple[EdgeProfiles, EdgeProfiles]) -> Array:
+    """List the spread of the dark across the edges in either direction, (n, 2) squares."""
+    return np.column_stack([edge.spread for edge in edges])
+
+
+def _is_spread_of_ink(spreads: Array) -> bool:
+    """Return whether spreads (n, 2) squares are known at most corners, alike, and no greater than
+    that of ink."""
+    limits = THRESHOLDS.prefilter
+    return (
+        bool(np.isfinite(spreads).mean() > _MOST)
+        and max(abs(_compute_known_median(along)) for along in spreads.T) <= limits.max_ink
+        and _measure_unevenness(spreads) <= limits.max_spread_inside
+        and have_same_spread(spreads, limits.max_spread_inside)
+    )
+
+
+def _measure_unevenness(spreads: Array) -> float:
+    """Measure the median deviation of spreads (n, 2) squares from the median of their direction, in
+    the direction in which it is greater."""
+    return max(
+        _compute_known_median(abs(along - _compute_known_median(along))) for along in spreads.T
     )
 
 

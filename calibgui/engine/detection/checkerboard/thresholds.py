@@ -169,6 +169,11 @@ class PrefilterThresholds:
     squares ..."""
     max_edge_blur_printed: float = 0.1
     """... and where its edges seem to bulge: those of discs blurred more cross in a point."""
+    max_spread_alone: float = 0.06
+    """Greatest median deviation of the spreads in either direction of a lattice that stands alone,
+    squares: moire and halos cause 0.04, rows that are shifted by a fifth of a square 0.1."""
+    max_ink: float = 0.1
+    """Greatest median spread of the ink of such a lattice, squares."""
     max_direction_difference: float = 0.06
     """Greatest difference of the median spreads in the two directions, squares: cameras sharpen
     rows otherwise than columns. Fixed by the "stripes"."""

@@ -39,6 +39,7 @@ from calibgui.engine.detection.lattice import (
     MAX_GAP,
     Lattice,
     add_border,
+    crop_lattice,
     drop_isolated,
     drop_isolated_and_crop,
     estimate_steps,
@@ -58,6 +59,8 @@ _INSIDE_SQUARES = np.array([[0.5, 0.3], [0.5, 0.7], [0.3, 0.5], [0.7, 0.5]])
 on the corner, may hide: steps along and across."""
 _LINES_THAT_PREDICT = MAX_GAP + 2
 """Number of lines of a lattice, the first, on which places and steps in front of it depend."""
+_MIN_ENDS = 2
+"""Number of sides on which a lattice that stands alone is seen to end."""
 _PLAIN_NEAR = 0.25
 """Distance from the corners, squares, to which marks in the squares, and what hides a part of them,
 do not reach."""
@@ -367,11 +370,26 @@ def has_step_edges(fit: XCornerFit, is_alone: bool = False) -> bool:
 
 
 def stands_alone(lattice: Lattice, image: GreyImage) -> bool:
-    """Return whether a lattice is a full rectangle, large enough for a board, that the image shows
-    to end on all four sides: patterns that go on, or fade out, do not."""
-    if not is_large_enough(lattice) or not lattice.found.all():
+    """Return whether a lattice is a rectangle, large enough for a board, that the image shows to
+    end on all sides where it does not leave the image, at least on two: patterns that go on, or
+    fade out, do not. Up to half of its places in the image may be hidden."""
+    if not is_large_enough(lattice):
         return False
-    return all(find_ends(lattice, image))
+    lattice = crop_lattice(lattice)
+    step = _compute_square_difference(lattice, image)
+    ends = 0
+    for quarters in range(4):
+        end = _find_end_above(turn_lattice(lattice, quarters), image, step)
+        if end is False:
+            return False
+        ends += bool(end)
+    if ends < _MIN_ENDS:
+        return False
+    gaps = np.argwhere(~lattice.found)
+    if not len(gaps):
+        return True
+    uv = grid_map.fit_grid_map(lattice).locate(gaps.astype(np.float64))
+    return int(np.count_nonzero(are_in_image(uv, image.shape))) <= len(lattice)
 
 
 def fill_gaps(lattice: Lattice, shape: tuple[int, ...]) -> Lattice:
@@ -409,8 +427,8 @@ def find_continuing_sides(lattice: Lattice, image: GreyImage) -> Sides:
 def _does_alternate_above(lattice: Lattice, image: GreyImage, min_difference: float) -> bool:
     """Return whether the squares above the first row, and those behind them, are seen to alternate
     by `min_difference`, evenly filled, as if corners between them had been missed."""
-    differences = _measure_differences_above(lattice, image, _INSIDE_SQUARES)
-    going_on = differences.min(axis=(0, 1)) > min_difference
+    differences = _measure_differences_above(lattice, image, _INSIDE_SQUARES).min(axis=(0, 1))
+    going_on = differences[np.isfinite(differences)] > min_difference
     limits = THRESHOLDS.verification
     if len(going_on) < limits.min_end_places:
         return False
@@ -433,12 +451,22 @@ def _does_end_above(
     board that is cut too closely do not reach that line: if that `may_be_cut`, their middle counts
     as well. As little may be seen of it in poor light, its squares behind may not alternate at all.
     """
+    return bool(_find_end_above(lattice, image, min_difference, may_be_cut=may_be_cut))
+
+
+def _find_end_above(
+    lattice: Lattice, image: GreyImage, min_difference: float, *, may_be_cut: bool = False
+) -> bool | None:
+    """Find whether the lattice ends above the first row; None if too little of that is in the
+    image to tell. The arguments are those of `_does_end_above`."""
     limits = THRESHOLDS.verification
     across = (limits.end_offset_across, limits.cut_end_offset_across)
     offsets = np.array([[limits.end_offset_along, each] for each in across])
     (before, middle), (behind, _) = _measure_differences_above(lattice, image, offsets)
-    if len(before) < limits.min_end_places:
-        return False
+    seen = np.isfinite(before + behind)
+    if np.count_nonzero(seen) < limits.min_end_places:
+        return None
+    before, middle, behind = before[seen], middle[seen], behind[seen]
     ending = np.mean((before > min_difference) & (behind < min_difference))
     if may_be_cut:
         is_even = (abs(behind) < min_difference) & (behind < limits.max_relative_behind * middle)
@@ -467,7 +495,9 @@ def _measure_differences_above(lattice: Lattice, image: GreyImage, offsets: Arra
     along, across = offsets.T[..., None, None]
     right, down = along * right[usable], across * down[usable]
     squares = place[usable] + np.stack([down, -down])
-    levels = sample_image(image, np.stack([squares + right, squares - right]))
+    at = np.stack([squares + right, squares - right])
+    inside = ((at >= 0) & (at <= np.array(image.shape[::-1]) - 1.0)).all(axis=-1)
+    levels = np.where(inside, sample_image(image, at), np.nan)
     sign = np.where(left_is_dark, 1.0, -1.0)[usable] * np.array([1.0, -1.0])[:, None, None]
     return np.asarray(sign * (levels[0] - levels[1]))
 

@@ -167,6 +167,41 @@ def test_a_grid_of_circles_that_stands_alone_does_not(
         find_corners(image.astype(np.uint8))
 
 
+def test_ink_and_a_halo_to_one_side_are_no_harm_to_a_board_that_stands_alone() -> None:
+    scene = draw(Conditions(ink=0.06, distortion=0.3, square=32.0, parts=2), 0)
+    before = np.roll(scene.clean, 2, axis=1)
+    levels = np.clip(scene.clean + 0.8 * (scene.clean - before), 0, 255)
+    assert len(find_corners(np.rint(levels).astype(np.uint8))) == 54
+
+
+@pytest.mark.parametrize("ink", [-0.06, 0.06])
+def test_nor_are_ink_and_marks_in_its_squares(ink: float) -> None:
+    for seed in (0, 3, 5):
+        scene = draw(Conditions(ink=ink, square=32.0, marks=True, parts=2), seed)
+        assert len(find_corners(scene.photograph(seed))) == 54
+
+
+def test_nor_are_the_pixels_of_a_screen_before_which_something_lies() -> None:
+    scene = draw(Conditions(square=32.0, tilt=10.0, occluder="object", parts=2), 2)
+    v, u = np.mgrid[:480, :640]
+    beat = np.sin(0.5 * u + 0.3 * v) + np.sin(0.3 * u - 0.5 * v)
+    image = np.clip(np.rint(scene.clean * (1 + 0.12 * beat)), 0, 255).astype(np.uint8)
+    found = find_corners(image).uv
+    nearest = [np.linalg.norm(found - uv, axis=1).min() for uv in scene.uv[scene.visible]]
+    assert max(nearest) < 1.0
+
+
+@pytest.mark.parametrize("shift", [0.15, 0.2, 0.3])
+def test_a_board_whose_rows_are_shifted_is_none_though_it_stands_alone(shift: float) -> None:
+    v, u = np.mgrid[:480, :640]
+    row = np.floor((v - 80) / 40)
+    col = np.floor((u - 100) / 40 + shift * (row % 2))
+    on_board = (row >= 0) & (row < 8) & (col >= 0) & (col < 11)
+    image = np.where(on_board & ((row + col) % 2 == 0), 40.0, 210.0)
+    with pytest.raises(NoBoardError):
+        find_corners(gaussian_filter(image, 2.0).astype(np.uint8))
+
+
 @pytest.mark.parametrize(("seed", "says"), [(2, "waves"), (8, "printed dots")])
 def test_the_message_names_the_rule_by_which_the_search_refused(seed: int, says: str) -> None:
     with pytest.raises(NoBoardError, match=says) as caught:

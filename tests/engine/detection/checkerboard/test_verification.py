@@ -559,6 +559,40 @@ class TestEnds:
         part = Lattice(place(7, 9).uv[1:], dark=False)
         assert verification.find_ends(part, paint(levels))[0] == ends
 
+    def test_squares_that_lie_outside_of_the_image_show_no_end(self) -> None:
+        """Those in its outermost pixels do not stand in for them."""
+        uv = 4 * place(7, 9).uv + 1.5
+        image = np.kron(paint(alternate(7, 9)), np.ones((4, 4), np.uint8))
+        cut = round(uv[0, 0, 1]) + 4
+        nearer = Lattice(uv[1:] - [0, cut - 10], dark=False)  # the line before it seems to be seen
+        assert not verification.find_ends(nearer, image[cut:])[0]
+
+
+class TestStandingAlone:
+    def test_up_to_half_of_it_may_be_hidden(self) -> None:
+        image, lattice = paint(alternate(6, 9)), place(6, 9)
+        row, col = np.indices(lattice.shape)
+        inside = (row > 0) & (row < 5) & (col > 0) & (col < 8)
+        assert verification.stands_alone(lattice, image)
+        assert verification.stands_alone(lattice.select(~inside | (row == 2)), image)
+        assert not verification.stands_alone(lattice.select(~inside), image)
+
+    @pytest.mark.parametrize(("sides", "stands"), [(1, True), (2, True), (3, False)])
+    def test_it_may_leave_the_image_on_two_sides(self, sides: int, stands: bool) -> None:
+        image, lattice = paint(alternate(6, 9)), place(6, 9)
+        top, left, right = (MARGIN * (sides > k) for k in range(3))
+        cut = image[top:, left : image.shape[1] - right]
+        moved = Lattice(lattice.uv - [left, top], dark=True)
+        assert verification.stands_alone(moved, cut) == stands
+
+    @pytest.mark.parametrize("hidden", [False, True])
+    def test_it_does_not_go_on(self, hidden: bool) -> None:
+        """Nor on a side of the lattice whose lines hold no corner."""
+        lattice = place(6, 9).select(np.indices((6, 9))[1] > 0)
+        if not hidden:
+            lattice = drop_isolated_and_crop(lattice)
+        assert not verification.stands_alone(lattice, paint(alternate(6, 9)))
+
 
 def test_what_lies_in_front_of_a_lattice_depends_on_its_first_lines() -> None:
     """On no more of them than are looked at, whatever is missing."""
