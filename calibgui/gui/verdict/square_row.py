@@ -1,4 +1,4 @@
-"""The question how long the squares are, asked once when a board was first found."""
+"""The question how long the squares are, asked when a board was first found, and its answer."""
 
 from __future__ import annotations
 
@@ -15,7 +15,10 @@ from calibgui.gui.widgets.reserved_label import ReservedLabel
 
 
 class SquareRow(QWidget):
-    """Says how many corners were counted, and asks for the side of a square until it is stated."""
+    """Says how many corners were counted, and asks for the side of a square until it is stated.
+
+    Then it stands in the same place, as nothing may move under the button that was pressed.
+    """
 
     changed = Signal()
     """The user has stated another length: results are out of date."""
@@ -23,6 +26,8 @@ class SquareRow(QWidget):
     def __init__(self, session: Session) -> None:
         super().__init__()
         self._session = session
+        self._has_asked = False
+        """Whether the question was put since a board was first found."""
         self.counted = ReservedLabel(1)
         self.side = QLabel()
         self.square = QDoubleSpinBox(decimals=3, minimum=0.001, maximum=100_000.0)
@@ -58,6 +63,8 @@ class SquareRow(QWidget):
 
     def answer(self) -> None:
         """Take the length as it is shown."""
+        if not self.confirm.isEnabled():
+            return
         mm = self.square.value() * self._session.project.unit.mm
         if abs(mm - self._session.project.square) > 1e-9:
             self._session.edit(self.tr("Size of squares"), lambda p: set_square(p, mm))
@@ -67,11 +74,12 @@ class SquareRow(QWidget):
 
     def _show(self, project: Project) -> None:
         is_found = any(view.status is ViewStatus.FOUND for view in project.views)
+        self._has_asked = is_found and (self._has_asked or not project.lengths_confirmed)
         policy = self.sizePolicy()
         # Its place is kept from the first image on: nothing below moves when a board is found.
         policy.setRetainSizeWhenHidden(bool(project.views) and not project.lengths_confirmed)
         self.setSizePolicy(policy)
-        self.setVisible(is_found and not project.lengths_confirmed)
+        self.setVisible(self._has_asked)
         if self.isHidden():
             return
         self.counted.setText(self._ask(project))
@@ -84,7 +92,9 @@ class SquareRow(QWidget):
         self._name_button(project)
 
     def _ask(self, project: Project) -> str:
-        """Return the question, with what is known of the board."""
+        """Return the question, with what is known of the board, or that it was answered."""
+        if project.lengths_confirmed:
+            return self.tr("Lengths hold: you have confirmed the one below.")
         pattern, board = project.pattern, project.board
         if not pattern.has_squares:
             known = self.tr(
@@ -130,3 +140,7 @@ class SquareRow(QWidget):
     def _name_button(self, project: Project) -> None:
         text = self.tr("Confirm {0:g} {1}")
         self.confirm.setText(text.format(self.square.value(), project.unit))
+        is_other = abs(self.square.value() * project.unit.mm - project.square) > 1e-9
+        self.confirm.setEnabled(is_other or not project.lengths_confirmed)
+        reason = self.tr("This length is confirmed already; state another one first.")
+        self.confirm.setToolTip("" if self.confirm.isEnabled() else reason)

@@ -259,10 +259,11 @@ def test_the_length_of_squares_is_asked_until_it_is_confirmed(
     assert "if squares are 30 mm" in bar.figures.text()
     verdict = bar.verdict
     qtbot.mouseClick(row.confirm, LEFT)
-    assert not row.isVisible() and "if squares" not in bar.figures.text()
+    assert "Lengths hold" in row.counted.text() and "if squares" not in bar.figures.text()
+    assert "confirmed already" in row.confirm.toolTip() and not row.confirm.isEnabled()
     assert bar.verdict is verdict  # nothing was judged anew
     window.session.document.undo()
-    assert row.isVisible() and "if squares are 30 mm" in bar.figures.text()
+    assert "How long" in row.counted.text() and "if squares are 30 mm" in bar.figures.text()
     row.square.setValue(25.0)
     assert row.confirm.text() == "Confirm 25 mm"
     qtbot.mouseClick(row.confirm, LEFT)
@@ -302,6 +303,15 @@ def test_what_is_asked_of_other_boards_than_squares(
     row = window.verdict.square
     assert row.isVisible() and row.counted.text().startswith(question)
     assert "square" not in row.counted.text() and row.side.text() == side
+
+
+def test_a_project_whose_lengths_are_confirmed_asks_nothing(
+    plain: Project, open_project: Open, window: MainWindow
+) -> None:
+    assert plain.lengths_confirmed
+    assert not open_project(calibrated(plain)).square.isVisible()
+    window.session.begin(Document(Project()))
+    assert not window.verdict.square.isVisible()
 
 
 def test_a_search_that_comes_first_asks_too(window: MainWindow, plain: Project) -> None:

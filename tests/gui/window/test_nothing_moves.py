@@ -7,7 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
-from PySide6.QtCore import QPoint
+from PySide6.QtCore import QPoint, Qt
 from PySide6.QtWidgets import QWidget
 from pytestqt.qtbot import QtBot
 
@@ -162,10 +162,10 @@ def test_other_names_and_numbers_move_nothing(sized: MainWindow, qtbot: QtBot) -
     qtbot.waitUntil(lambda: not session.jobs.running)
 
 
-def test_the_place_of_the_question_is_kept_until_it_is_answered(
+def test_the_place_of_the_question_is_kept(
     window: MainWindow, qtbot: QtBot, tmp_path: Path
 ) -> None:
-    """A board is found at any time; what the user points at must stay there."""
+    """A board is found at any time, and the answer is a click; what is pointed at stays there."""
     project = replace(examples.calibrated(tmp_path), lengths_confirmed=False)
     waiting = tuple(replace(v, status=ViewStatus.WAITING, corners=None) for v in project.views)
     window.session.begin(Document(replace(project, views=waiting, results={})))
@@ -173,4 +173,11 @@ def test_the_place_of_the_question_is_kept_until_it_is_answered(
     before = find_places(window, qtbot)
     window.session.document.learn(lambda p: replace(p, views=project.views))
     assert window.verdict.square.isVisible()
+    assert list_moved(before, find_places(window, qtbot)) == []
+    qtbot.mouseClick(window.verdict.square.confirm, Qt.MouseButton.LeftButton)
+    assert window.session.project.lengths_confirmed
+    assert not window.verdict.square.confirm.isEnabled()
+    assert list_moved(before, find_places(window, qtbot)) == []
+    window.verdict.square.square.setValue(31.0)
+    assert window.verdict.square.confirm.isEnabled()
     assert list_moved(before, find_places(window, qtbot)) == []
