@@ -51,7 +51,7 @@ class LensModelsPanel(OnDemandPanel[LensChoice]):
         self.use.clicked.connect(self._use)
         self.tables = LensTables()
         self.tables.picked.connect(self._show_row)
-        self.remarks = ReservedLabel(5)
+        self.remarks = ReservedLabel(6)
         compared = QWidget()
         layout = QVBoxLayout(compared)
         layout.setContentsMargins(0, 0, 0, 0)
