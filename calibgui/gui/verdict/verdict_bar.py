@@ -61,12 +61,14 @@ _WIDE = 640
 """Width from which the buttons stand beside the words, device-independent px."""
 _WIDEST = 1100
 """Width from which all figures stand in one line, device-independent px."""
-_LINES, _LINES_IF_LOW, _LINES_IF_WIDE, _LINES_IF_WIDEST = 5, 3, 3, 2
+_LINES, _LINES_IF_LOW, _LINES_IF_HIGH, _LINES_IF_WIDE, _LINES_IF_WIDEST = 5, 3, 6, 3, 2
 """Lines that are reserved for reason and figures, so that another verdict moves nothing below."""
 _LINES_OF_QUESTION = 2
 """Lines that are reserved for the question how long the squares are."""
 _LOW = 600
 """Height of the window below which the first figure stands for all, device-independent px."""
+_HIGH = 850
+"""Height of the window from which all figures stand below the longest reason, too."""
 _NAME_LENGTH = 16
 """Letters of a name that have room on a button in the least width."""
 _STRIPE = 5
@@ -104,7 +106,8 @@ class VerdictBar(QFrame):
         self._fit = ""
         """The words on the residuals, which are made once for each calibration."""
         self._figures: list[str] = []
-        self._is_low = False
+        self._lines = _LINES
+        """Lines of reason and figures where these are narrow."""
         self.button = QPushButton(self.tr("Remedy"))
         self.button.clicked.connect(self._do_first)
         self.unfold = QPushButton()
@@ -162,7 +165,7 @@ class VerdictBar(QFrame):
         if is_wide:
             lines = _LINES_IF_WIDE if event.size().width() < _WIDEST else _LINES_IF_WIDEST
         else:
-            lines = _LINES_IF_LOW if self._is_low else _LINES
+            lines = self._lines
         self._words.reserve(lines)
         self.square.reserve(1 if is_wide else _LINES_OF_QUESTION)
         self._show_figures()
@@ -176,13 +179,14 @@ class VerdictBar(QFrame):
 
     def fit_height(self, of_window: int) -> None:
         """Leave room to what is below in a window that is not high."""
-        self._is_low = of_window < _LOW
+        usual = _LINES if of_window < _HIGH else _LINES_IF_HIGH
+        self._lines = _LINES_IF_LOW if of_window < _LOW else usual
         self.resizeEvent(QResizeEvent(self.size(), self.size()))
 
     def _show_figures(self) -> None:
         """Show the figures in a line each, or one after the other where there is room."""
         is_wide = self._row.direction() is QBoxLayout.Direction.LeftToRight
-        shown = self._figures if is_wide or not self._is_low else self._figures[:1]
+        shown = self._figures if is_wide or self._lines > _LINES_IF_LOW else self._figures[:1]
         self.figures.setText(("; " if is_wide else "\n").join(shown))
         meaning = self.tr(
             "How far off the camera puts a distant point in the image (one standard deviation). "

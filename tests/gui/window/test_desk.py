@@ -314,6 +314,22 @@ def test_a_low_window_leaves_its_height_to_what_is_below_the_verdict(
     qtbot.waitUntil(lambda: verdict.height() == tall)
 
 
+def test_a_high_window_has_all_figures_below_a_long_reason(full: MainWindow, qtbot: QtBot) -> None:
+    verdict = full.verdict
+    qtbot.waitUntil(lambda: verdict.verdict is not None)
+    resize(full, qtbot, 960, 1000)
+    reason = "Nothing is wrong where there are corners"
+    while verdict.reason.count_lines() < 3:
+        reason += "; beyond them pixels"
+        verdict._words.give_reason(reason)
+    verdict.figures.setText(
+        "Error: centre 0.001, covered 0.003, edge 6.4, worst 22 px\n"
+        "6.5 mm at the edge, 233 mm away if squares are 30 mm\n"
+        "RMS 0.017 px, σ 0.012 px of 948 corners"
+    )
+    assert not verdict.reason.is_cut and not verdict.figures.is_cut
+
+
 def test_a_result_is_exported_from_beside_its_name(full: MainWindow, qtbot: QtBot) -> None:
     resize(full, qtbot, 960, 720)
     qtbot.mouseClick(full.need_analysis().export, Qt.MouseButton.LeftButton)
