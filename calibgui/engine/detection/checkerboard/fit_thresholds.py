@@ -147,7 +147,8 @@ class LightThresholds:
     median. Sums of many pixels make it 6 by chance at one of 20 corners of "video"; with 4 its
     errors grew by a fifth."""
     min_relative_residual: float = 1.5
-    """Least residual of such a corner, over the board's median, if its F does not stand out ..."""
+    """Least residual of such a corner, over the board's median, where squares are plain or its F
+    does not stand out ..."""
     min_median_share: float = 0.3
     """... unless that share of the squares of the residuals, or more, is explained by gradients at
     half of the corners."""

@@ -11,9 +11,9 @@ Such corners leave less unexplained with gradients of their own, by more than no
 
 of the four more unknowns is 1 on average for any other. What a camera does to all corners alike, as
 one that sharpens to one side, gradients explain a little of, too, and those that have them would be
-moved against the others. So a corner has its own only if its F stands out from the board's, if it
-leaves more unexplained than most, or if on most of a board of plain squares gradients explain much
-of it.
+moved against the others. So a corner has its own only if it leaves more unexplained than most, or
+if on most of a board of plain squares gradients explain much of it. Where something is printed in
+the squares less of an edge is read, and it is enough that its F stands out from the board's.
 
 Those corners are fitted with them, and once more to the nearer half of their edges. An edge of the
 light may cross the farther one, and bend the edges as no gradient does: where the two places differ
@@ -79,7 +79,8 @@ def find_uneven_light(
     stands_out = F > _THRESHOLDS.min_gain * max(float(compute_median(F)), 1.0)
     usual = float(compute_median(np.sqrt(square)))
     is_poor = np.sqrt(square) > _THRESHOLDS.min_relative_residual * usual
-    return np.asarray(is_clear & (is_poor | (stands_out & (not is_bare))))
+    is_marked = not is_plain and not is_bare
+    return np.asarray(is_clear & (is_poor | (stands_out & is_marked)))
 
 
 def fit_local_light(
