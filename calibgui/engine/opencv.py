@@ -214,7 +214,7 @@ def detect_dark_quads(
         side = _MIN_MARKER_SIDE if least_side is None else least_side
         parameters.minMarkerPerimeterRate = 4 * side / max(image.shape)
     if is_quick:
-        parameters.adaptiveThreshWinSizeMin = parameters.adaptiveThreshWinSizeMax = _QUICK_WINDOW
+        parameters.adaptiveThreshWinSizeMin = parameters.adaptiveThreshWinSizeMax = QUICK_WINDOW
     detector = cv2.aruco.ArucoDetector(any_one, parameters)
     read, _, others = detector.detectMarkers(image)
     return np.array([*read, *others], np.float64).reshape(-1, 4, 2)
@@ -225,7 +225,7 @@ def count_quads(image: GreyImage, window: int, perimeter: int, enough: int) -> i
     `window` px around and have a `perimeter` px or more, up to `enough`; 0 if there are no outlines
     `enough`."""
     dark = cv2.adaptiveThreshold(
-        image, 255, cv2.ADAPTIVE_THRESH_MEAN_C, cv2.THRESH_BINARY_INV, window, _DARKER
+        image, 255, cv2.ADAPTIVE_THRESH_MEAN_C, cv2.THRESH_BINARY_INV, window, DARKER
     )
     # Texture has thousands of specks, whose outlines are too short but take long to follow.
     _, labels, stats, _ = cv2.connectedComponentsWithStats(dark, connectivity=8)
@@ -271,14 +271,14 @@ _CORRECTED_SHARE = 0.6
 """Share of a dictionary's correctable cells that OpenCV corrects (its default)."""
 _MIN_MARKER_SIDE = 10.0
 """Side of the smallest markers that are detected, px."""
-_DARKER = 7
+DARKER = 7
 """Difference from the mean around by which pixels are dark, grey levels: OpenCV's for markers."""
 _SPECK_SHARE = 0.4
 """Width and height, over the perimeter asked for, below which no outline is that long: half of it,
 or less if it is not straight."""
 _OFF_QUAD = 0.05
 """Greatest distance of an outline from its quadrilateral, perimeters."""
-_QUICK_WINDOW = 7
+QUICK_WINDOW = 7
 """Side of the surroundings that the dark is compared with where one size has to do, px: of rendered
 markers of 13 px and more it finds nearly as many as OpenCV's three sizes."""
 

@@ -38,6 +38,7 @@ from calibgui.engine.detection.checkerboard import saddle
 from calibgui.engine.detection.detector_io import invert_levels
 from calibgui.engine.detection.print_samples import PrintSample, QuadSearch
 from calibgui.engine.detection.region_of_interest import are_inside
+from calibgui.engine.images.sampling import sample_image
 
 _MAX_COARSE_SIDE = 1600
 """Longer side of the image in which tags are looked for first, px."""
@@ -57,6 +58,11 @@ itself shows 79, and all three together 144."""
 _OUTLINE_INSET = 0.6
 """How far within the sides of a tag its outline runs, px, on rendered tags: 0.3 to 0.5 px, and 0.8
 to 1.0 px where small black squares join its corners."""
+_BEYOND = 2.0
+"""Distance from the sides of a quadrilateral at which it is looked whether they border on paper,
+px."""
+_PLACES_ALONG = np.linspace(0.2, 0.8, 5)[:, None, None, None]
+"""(5, 1, 1, 1) where on the sides that is, over their length."""
 _MIN_SURE_DISTANCE = 9
 """Distance of a family from which on tags that agree on a board are not mistaken for others'."""
 _MIN_SURE_SHARE = 0.97
@@ -169,7 +175,7 @@ class GridTagFinder:
             found = self._samples[depth].detect_dark_quads(level, _smooth)
         else:
             found = opencv.detect_dark_quads(_smooth(level), is_quick=True)
-        found = _widen(found, _OUTLINE_INSET)
+        found = _reach_paper(level, _widen(found, _OUTLINE_INSET))
         most = _MAX_SAMPLED if is_sample else _MAX_READ
         found = _select_dark_borders(level, found, np.inf, most)
         found = _refine_quads(image, (found + 0.5) * 2**depth - 0.5)
@@ -351,6 +357,21 @@ def _refine_quads(image: GreyImage, quads: Array) -> Array:
     refined = np.asarray(good.reshape(-1, 4).all(axis=1))
     refined &= rate_borders(image, moved) <= rate_borders(image, quads)
     return np.where(refined[:, None, None], moved, quads)
+
+
+def _reach_paper(image: GreyImage, quads: Array) -> Array:
+    """Move the sides of quadrilaterals (n, 4, 2) px outwards that do not border on paper: a quick
+    search takes what is farther from it than half of its window for evenly filled, so that of a
+    broad border it finds the inner side of that seam, too."""
+
+    def sample_sides(by: float) -> Array:
+        first = _widen(quads, by)
+        places = first + _PLACES_ALONG * (np.roll(first, -1, axis=1) - first)
+        return np.asarray(sample_image(image, places).mean(axis=(0, 2)))
+
+    is_inside = sample_sides(_BEYOND) - sample_sides(-_BEYOND) < opencv.DARKER
+    moved = _widen(quads, opencv.QUICK_WINDOW / 2)
+    return np.where(is_inside[:, None, None], moved, quads)
 
 
 def _widen(quads: Array, by: float) -> Array:

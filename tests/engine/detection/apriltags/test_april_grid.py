@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+import cv2
 import numpy as np
 import pytest
 
@@ -22,6 +23,7 @@ from calibgui.engine.detection.find_corners import find_corners
 from calibgui.engine.detection.lattice import Lattice
 from calibgui.engine.errors import CalibrationError, NoBoardError
 from calibgui.engine.geometry.rotations import rotation_from_vector
+from calibgui.engine.images.sampling import make_mesh
 from tests.engine.detection.conftest import Scene
 from tests.scenes.perspective import photograph_pattern
 
@@ -108,6 +110,24 @@ def test_a_narrow_border_is_not_read_as_a_wide_one(corner_squares: bool) -> None
     assert isinstance(seen, AprilGrid)
     assert (seen.family, seen.border) == ("t36h11", 1)
     assert seen.spacing == pytest.approx(0.3, abs=0.001)
+
+
+@pytest.mark.parametrize("cell", [6, 16])
+def test_tags_are_read_whose_borders_are_broad(cell: int) -> None:
+    """What is in the middle of their borders is far from the paper."""
+    board = Board(8, 6, 1.0, AprilGrid("t36h11", 0.3, 2, False, True))
+    print_ = board.pattern.draw(board.grid_size)
+    left, top, right, bottom = print_.extent
+    step = 1 / (10 * cell)
+    XY = make_mesh(
+        np.arange(left - 0.5, right + 0.5, step), np.arange(top - 0.5, bottom + 0.5, step)
+    )
+    ink, _ = print_.compute_ink_share(XY, np.broadcast_to(step * np.eye(2), (*XY.shape, 2)))
+    image = np.rint(cv2.GaussianBlur(230.0 - 190.0 * ink, (0, 0), 1.5)).astype(np.uint8)
+    corners = find_corners(image, (8, 6), pattern=AprilGrid())
+    assert corners.complete
+    truth = (board.points() - [left - 0.5, top - 0.5]) / step
+    assert np.allclose(np.sort(corners.uv, axis=0), np.sort(truth, axis=0), atol=0.05)
 
 
 @pytest.mark.slow
