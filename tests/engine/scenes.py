@@ -164,6 +164,18 @@ def scene(
     return seen(camera, [looking(camera, rng, tilt) for _ in range(count)])
 
 
+def scene_in_the_middle(camera: Camera, count: int, seed: int, spread: float) -> Scene:
+    """Views of a board that is far away, within `spread` (its tangent) of the optical axis."""
+    rng = np.random.default_rng(seed)
+    poses = []
+    for _ in range(count):
+        pose = looking(camera, rng, fill=(0.2, 0.25))
+        to_middle = Rotation.from_rotvec(np.array(pose.rvec)).apply([*BOARD.points().mean(0), 0.0])
+        ray = np.append(rng.uniform(-spread, spread, 2), 1.0)
+        poses.append(Pose(pose.rvec, (to_middle + pose.tvec)[2] * ray - to_middle))
+    return seen(camera, poses)
+
+
 def uneven(
     camera: Camera, board: Board, count: int, deviation: float, turned: Sequence[int] = ()
 ) -> list[Observation]:

@@ -25,8 +25,9 @@ in one, and 2.3 times too large in one that has little to gain; the true error f
 times x, 1.8 in the median: s' is cautious, and the truth is one draw.
 
 A calibration is good where it has been measured: its grade rests on the pixels that corners cover,
-and on half of all pixels, so that a board in the image's middle is not enough. An edge of the image
-that no photograph shows is no error of the calibration; its uncertainty is said in a sentence.
+and on half of all pixels. A board in the image's middle is not enough: where corners cover too
+little to know half of the pixels, this is a finding. An edge of the image that no photograph shows
+is no error of the calibration; its uncertainty is said in a sentence.
 
 The error does not measure what no photograph of the set shows: the length of the squares, or a
 lens far from all corners that behaves otherwise than both formulas.
@@ -42,7 +43,14 @@ import numpy as np
 
 from calibgui.engine.arrays import Array, BoolArray, Size
 from calibgui.engine.assessment.action_trials import Trial, try_action_safely
-from calibgui.engine.assessment.causes.finding import Action, ActionKind, Cause, Finding
+from calibgui.engine.assessment.causes.finding import (
+    MAX_TELLING_PX,
+    Action,
+    ActionKind,
+    Cause,
+    Finding,
+    describe_narrow_views,
+)
 from calibgui.engine.assessment.causes.findings import list_findings
 from calibgui.engine.assessment.changes.camera_uncertainty import estimate_camera_uncertainty
 from calibgui.engine.assessment.changes.comparison import compare_cameras, find_covered_pixels
@@ -67,8 +75,6 @@ benchmark fixed."""
 _MIN_GAIN = 1.1
 """Ratio by which an estimated shape, another lens or weights must make the error smaller to be
 offered."""
-_MAX_TELLING_PX = 100.0
-"""Error of the worst pixel from which its size says no more than that it is not known, px."""
 _REMEDY_OF_BLUR = (
     "Take these again, sharp, in good light and from nearer: to weigh them less brings little."
 )
@@ -197,6 +203,9 @@ def judge_calibration(
         error = np.hypot(error, map_disagreement(calibration, views))
     distance = _measure_distance(calibration, views)
     pixels = _UNKNOWN if calibration.diagnosis is not None else _summarise(error, covered)
+    if _is_narrow(calibration, pixels, tried):
+        narrow = describe_narrow_views(float(covered.mean()), pixels.covered, pixels.median)
+        tried = sorted([*tried, narrow], key=lambda finding: finding.harm, reverse=True)
     grade, reason = _grade(calibration, pixels, tried)
     mm = distance / float(calibration.camera.focal[0])
     return Verdict(grade, reason, pixels, mm, distance, tuple(tried))
@@ -291,6 +300,16 @@ def _measure_distance(calibration: Calibration, views: Sequence[Observation]) ->
     return float(np.median(np.linalg.norm(middles, axis=-1)))
 
 
+def _is_narrow(calibration: Calibration, error: PixelError, findings: Sequence[Finding]) -> bool:
+    """Return whether pixels are known well among corners and too poorly over the image, for no
+    other cause that asks for photographs and without a remedy that makes them much better."""
+    is_judged = calibration.diagnosis is None and calibration.status is Status.CONVERGED
+    is_told = any(finding.cause is Cause.FEW_VIEWS for finding in findings)
+    is_mended = bool(findings) and findings[0].times_better >= MIN_TIMES_BETTER
+    is_poor = error.covered <= MAX_USABLE_PX and not error.median <= MAX_USABLE_PX
+    return is_judged and is_poor and not is_told and not is_mended
+
+
 def _grade(
     calibration: Calibration, error: PixelError, findings: Sequence[Finding]
 ) -> tuple[Grade, str]:
@@ -332,6 +351,6 @@ def _grade(
 
 def _tell_how_known(error: PixelError) -> str:
     """Say how well the worst pixel is known, unless a lens that is open there makes it anything."""
-    if not error.worst < _MAX_TELLING_PX:
+    if not error.worst < MAX_TELLING_PX:
         return "not known"
     return f"known to {format_two_digits(error.worst)} px"

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 from calibgui.engine.assessment import action_trials
+from calibgui.engine.assessment import verdict as verdict_module
 from calibgui.engine.assessment.action_trials import try_action
 from calibgui.engine.assessment.causes.finding import Action, ActionKind, Cause
 from calibgui.engine.assessment.changes.comparison import compare_cameras
@@ -26,7 +27,7 @@ from calibgui.engine.calibration.observations import Observation
 from calibgui.engine.calibration.result import Calibration, DegenerateError, Status
 from calibgui.engine.camera.camera import Camera
 from calibgui.engine.errors import CalibrationError, Cancelled
-from tests.engine.scenes import VGA, barrel, scene
+from tests.engine.scenes import VGA, barrel, scene, scene_in_the_middle
 from tests.faults import sets
 from tests.faults.causes import FAULTS
 from tests.faults.sets import FaultySet
@@ -251,6 +252,25 @@ def test_an_edge_that_no_photograph_shows_is_told_but_leaves_a_calibration_good(
     assert verdict.error.worst_covered < 0.5 < verdict.error.worst
     assert (verdict.grade, verdict.findings) == (Grade.GOOD, ())
     assert f"{verdict.error.worst:.2g} px" in verdict.reason
+
+
+@pytest.mark.parametrize("beyond_px", [3.0, 1e4])
+def test_another_lens_that_fits_as_well_asks_for_corners_where_there_are_none(
+    monkeypatch: pytest.MonkeyPatch, beyond_px: float
+) -> None:
+    views = scene_in_the_middle(barrel(), 10, seed=1, spread=0.1)
+    views = views.noisy(0.005, np.random.default_rng(1))
+    calibration, verdict = judge(views)
+    assert verdict.findings == ()
+    beyond = np.where(verdict_module._find_covered(VGA, views), 0.0, beyond_px)
+    monkeypatch.setattr(verdict_module, "map_disagreement", lambda *_: beyond)
+    poor = judge_calibration(calibration, views)
+    assert poor.grade is Grade.NOT_USABLE
+    assert poor.error.covered == verdict.error.covered
+    (finding,) = poor.findings
+    assert (finding.cause, poor.reason) == (Cause.FEW_VIEWS, finding.message)
+    assert ("only to 3.0 px" if beyond_px < 100 else "not at all") in finding.evidence
+    assert finding.action == Action(ActionKind.PHOTOGRAPH_MORE)
 
 
 def test_a_solve_that_did_not_converge_is_not_usable() -> None:

@@ -12,6 +12,8 @@ MIN_HARM_PX = 0.05
 """Harm from which a cause is a finding, px: a tenth of what makes a calibration less than good
 (``verdict.py``). A choice, which no benchmark fixed; on clean sets the tests' own rate of false
 alarms counts, whatever it is."""
+MAX_TELLING_PX = 100.0
+"""Error of a pixel from which its size says no more than that it is not known, px."""
 
 REMEDY_OF_LENS = (
     "Compare the lens models and take the one that is recommended; if it is this one, add views up "
@@ -23,6 +25,11 @@ REMEDY_OF_FEW_VIEWS = (
     "image; six good ones are enough."
 )
 """Sentence on what to do about views that are too few."""
+_REMEDY_OF_NARROW_VIEWS = (
+    "Hold the board nearer, so that it fills half of the image or more, bring it into the image's "
+    "corners, and tilt it by 20 to 45 degrees in different directions."
+)
+"""Sentence on what to do about views whose corners leave most of the image out."""
 
 
 class Cause(StrEnum):
@@ -126,6 +133,28 @@ class Finding:
 def describe_harm(harm: float) -> str:
     """Describe what a cause does to pixels, px, as the end of a sentence."""
     return f"it adds {format_two_digits(harm)} px to the error of pixels where there are corners"
+
+
+def describe_narrow_views(part: float, covered: float, median: float) -> Finding:
+    """Describe views whose corners cover too small a part of the image to know the rest of it.
+
+    Args:
+        part: share of the image that the corners of all views cover.
+        covered: error of a pixel there, px rms.
+        median: median error over the image, px.
+    """
+    is_telling = median < MAX_TELLING_PX
+    rest = f"only to {format_two_digits(median)} px" if is_telling else "not at all"
+    return Finding(
+        Cause.FEW_VIEWS,
+        f"Corners cover only {100 * part:.0f} % of the image, too small a part to know the lens "
+        "beyond it.",
+        f"A pixel is known to {format_two_digits(covered)} px among corners, but {rest} in the "
+        "median over the image.",
+        _REMEDY_OF_NARROW_VIEWS,
+        covered,
+        action=Action(ActionKind.PHOTOGRAPH_MORE),
+    )
 
 
 _CAUSES_OF_NO_RESIDUALS = (Cause.UNDETERMINED, Cause.FEW_VIEWS)

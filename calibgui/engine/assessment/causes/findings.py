@@ -9,7 +9,8 @@ without those behind it, and what one explains is taken out before the next is a
    the others say. The latter are left out, and all that follows is asked of what is left.
 2. **Number of views.** Two or three views show nothing but that they are too few, if pixels are
    poorly known or if lens and board would explain the same residuals. Nor do views so much alike
-   that the noise alone leaves pixels poorly known.
+   that the noise alone leaves pixels poorly known. Where corners cover a small part of the image
+   and pixels are known well there, this is what is wrong.
 3. **Residuals that are not noise** (``cause_choice.py``), which have one cause.
 4. **Views** that are too much alike, or that disagree for no cause that is known.
 
@@ -42,6 +43,7 @@ from calibgui.engine.assessment.causes.finding import (
     Cause,
     Finding,
     describe_harm,
+    describe_narrow_views,
 )
 from calibgui.engine.assessment.causes.harm import Case, prepare_case
 from calibgui.engine.assessment.causes.input_errors import (
@@ -73,6 +75,9 @@ _MAX_NOISE_PX = 0.5
 the views are too much alike, px. Of ten bursts it was 0.2 to 1.8, above this in nine; of 60 faults
 of boards and shutters (``tests/faults``), in which pixels were known to more than 1 px, below 0.27.
 """
+_MAX_NARROW_PART = 1 / 3
+"""Share of the image that corners cover, up to which this and not the number of views is what is
+wrong, if pixels are known well among them."""
 _MIN_DISAGREEMENT = 3.0
 """Ratio of the views' disagreement to what noise explains, from which it is a finding by itself."""
 _MAX_REJECTED = 0.4
@@ -250,13 +255,16 @@ def _find_lack_of_views(case: Case) -> Finding | None:
     few = count < MIN_VIEWS_TO_JUDGE
     if not (case.sigma > _MAX_POOR_PX or (few and case.worst > _MAX_WORST_PX)):
         return None
+    harm = case.measure_harm(share=1.0)
+    if not few and case.part < _MAX_NARROW_PART and harm <= _MAX_WORST_PX:
+        return describe_narrow_views(case.part, harm, case.sigma)
     return Finding(
         Cause.FEW_VIEWS,
         f"{count} views are too few." if few else "The views are too few, or too much alike.",
         f"A pixel is known to {format_two_digits(case.sigma)} px in the median over the image, and "
         f"to {format_two_digits(case.worst)} px where it is known worst.",
         REMEDY_OF_FEW_VIEWS,
-        case.measure_harm(share=1.0),
+        harm,
         action=Action(ActionKind.PHOTOGRAPH_MORE),
     )
 

@@ -53,6 +53,8 @@ class Case:
     """The part of it that the corners' noise explains, median over the image, px."""
     worst: float
     """One standard deviation of the pixel that is known worst, px; the image's size if none is."""
+    part: float
+    """Share of the image that corners cover."""
     total: Array
     """(n, 2, 2) covariance of the pixels where there are corners, px^2."""
     by_noise: Array
@@ -112,6 +114,7 @@ def prepare_case(
         sigma=float(np.median(known)),
         by_noise_alone=float(np.median(noise)) if noise.size else float(known.max()),
         worst=float(known.max()),
+        part=float(covered.mean()),
         total=total.covariance[covered],
         by_noise=by_noise.covariance[covered],
         rms=summarise_residuals(calibration.residuals).rms,

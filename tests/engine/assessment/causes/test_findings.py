@@ -23,7 +23,7 @@ from calibgui.engine.calibration.observations import Observation
 from calibgui.engine.camera.camera import Camera
 from calibgui.engine.errors import CalibrationError, Cancelled
 from calibgui.engine.geometry.pose import Pose
-from tests.engine.scenes import VGA, barrel, looking, scene, seen
+from tests.engine.scenes import VGA, barrel, looking, scene, scene_in_the_middle, seen
 from tests.faults.campaign import inject_fault
 from tests.faults.sets import draw_rendered_set, photograph
 
@@ -190,6 +190,15 @@ def test_views_all_alike_are_too_few_whatever_they_have_in_common(seed: int) -> 
     (finding,) = found([Observation(view.uv + shared, view.xy) for view in made])
     assert finding.cause is Cause.FEW_VIEWS
     assert finding.message == "The views are too few, or too much alike."
+
+
+def test_boards_in_the_middle_of_the_image_are_too_far_away_and_not_too_few() -> None:
+    views = scene_in_the_middle(barrel(), 10, seed=1, spread=0.05)
+    (finding,) = found(views.noisy(0.02, np.random.default_rng(1)))
+    assert finding.cause is Cause.FEW_VIEWS
+    assert finding.message.startswith("Corners cover only 9 % of the image")
+    assert "corners" in finding.remedy
+    assert "too few" not in finding.message
 
 
 def test_the_search_for_causes_tells_of_its_steps_and_can_be_abandoned() -> None:
