@@ -83,7 +83,8 @@ _MIN_VIEWS_TO_USE, MIN_VIEWS_TO_BE_GOOD = 3, 5
 """Number of views below which a calibration is not usable, and not good, however small its error is
 said to be: too few are left to find out that it is wrong."""
 _REMEDY_OF_BEST_LENS = (
-    "No lens model that these views determine follows it better: add views up to the image's "
+    "No lens model that these views determine follows it better. If the images were scaled, "
+    "stitched or corrected, use them as the camera takes them; else add views up to the image's "
     "edges, which determine more of the lens."
 )
 """The remedy of a lens that the recommended model does not follow."""

@@ -122,6 +122,7 @@ def test_a_recommended_lens_that_is_not_followed_takes_photographs(
     (finding,) = judge_calibration(recommended, views).findings
     assert finding.message == message
     assert finding.remedy.startswith("No lens model that these views determine")
+    assert "scaled, stitched or corrected" in finding.remedy  # which no lens model follows, too
     assert finding.action == Action(ActionKind.PHOTOGRAPH_MORE)
 
 
