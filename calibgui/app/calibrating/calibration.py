@@ -158,9 +158,21 @@ def _choose_lens(
 def _compare_lenses(
     corner_set: CornerSet, settings: Settings, report: Report | None, progress: Progress | None
 ) -> ChosenLens:
-    """Choose the lens model that the usable views demand. Returns as `_choose_lens`."""
+    """Choose the lens model that the usable views demand. Returns as `_choose_lens`.
+
+    The board's shape is that of the settings: what a flat board hides of the lens counts as well.
+    One that is to be chosen is chosen with the lens that views of the board as drawn demand.
+    """
     used = [view for view in corner_set.views if view.usable]
     observations = [view.observation(corner_set.board) for view in used]
+    board_shape = settings.board_shape
+    if board_shape is None:
+        drawn = replace(settings, board_shape=BoardShapeModel.NOMINAL)
+        lens = _compare_lenses(corner_set, drawn, report, progress)
+        camera = _list_camera_arguments(lens.apply_to(settings))
+        board_shape, _ = _choose_board_shape(observations, corner_set.size, camera, report)
+        if board_shape is BoardShapeModel.NOMINAL:
+            return lens
     watch = _Watch(report)
     try:
         choice = choose_lens_stepwise(
@@ -170,6 +182,8 @@ def _compare_lenses(
             cost=settings.cost,
             method=settings.method,
             fix=settings.fixed,
+            board_shape=board_shape,
+            prior=settings.prior,
             report=watch,
         )
     except CalibrationError as error:
@@ -215,12 +229,7 @@ def _calibrate_whole(
         views, sentences = _leave_out_outliers(corner_set, settings)
     used = [view for view in views if view.usable]
     observations = [view.observation(corner_set.board) for view in used]
-    camera: dict[str, Any] = {
-        "model": settings.model,
-        "method": settings.method,
-        "fix": settings.fixed,
-        "free": settings.freed,
-    }
+    camera = _list_camera_arguments(settings)
     board_shape = settings.board_shape
     if board_shape is None:
         board_shape, words = _choose_board_shape(observations, size, camera, report)
@@ -243,6 +252,16 @@ def _calibrate_whole(
         calibration = replace(calibration, settings={**calibration.settings, _REASON: lens.reason})
     calibration = _add_warnings(calibration, used, settings, sentences)
     return _make_result(calibration, replace(corner_set, views=views))
+
+
+def _list_camera_arguments(settings: Settings) -> dict[str, Any]:
+    """List what `engine.calibrate` is told of the camera."""
+    return {
+        "model": settings.model,
+        "method": settings.method,
+        "fix": settings.fixed,
+        "free": settings.freed,
+    }
 
 
 def _choose_board_shape(

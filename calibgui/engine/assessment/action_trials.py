@@ -16,7 +16,6 @@ from calibgui.engine.assessment.choices.lens_choice import choose_lens_stepwise
 from calibgui.engine.assessment.choices.lens_trial import LensTrial
 from calibgui.engine.assessment.residuals.outliers import screen_outliers, select_corners
 from calibgui.engine.assessment.residuals.view_weights import calibrate_weighted
-from calibgui.engine.boards.shape import BoardShapeModel
 from calibgui.engine.calibration.calibrate import calibrate
 from calibgui.engine.calibration.observations import Observation
 from calibgui.engine.calibration.problem import recover_arguments, recover_image_arguments
@@ -124,18 +123,13 @@ def _is_lens_chosen(calibration: Calibration) -> bool:
 def _choose_lens(
     views: list[Observation], size: Size, settings: dict[str, Any]
 ) -> tuple[LensTrial, Calibration]:
-    """Choose the lens model for views; return it, and the calibration with it and the board's shape
-    of the settings."""
+    """Choose the lens model for views with the board's shape of the settings; return it, and the
+    calibration with it."""
     fix = {name: value for name, value in settings["fix"].items() if name in PINHOLE}
-    of_lens = ("model", "free", "fix", "board_shape", "prior")
+    of_lens = ("model", "free", "fix")
     others = {name: value for name, value in settings.items() if name not in of_lens}
     lens = choose_lens_stepwise(views, size, fix=fix, **others).chosen
-    if settings["board_shape"] == BoardShapeModel.NOMINAL:
-        return lens, lens.calibration
-    # It is estimated or given again.
-    shape = {name: settings[name] for name in ("board_shape", "prior")}
-    fix |= lens.fixed
-    return lens, calibrate(views, size, model=lens.model, fix=fix, **others, **shape)
+    return lens, lens.calibration
 
 
 def _make_report(check: Callable[[], None]) -> Report:

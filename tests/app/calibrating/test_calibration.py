@@ -264,6 +264,20 @@ def fisheye() -> CornerSet:
 
 
 @pytest.mark.usefixtures("few_lenses")
+@pytest.mark.parametrize("model", [BoardShapeModel.BOW, pytest.param(None, marks=pytest.mark.slow)])
+def test_what_a_bent_board_hides_of_the_lens_is_not_held_at_zero(
+    model: BoardShapeModel | None,
+) -> None:
+    bow = 0.0012 * (BOARD.points()[:, 0] - BOARD.points()[:, 0].mean()) ** 2
+    bent = noisy(np.column_stack([np.zeros((len(bow), 2)), bow]))
+    flat = calibrate_views(bent, AUTO).calibration
+    assert {"k3", "p1", "p2"} <= set(flat.fixed)
+    chosen = calibrate_views(bent, replace(AUTO, board_shape=model)).calibration
+    assert chosen.board_shape is not None
+    assert chosen.fixed == ("p3",)
+
+
+@pytest.mark.usefixtures("few_lenses")
 def test_a_fisheye_lens_gets_a_model_of_its_own() -> None:
     result = calibrate_views(fisheye(), AUTO)
     assert result.calibration.camera.model == "kannala-brandt"
