@@ -53,7 +53,8 @@ def disable_copies(corner_set: CornerSet) -> CornerSet:
         return corner_set
     for k, (copy, first) in enumerate(zip(usable, originals.tolist(), strict=True)):
         if first != k:
-            reason = f"A copy of {views[usable[first]].image}, which counts once."
+            name = _name_beside(views[usable[first]], views[copy])
+            reason = f"A copy of {name}, which counts once."
             views[copy] = replace(views[copy], enabled=False, reason=reason)
     for copy, original in _find_resaved(views, usable, seen):
         # The original is not named in full, so that lists gather all views of one reason.
@@ -67,6 +68,12 @@ def disable_copies(corner_set: CornerSet) -> CornerSet:
         )
         views[copy] = replace(views[copy], enabled=False, reason=reason)
     return replace(corner_set, views=tuple(views))
+
+
+def _name_beside(view: View, other: View) -> str:
+    """Return a view's name, with its folder if that of another view is not the same."""
+    is_beside = PurePath(view.image).parent == PurePath(other.image).parent
+    return view.name if is_beside else view.image
 
 
 def _find_resaved(

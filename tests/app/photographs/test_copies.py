@@ -34,8 +34,12 @@ def seen() -> list[Array]:
 
 
 def test_an_exact_copy_of_any_name_counts_once(seen: list[Array]) -> None:
-    found = list_copies(("a/1.png", seen[0]), ("a/2.png", seen[1]), ("b/x.jpg", seen[0].copy()))
-    assert found == {"b/x.jpg": "A copy of a/1.png, which counts once."}
+    again = ("b/x.jpg", seen[0].copy()), ("a/3.png", seen[1].copy())
+    found = list_copies(("a/1.png", seen[0]), ("a/2.png", seen[1]), *again)
+    assert found == {
+        "b/x.jpg": "A copy of a/1.png, which counts once.",
+        "a/3.png": "A copy of 2.png, which counts once.",
+    }
 
 
 @pytest.mark.parametrize("quality", [50, 90])
