@@ -320,7 +320,9 @@ def _grade(
     if calibration.status is not Status.CONVERGED:
         return Grade.NOT_USABLE, "The calibration is not finished."
     count = len(calibration.poses)
-    few = "One view cannot be checked." if count == 1 else f"{count} views are too few."
+    few = "One view cannot be checked" if count == 1 else f"{count} views are too few"
+    # A finding has a remedy of its own.
+    few += "." if findings else f": take {MIN_VIEWS_TO_BE_GOOD} or more, tilted in all directions."
     if count < _MIN_VIEWS_TO_USE:
         return Grade.NOT_USABLE, few
     if findings and findings[0].times_better >= MIN_TIMES_BETTER:

@@ -101,6 +101,7 @@ def test_few_views_are_never_good_however_small_their_noise(count: int, grade: G
     assert verdict.error.median < 1.0
     assert verdict.grade is grade
     assert f"{count} views are too few" in verdict.reason
+    assert verdict.findings or "take 5 or more" in verdict.reason
 
 
 @pytest.mark.parametrize(
