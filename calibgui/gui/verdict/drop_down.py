@@ -9,6 +9,8 @@ from PySide6.QtWidgets import QFrame, QWidget
 from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.overlay import Overlay
 
+PICTURE = "picture"
+"""Name of the widget of a window that it covers where it stands to the left of its bar."""
 _NARROWEST = 640
 """Width that it needs, device-independent px."""
 
@@ -37,8 +39,14 @@ class DropDown(QFrame):
     def open_up(self) -> None:
         """Lie over the desk."""
         if self._overlay is None:  # by now the bar is in its window
+            window = self._bar.window()
             self._overlay = Overlay(
-                self, self._bar.window(), self._bar, self._share, narrowest=_NARROWEST
+                self,
+                window,
+                self._bar,
+                self._share,
+                narrowest=_NARROWEST,
+                beside=window.findChild(QWidget, PICTURE),
             )
         self._restyle()
         self._overlay.place()

@@ -17,6 +17,8 @@ class Overlay(QObject):
         at_bottom: whether it stands on the host's lower edge in place of hanging.
         narrowest: width that it needs, px. It stands to the left of a bar that is narrower, or
             hangs across the host where there is too little room as well.
+        beside: the part of the host, to the left of the bar, that it covers from its upper left
+            corner where it stands there.
     """
 
     def __init__(
@@ -27,10 +29,11 @@ class Overlay(QObject):
         share: float = 1.0,
         at_bottom: bool = False,
         narrowest: int = 0,
+        beside: QWidget | None = None,
     ) -> None:
         super().__init__(widget)
         self._widget, self._host, self._bar, self._share = widget, host, bar, share
-        self._at_bottom, self._narrowest = at_bottom, narrowest
+        self._at_bottom, self._narrowest, self._beside = at_bottom, narrowest, beside
         visible = not widget.isHidden()
         widget.setParent(host)
         widget.setVisible(visible)
@@ -44,10 +47,12 @@ class Overlay(QObject):
         top, width = QPoint(), host.width()
         if bar is not None:
             corner = bar.mapTo(host, QPoint())
+            left = QPoint() if self._beside is None else self._beside.mapTo(host, QPoint())
+            room = corner.x() - left.x()
             if bar.width() >= self._narrowest:
                 top, width = corner + QPoint(0, bar.height()), bar.width()
-            elif corner.x() >= self._narrowest:
-                top, width = QPoint(0, corner.y()), corner.x()
+            elif room >= self._narrowest:
+                top, width = left, room
             else:
                 top.setY(corner.y() + bar.height())
         needed = widget.heightForWidth(width)

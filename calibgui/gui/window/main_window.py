@@ -37,6 +37,7 @@ from calibgui.gui.session.follower import Follower
 from calibgui.gui.session.session import Session
 from calibgui.gui.settings.board_panel import BoardPanel
 from calibgui.gui.settings.settings_panel import SettingsPanel
+from calibgui.gui.verdict.drop_down import PICTURE
 from calibgui.gui.verdict.verdict_bar import VerdictBar
 from calibgui.gui.widgets.actions import show_dialog
 from calibgui.gui.widgets.focus_ring import FocusRing
@@ -108,6 +109,7 @@ class MainWindow(QMainWindow):
 
     def _lay_out(self) -> None:
         self.pages = QStackedWidget()
+        self.pages.setObjectName(PICTURE)
         self.pages.addWidget(self.welcome)
         self.pages.addWidget(self.page)
         centre = QWidget()

@@ -400,7 +400,7 @@ def test_before_and_after_use_the_room(
     image = comparison.map.plot.image
     drawn = image.mapRectToScene(image.boundingRect())
     share = drawn.width() * drawn.height() / (comparison.width() * comparison.height())
-    assert share > 0.24
+    assert share > 0.21
     for table in (comparison.errors, comparison.parameters):
         assert table.horizontalHeader().length() <= table.viewport().width()
         assert table.viewport().width() < table.horizontalHeader().length() + 40

@@ -375,8 +375,8 @@ def test_what_opens_at_the_verdict_stands_beside_or_below_it(
     verdict, findings = full.verdict, full.verdict.findings
     qtbot.waitUntil(lambda: verdict.verdict is not None)
     findings.open_up()
-    place = verdict.mapTo(full, QPoint())
-    assert findings.geometry().topRight() == place - QPoint(1, 0)
+    assert findings.geometry().right() == verdict.mapTo(full, QPoint()).x() - 1
+    assert findings.pos() == full.pages.mapTo(full, QPoint()), "it cuts neither tools nor caption"
     resize(full, qtbot, 960, 1000)
     assert findings.width() == full.width(), "there is too little room beside it"
     full.inspector_dock.hide()

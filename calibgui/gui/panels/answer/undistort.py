@@ -83,7 +83,7 @@ class UndistortPanel(Panel):
         self.save_one.clicked.connect(lambda: self._save((self._indices[self._shown],)))
         self.save_all.clicked.connect(lambda: self._save(self._indices))
         self.images = DividedImages(self.tr("as taken"), self.tr("undistorted"))
-        self.lost, self.words = ReservedLabel(2), ReservedLabel(2)
+        self.lost, self.words = ReservedLabel(3), ReservedLabel(2)
         above = QHBoxLayout()
         above.addWidget(self.way, 3)
         above.addWidget(self.view, 2)
