@@ -107,6 +107,7 @@ class BoardPanel(QWidget):
 
         self.pattern = PatternChoice(self.tr("read from the images"))
         self.counted, self.side = QLabel(), QLabel()
+        self.counted.setMinimumWidth(self.pattern.label.minimumWidth())  # fields begin alike
         corners = QHBoxLayout()
         corners.addWidget(self.rows, 1)
         corners.addWidget(QLabel("×"))

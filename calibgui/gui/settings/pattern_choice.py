@@ -123,8 +123,9 @@ class PatternChoice(QWidget):
         self.form = QFormLayout(self)
         self.form.setContentsMargins(0, 0, 0, 0)
         self.label = QLabel(self.tr("Pattern"))
-        """The first label; the fields begin where the widest one ends."""
-        self.label.setMinimumWidth(self.fontMetrics().horizontalAdvance(self.tr("Inner corners")))
+        """The first label; the fields begin where the widest one of any pattern ends."""
+        widest = (self.tr("Inner corners"), self.tr("Small squares"))
+        self.label.setMinimumWidth(max(QLabel(text).sizeHint().width() for text in widest))
         self.form.addRow(self.label, self.kind)
         self.form.addRow(self.tr("Dictionary"), self.dictionary)
         self.form.addRow(self.tr("Marker"), self.marker)

@@ -131,10 +131,12 @@ class SettingsPanel(QWidget):
         return values
 
     def _lay_out(self) -> None:
-        label = QLabel(self.tr("&Minimise"))
+        label, held = QLabel(self.tr("&Minimise")), QLabel(self.tr("Held at"))
         label.setBuddy(self.cost)
-        # In line with the labels of the board's shape, which follow.
-        label.setMinimumWidth(self.board_shape.known.sizeHint().width())
+        held.setBuddy(self.values)
+        # In line with the labels of the board's shape, which stand between.
+        for each in (label, held):
+            each.setMinimumWidth(self.board_shape.known.sizeHint().width())
         first = QFormLayout()
         first.addRow(self.tr("Method"), self.method)
         first.addRow(label, self.cost)
@@ -142,7 +144,7 @@ class SettingsPanel(QWidget):
         self._grid = QGridLayout()
         self._grid.setHorizontalSpacing(theme.SPACING)
         last = QFormLayout()
-        last.addRow(self.tr("Held at"), self.values)
+        last.addRow(held, self.values)
         layout = QVBoxLayout(self)
         layout.addLayout(first)
         layout.addWidget(self.board_shape)

@@ -16,6 +16,7 @@ from calibgui.app.projects.document import Document
 from calibgui.app.projects.project import Project, change_views, set_grid_size
 from calibgui.app.projects.project_file import read_project, write_project
 from calibgui.dataset import ViewStatus
+from calibgui.engine.boards import KINDS
 from calibgui.engine.boards.board import Board
 from calibgui.engine.boards.charuco import Charuco
 from calibgui.engine.boards.checkerboard import CHECKERBOARD
@@ -49,6 +50,15 @@ def choose(box: QComboBox, row: int) -> None:
     box.setFocus()
     while box.currentIndex() != row:
         QTest.keyClick(box, Qt.Key.Key_Down if box.currentIndex() < row else Qt.Key.Key_Up)
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_all_fields_begin_in_one_column(panel: BoardPanel, qtbot: QtBot, kind: str) -> None:
+    choose(panel.pattern.kind, list(KINDS).index(kind))
+    pattern = panel.pattern
+    last = pattern.corner_squares if kind == "aprilgrid" else pattern.kind
+    fields = (pattern.kind, last, panel.rows, panel.square)
+    qtbot.waitUntil(lambda: len({field.mapTo(panel, QPoint()).x() for field in fields}) == 1)
 
 
 def test_a_charuco_board_is_described(session: Session, panel: BoardPanel, tmp_path: Path) -> None:

@@ -260,6 +260,13 @@ def test_outliers_left_out_are_seen_in_the_images_and_undone(
     qtbot.waitUntil(lambda: not session.jobs.running)
 
 
+def test_all_fields_begin_in_one_column(full: MainWindow, qtbot: QtBot) -> None:
+    full.inspector.show_setup()
+    panel = full.settings
+    fields = (panel.method, panel.model, panel.board_shape.model, panel.values)
+    qtbot.waitUntil(lambda: len({field.mapTo(panel, QPoint()).x() for field in fields}) == 1)
+
+
 def test_a_new_project_begins_with_the_automatic_choice(window: MainWindow) -> None:
     settings = window.session.project.settings
     assert settings.model is None
