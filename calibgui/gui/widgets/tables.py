@@ -395,6 +395,9 @@ class Table(QTableView):
         super().resizeEvent(event)
         if event.size().width() != event.oldSize().width():
             self._fit()
+        chosen = self.currentIndex()
+        if event.size().height() != event.oldSize().height() and chosen.isValid():
+            self.scrollTo(chosen)  # it was selected before the table had its height
 
     def _fit(self) -> None:
         """Spare the user sideways scrolling: leave columns out, then narrow the first one."""

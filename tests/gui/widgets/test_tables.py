@@ -149,3 +149,15 @@ def test_the_heading_of_a_narrowed_column_shows_that_it_goes_on(qtbot: QtBot) ->
         assert wide < header.sectionSize(0)
     assert heads[600] == "Parameter of the camera\n[px]"
     assert heads[150].startswith("Para") and heads[150].endswith("…\n[px]")
+
+
+def test_a_row_that_was_selected_before_the_table_had_room_comes_into_sight(qtbot: QtBot) -> None:
+    table = Table()
+    qtbot.addWidget(table)
+    table.show_columns([Column("view", list(map(str, range(60))))])
+    table.resize(200, 20)
+    table.show()
+    table.select(40)
+    table.verticalScrollBar().setValue(0)
+    table.resize(200, 300)
+    assert table.viewport().rect().contains(table.visualRect(table.model().index(40, 0)))
