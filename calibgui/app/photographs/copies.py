@@ -115,7 +115,7 @@ def _find_edited(
     known = [
         (k, one)
         for k, one in zip(usable, seen, strict=True)
-        if views[k].enabled and one.cov is not None
+        if views[k].enabled and one.cov is not None and np.isfinite(one.uv).all()
     ]
     known.sort(key=lambda one: (-len(one[1].uv), _is_lossy(views[one[0]])))
     observations = [one for _, one in known]
