@@ -305,13 +305,13 @@ class SeriesDialog(QDialog):
         band.setAlpha(_BAND_OPACITY)
         edges = [self.plot.plot(x, middle + sign * sigma, pen=band) for sign in (-1, 1)]
         self.plot.addItem(pg.FillBetweenItem(*edges, brush=band))
-        self.plot.plot(x, middle, pen=pg.mkPen(colours.accent, width=2))
+        self.plot.plot(x, middle, pen=theme.make_pen(colours.accent, width=2))
         values = np.array([setting.value for setting in series.settings])
         measured = [setting.known for setting in series.settings]
         y = np.array([known.camera.params[k] for known in measured])
         error = np.array([np.sqrt(known.covariance[k, k]) for known in measured])
         self.plot.addItem(
-            pg.ErrorBarItem(x=values, y=y, height=2 * error, pen=pg.mkPen(colours.text))
+            pg.ErrorBarItem(x=values, y=y, height=2 * error, pen=theme.make_pen(colours.text))
         )
         self.plot.plot(
             values, y, pen=None, symbol="o", symbolSize=6, symbolBrush=colours.text, symbolPen=None

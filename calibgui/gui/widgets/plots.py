@@ -238,7 +238,7 @@ class Plot(pg.GraphicsView):  # type: ignore[misc]  # pyqtgraph is not typed
         self.setAccessibleName(f"{self._labels['left']}, {self._labels['bottom']}")
         for name, text in self._labels.items():
             axis = self.area.axes[name]
-            axis.setPen(colours.line)
+            axis.setPen(theme.make_pen(colours.line))
             axis.setTextPen(colours.text)
             axis.setLabel(text, color=colours.text)
             axis.setToolTip(explain(text))
@@ -300,7 +300,7 @@ class ColourBar(pg.GraphicsWidget):  # type: ignore[misc]  # pyqtgraph is not ty
     def restyle(self) -> None:
         """Take the theme's colours."""
         colours = theme.current()
-        self.axis.setPen(colours.line)
+        self.axis.setPen(theme.make_pen(colours.line))
         self.axis.setTextPen(colours.text)
         self.axis.setLabel(self._quantity, color=colours.text)
         self.axis.setToolTip(explain(self._quantity))

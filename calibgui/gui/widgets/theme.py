@@ -11,7 +11,7 @@ from enum import StrEnum
 from types import SimpleNamespace
 
 from PySide6.QtCore import QSettings, Qt
-from PySide6.QtGui import QColor, QFont, QFontDatabase, QPalette
+from PySide6.QtGui import QColor, QFont, QFontDatabase, QGuiApplication, QPalette, QPen
 from PySide6.QtWidgets import QApplication, QWidget
 
 SPACING = 8
@@ -200,6 +200,25 @@ def view_colour(view: int) -> QColor:
 def view_symbol(view: int) -> str:
     """Return the pyqtgraph symbol of a view's marks: another one every eight views."""
     return _SYMBOLS[view // len(_OKABE_ITO) % len(_SYMBOLS)]
+
+
+def make_pen(
+    colour: QColor | str, width: float = 1.0, style: Qt.PenStyle = Qt.PenStyle.SolidLine
+) -> QPen:
+    """Return a pen for lines of plots, which are as wide at any zoom.
+
+    Qt counts the width of such a pen in pixels of the screen, however small they are: of the
+    finest one, if there are several.
+
+    Args:
+        colour: of the line.
+        width: of the line, device-independent px.
+        style: of the line.
+    """
+    ratios = [screen.devicePixelRatio() for screen in QGuiApplication.screens()]
+    pen = QPen(QColor(colour), width * max(ratios, default=1.0), style)
+    pen.setCosmetic(True)
+    return pen
 
 
 def set_text_colour(label: QWidget, colour: str) -> None:

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from itertools import combinations
+from types import SimpleNamespace
 
 import cv2
 import numpy as np
 import pytest
-from PySide6.QtGui import QColor, QImage
+from PySide6.QtCore import Qt
+from PySide6.QtGui import QColor, QGuiApplication, QImage, QPainter
 from PySide6.QtWidgets import (
     QApplication,
     QCheckBox,
@@ -80,3 +82,20 @@ def luminance(colour: QColor) -> float:
     parts = np.array([colour.redF(), colour.greenF(), colour.blueF()])
     linear = np.where(parts <= 0.03928, parts / 12.92, ((parts + 0.055) / 1.055) ** 2.4)
     return float(linear @ (0.2126, 0.7152, 0.0722))
+
+
+@pytest.mark.usefixtures("qapp")
+def test_lines_of_plots_are_as_wide_on_a_fine_screen(monkeypatch: pytest.MonkeyPatch) -> None:
+    for ratio in (1.0, 1.5, 2.0):
+        screen = SimpleNamespace(devicePixelRatio=lambda ratio=ratio: ratio)
+        monkeypatch.setattr(QGuiApplication, "screens", lambda screen=screen: [screen])
+        image = QImage(60, 60, QImage.Format.Format_RGB32)
+        image.setDevicePixelRatio(ratio)
+        image.fill(Qt.GlobalColor.black)
+        painter = QPainter(image)
+        painter.scale(3, 3)  # as a plot that is zoomed
+        painter.setPen(theme.make_pen("#ffffff", width=2))
+        painter.drawLine(0, 5, 60, 5)
+        painter.end()
+        lit = sum(image.pixelColor(30, y).lightnessF() for y in range(60))
+        assert lit == pytest.approx(2 * ratio, abs=0.6)

@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 
 import numpy as np
-import pyqtgraph as pg
 from PySide6.QtCore import QT_TRANSLATE_NOOP, QPointF
 from PySide6.QtWidgets import QDoubleSpinBox, QHBoxLayout, QLabel, QVBoxLayout
 
@@ -17,6 +16,7 @@ from calibgui.gui.panels.panel import Panel
 from calibgui.gui.panels.parts.contours import Contours
 from calibgui.gui.panels.parts.heat import CORNERS, HeatMap, surround_places
 from calibgui.gui.panels.services import Services
+from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.lengths import describe_condition
 from calibgui.gui.widgets.point_cloud import PointCloud
 from calibgui.gui.widgets.reserved_label import ReservedLabel
@@ -84,7 +84,7 @@ class UncertaintyPanel(Panel):
             )
         )
         self.plot.scene().sigMouseMoved.connect(self._hover)
-        self.region = Contours(self.plot, pg.mkPen("#ff3b30", width=2.5))
+        self.region = Contours(self.plot, theme.make_pen("#ff3b30", width=2.5))
         self.corners = PointCloud(size=2)
         self.plot.addItem(self.corners)
         self.under_cursor = QLabel()

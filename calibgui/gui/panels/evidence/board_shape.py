@@ -53,7 +53,7 @@ class BoardShapePanel(Panel):
         self.save.clicked.connect(self._ask_and_save)
         self.plot = Plot(self.tr("X on the board"), self.tr("Y on the board"), square=True)
         self.plot.box.invertY(True)
-        self.dots = pg.ScatterPlotItem(size=9, pen=pg.mkPen("#808080"))
+        self.dots = pg.ScatterPlotItem(size=9, pen=theme.make_pen("#808080"))
         self.colours = pg.colormap.get(_COLOURS)
         self.bar = ColourBar(self.plot, "", self.colours)
         self.plot.setToolTip(
@@ -123,7 +123,7 @@ class BoardShapePanel(Panel):
         tails = np.vstack([at + scale * d[:, :2] / 2, corner + key / 2])
         self.arrows.setData(*trace_arrows(tails, np.vstack([scale * d[:, :2], key])).T)
         colours = theme.current()
-        self.arrows.setPen(pg.mkPen(colours.text, width=1.5))
+        self.arrows.setPen(theme.make_pen(colours.text, width=1.5))
         self.key.setText(self.tr("{0:g} mm in the plane").format(size), color=colours.text)
         self.key.setPos(corner[0] + size * scale + 0.2 * pitch, corner[1])
         low, high = at.min(axis=0) - pitch * np.array([1.0, 2.0]), at.max(axis=0) + pitch

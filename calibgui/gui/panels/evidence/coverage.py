@@ -18,6 +18,7 @@ from calibgui.gui.panels.panel import Panel
 from calibgui.gui.panels.parts.heat import HeatMap, image_rectangle
 from calibgui.gui.panels.parts.split import Split
 from calibgui.gui.panels.services import Services
+from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.lengths import name_unit
 from calibgui.gui.widgets.reserved_label import ReservedLabel
 from calibgui.report.coverage import count_corners_per_cell, measure_attitudes
@@ -54,7 +55,7 @@ class CoveragePanel(Panel):
         self.density.setToolTip(
             self.tr("Where corners were seen. The lens correction is extrapolated beyond them.")
         )
-        self.next_board = self.density.plot(pen=pg.mkPen("#ff3b30", width=2.5))
+        self.next_board = self.density.plot(pen=theme.make_pen("#ff3b30", width=2.5))
         self.next_corners = pg.ScatterPlotItem(size=3, pen=None, brush="#ff3b30")
         self.density.addItem(self.next_corners)
         self.advice = ReservedLabel(4)
@@ -164,7 +165,7 @@ class CoveragePanel(Panel):
             np.outer(_RINGS, np.cos(turn)).ravel(),
             np.outer(_RINGS, np.sin(turn)).ravel(),
             connect="finite",
-            pen=pg.mkPen(grey, style=Qt.PenStyle.DotLine),
+            pen=theme.make_pen(grey, style=Qt.PenStyle.DotLine),
         )
         for degrees in _RINGS:
             label = pg.TextItem(f"{degrees}°", color=grey, anchor=(0.5, 0.5))

@@ -49,11 +49,11 @@ class HistogramPlot(Plot):
         colours = theme.current()
         self.set_labels(name, self.tr("density"), unit, f"1/{unit}")
         self.bars.setData(histogram.edges, histogram.density)
-        self.bars.setPen(pg.mkPen(colours.line))
+        self.bars.setPen(theme.make_pen(colours.line))
         self.bars.setBrush(pg.mkBrush(colours.line))
         x = np.linspace(histogram.edges[0], histogram.edges[-1], _SAMPLES)
         self.fit.setData(x, histogram.evaluate_density(x))
-        self.fit.setPen(pg.mkPen(colours.bad, width=2))
+        self.fit.setPen(theme.make_pen(colours.bad, width=2))
         law = self.tr("Rayleigh s") if histogram.is_rayleigh else self.tr("Gaussian σ")
         self.set_title(
             self.tr("mean {0:.4f}, SD {1:.4f} {4}<br>{2} = {3:.4f} {4}").format(

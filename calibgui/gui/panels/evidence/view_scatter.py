@@ -51,7 +51,7 @@ class ViewScatter(Plot):
     def ring_view(self, k: int) -> None:
         """Mark the k-th view; none if it is negative."""
         self._ring.setData(*self.points[k : k + 1].T if k >= 0 else ([], []))
-        self._ring.setPen(pg.mkPen(theme.current().text, width=2))
+        self._ring.setPen(theme.make_pen(theme.current().text, width=2))
 
     def _clicked(self, event: pg.GraphicsScene.mouseEvents.MouseClickEvent) -> None:
         if event.button() is Qt.MouseButton.LeftButton:

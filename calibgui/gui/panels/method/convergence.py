@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import numpy as np
-import pyqtgraph as pg
 from PySide6.QtCore import QT_TRANSLATE_NOOP
 from PySide6.QtWidgets import QVBoxLayout
 
@@ -99,7 +98,7 @@ class ConvergencePanel(Panel):
 
     def _draw(self) -> None:
         colours = theme.current()
-        self._curve.setPen(pg.mkPen(colours.accent, width=2))
+        self._curve.setPen(theme.make_pen(colours.accent, width=2))
         self._curve.setSymbolBrush(colours.accent)
         self._curve.setSymbolPen(None)
         self._curve.setData(

@@ -19,6 +19,7 @@ from calibgui.gui.panels.parts.arrows import trace_arrows
 from calibgui.gui.panels.parts.contours import Contours
 from calibgui.gui.panels.parts.heat import HeatMap, image_rectangle
 from calibgui.gui.panels.services import Services
+from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.levels import choose_levels
 
 _CELLS = 160
@@ -59,9 +60,9 @@ class DistortionPanel(Panel):
         self.masked.toggled.connect(self._refresh_now)
         self.plot = HeatMap(self.tr("displacement d [px]"))
         self.plot.scene().sigMouseMoved.connect(self._hover)
-        self.contours = Contours(self.plot, pg.mkPen("#ffffffc8"))
-        self._arrows = self.plot.plot(connect="finite", pen=pg.mkPen("#ffffff90"))
-        edge = pg.mkPen("#101418")
+        self.contours = Contours(self.plot, theme.make_pen("#c8ffffff"))
+        self._arrows = self.plot.plot(connect="finite", pen=theme.make_pen("#90ffffff"))
+        edge = theme.make_pen("#101418")
         self.centre = pg.ScatterPlotItem(symbol="+", size=18, brush="#ffe600", pen=edge)
         self.principal = pg.ScatterPlotItem(symbol="x", size=16, brush="#ff3b30", pen=edge)
         for mark in (self.centre, self.principal):

@@ -7,7 +7,6 @@ from pathlib import PurePath
 from typing import Any
 
 import numpy as np
-import pyqtgraph as pg
 from PySide6.QtCore import QT_TRANSLATE_NOOP
 from PySide6.QtWidgets import QVBoxLayout
 
@@ -81,12 +80,12 @@ class StageOnePanel(Panel):
         self._names = shorten_names(result.used)
         rows, colours = self._rows, theme.current()
         self.table.show_columns(self._list_columns(), self._outlying(rows))
-        self._curve.setPen(pg.mkPen(colours.accent, width=2))
-        self._line.setPen(pg.mkPen(colours.line))
+        self._curve.setPen(theme.make_pen(colours.accent, width=2))
+        self._line.setPen(theme.make_pen(colours.line))
         self._line.setSymbolBrush(colours.accent)
         self._line.setSymbolPen(None)
         for marks in (self._root, self._current):
-            marks.setSymbolPen(pg.mkPen(colours.bad, width=2))
+            marks.setSymbolPen(theme.make_pen(colours.bad, width=2))
         aspects = np.array([row.aspect for row in rows])
         known = np.isfinite(aspects).any()  # a line of no points at all has no extent
         self._line.setData(np.arange(1, len(rows) + 1) if known else [], aspects if known else [])

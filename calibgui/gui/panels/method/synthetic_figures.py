@@ -70,7 +70,7 @@ class PoseErrors(Plot):
         errors = 100 * check.extrinsic_errors.ravel()
         count, edges = np.histogram(errors, _BINS, range=(0.0, float(np.quantile(errors, 0.99))))
         self.bars.setData(edges, count)
-        self.bars.setPen(pg.mkPen(theme.current().line))
+        self.bars.setPen(theme.make_pen(theme.current().line))
         self.bars.setBrush(pg.mkBrush(theme.current().line))
         self.set_title(
             self.tr("median {0:.3g} %, largest {1:.3g} %").format(np.median(errors), errors.max())

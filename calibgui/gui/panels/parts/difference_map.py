@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import Protocol
 
 import numpy as np
-import pyqtgraph as pg
 from PySide6.QtCore import QPointF, Qt
 from PySide6.QtWidgets import QStackedWidget, QVBoxLayout, QWidget
 
@@ -60,7 +59,7 @@ class DifferenceMap(QWidget):
             )
         )
         self.plot.scene().sigMouseMoved.connect(self._hover)
-        self.contours = Contours(self.plot, pg.mkPen("#ffffffc8"))
+        self.contours = Contours(self.plot, theme.make_pen("#c8ffffff"))
         self.corners = PointCloud(size=2)
         self.plot.addItem(self.corners)
         self.under_cursor = ElidedLabel()

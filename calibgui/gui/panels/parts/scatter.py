@@ -55,9 +55,9 @@ class ResidualScatter(Plot):
         text = theme.current().text
         points = self._points[view] if view >= 0 else np.zeros((0, 2))
         brush = theme.view_colour(self._views[view]) if view >= 0 else None
-        self._view.setData(*points.T, brush=brush, pen=pg.mkPen(text))
+        self._view.setData(*points.T, brush=brush, pen=theme.make_pen(text))
         chosen = points[corner : corner + 1] if corner >= 0 else points[:0]
-        self._ring.setData(*chosen.T, pen=pg.mkPen(text, width=2))
+        self._ring.setData(*chosen.T, pen=theme.make_pen(text, width=2))
 
     def _clicked(self, event: pg.GraphicsScene.mouseEvents.MouseClickEvent) -> None:
         if event.button() is Qt.MouseButton.LeftButton:
