@@ -241,6 +241,7 @@ class Plot(pg.GraphicsView):  # type: ignore[misc]  # pyqtgraph is not typed
             axis.setPen(theme.make_pen(colours.line))
             axis.setTextPen(colours.text)
             axis.setLabel(text, color=colours.text)
+            axis.resizeEvent()  # which places the label in the middle
             axis.setToolTip(explain(text))
         self.updateGeometry()
         if self.colour_bar is not None:

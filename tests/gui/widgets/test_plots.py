@@ -43,6 +43,15 @@ def test_axes_name_their_units(qtbot: QtBot) -> None:
     assert area.bottom.labelText == "iteration"
 
 
+def test_a_new_label_is_in_the_middle_of_its_axis(qtbot: QtBot) -> None:
+    plot = example(qtbot)
+    plot.show()
+    plot.set_labels("a name that is much longer", "y")
+    axis = plot.area.bottom
+    middle = plot.mapFromScene(axis.mapToScene(axis.boundingRect().center())).x()
+    assert abs(find_text(plot, axis).center().x() - middle) < 25  # the numbers may stand out
+
+
 @pytest.mark.parametrize("enclosed", [False, True])
 def test_what_an_axis_shows_is_never_cut_off(qtbot: QtBot, enclosed: bool) -> None:
     """A condition, as "mm if squares are 30 mm", makes the text longer than a plot is high."""

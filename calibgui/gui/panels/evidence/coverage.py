@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 import pyqtgraph as pg
 import scipy
-from PySide6.QtCore import QT_TRANSLATE_NOOP, Qt
-from PySide6.QtGui import QColor
+from PySide6.QtCore import QT_TRANSLATE_NOOP, QRectF, Qt
 from PySide6.QtWidgets import QVBoxLayout
 
 from calibgui.dataset import Result
@@ -19,7 +20,7 @@ from calibgui.gui.panels.parts.heat import HeatMap, image_rectangle
 from calibgui.gui.panels.parts.split import Split
 from calibgui.gui.panels.services import Services
 from calibgui.gui.widgets import theme
-from calibgui.gui.widgets.lengths import name_unit
+from calibgui.gui.widgets.lengths import describe_condition
 from calibgui.gui.widgets.reserved_label import ReservedLabel
 from calibgui.report.coverage import count_corners_per_cell, measure_attitudes
 
@@ -27,8 +28,13 @@ _CELLS = (24, 18)
 """Columns and rows of the density that is drawn."""
 _MAP_HEIGHT = 240
 """Least height of the map, px: it is the panel's main thing, and as wide as a narrow panel then."""
-_RINGS = (15, 30, 45, 60)
-"""Tilts that are marked by circles, degrees."""
+_RING = 15
+"""Tilt from one circle to the next, degrees."""
+_LEAST_RINGS = 3
+_ROOM = 1.1
+"""Room around the outermost circle, as a share of it, for its number."""
+_DIRECTIONS = 24
+"""Directions that the circles' numbers may be written along."""
 
 
 class CoveragePanel(Panel):
@@ -68,7 +74,10 @@ class CoveragePanel(Panel):
                 "Points on all sides, 20° to 45° out, determine the focal length best."
             )
         )
-        self._add_rings()
+        self.rings = self.tilts.plot(
+            connect="finite", pen=theme.make_pen("#808080", style=Qt.PenStyle.DotLine)
+        )
+        self.ring_numbers: list[pg.TextItem] = []
         self.distances = ViewScatter(self.tr("view"), self.tr("distance"), counts=True)
         self.distances.setToolTip(self.tr("From the camera to the middle of the corners seen."))
         self._planned: Result | None = None
@@ -98,10 +107,13 @@ class CoveragePanel(Panel):
         self.distances.show_views(
             np.stack([np.arange(1, len(tilt) + 1), attitude.distance], axis=1), self._indices
         )
-        self.distances.set_labels(self.tr("view"), self.tr("distance"), y_unit=name_unit(result))
+        if condition := describe_condition(result):  # which is too long for the upright axis
+            views = self.tr("view (distance in mm{0})").format(condition)
+            self.distances.set_labels(views, self.tr("distance"))
+        else:
+            self.distances.set_labels(self.tr("view"), self.tr("distance"), y_unit=self.tr("mm"))
         self.distances.box.setYRange(0, 1.1 * attitude.distance.max())
-        reach = max(48.0, 1.05 * float(np.abs(self.tilts.points).max()))
-        self.tilts.box.setRange(xRange=(-reach, reach), yRange=(-reach, reach))
+        self._draw_rings()
         self._look_for_next(result)
 
     def _look_for_next(self, result: Result) -> None:
@@ -158,16 +170,25 @@ class CoveragePanel(Panel):
         self.tilts.ring_view(k)
         self.distances.ring_view(k)
 
-    def _add_rings(self) -> None:
+    def _draw_rings(self) -> None:
+        """Draw circles around all tilts, with their numbers where points leave room for them."""
+        points = self.tilts.points
+        largest = float(np.linalg.norm(points, axis=1).max())
+        rings = _RING * np.arange(1, max(_LEAST_RINGS, math.ceil(largest / _RING)) + 1)
         turn = np.append(np.linspace(0, 2 * np.pi, 73), np.nan)  # NaN parts one from the next
-        grey = QColor(128, 128, 128, 220)
-        self.tilts.plot(
-            np.outer(_RINGS, np.cos(turn)).ravel(),
-            np.outer(_RINGS, np.sin(turn)).ravel(),
-            connect="finite",
-            pen=theme.make_pen(grey, style=Qt.PenStyle.DotLine),
+        self.rings.setData(
+            np.outer(rings, np.cos(turn)).ravel(), np.outer(rings, np.sin(turn)).ravel()
         )
-        for degrees in _RINGS:
-            label = pg.TextItem(f"{degrees}°", color=grey, anchor=(0.5, 0.5))
-            label.setPos(degrees * np.sqrt(0.5), degrees * np.sqrt(0.5))
-            self.tilts.addItem(label)
+        turn = 2 * np.pi / _DIRECTIONS * np.arange(_DIRECTIONS)
+        at = rings[:, None] * np.stack([np.cos(turn), np.sin(turn)], axis=1)[:, None]
+        away = np.linalg.norm(at[:, :, None] - points, axis=-1).min(axis=(1, 2))
+        for number in self.ring_numbers:
+            self.tilts.removeItem(number)
+        self.ring_numbers = []
+        for degrees, place in zip(rings, at[away.argmax()], strict=True):
+            number = pg.TextItem(f"{degrees}°", theme.current().muted, anchor=(0.5, 0.5))
+            number.setPos(*place)
+            self.tilts.addItem(number)
+            self.ring_numbers.append(number)
+        reach = _ROOM * float(rings[-1])
+        self.tilts.enclose(QRectF(-reach, -reach, 2 * reach, 2 * reach))

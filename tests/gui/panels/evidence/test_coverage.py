@@ -121,6 +121,39 @@ def test_the_map_ends_with_the_image(panel: CoveragePanel, qtbot: QtBot) -> None
         qtbot.waitUntil(ends)
 
 
+def test_rings_and_their_numbers_are_all_in_view_away_from_the_points(
+    panel: CoveragePanel, qtbot: QtBot
+) -> None:
+    rings = np.transpose(panel.rings.getData())
+    at = np.array([[number.pos().x(), number.pos().y()] for number in panel.ring_numbers])
+    numbers = [number.toPlainText() for number in panel.ring_numbers]
+    assert numbers[:3] == ["15°", "30°", "45°"]
+    tilts = np.linalg.norm(panel.tilts.points, axis=1)
+    outermost = np.linalg.norm(at[-1])
+    assert max(tilts.max(), 45) <= outermost < max(tilts.max() + 15, 46)
+    away = np.linalg.norm(at[:, None] - panel.tilts.points, axis=-1)
+    assert away.min() > 4
+
+    def ends() -> None:
+        for low, high in panel.tilts.box.viewRange():
+            assert low < np.nanmin(rings) and np.nanmax(rings) < high
+            assert high - low < 2.6 * outermost
+
+    for size in ((440, 600), (900, 650)):
+        panel.resize(*size)
+        qtbot.waitUntil(ends)
+
+
+def test_a_condition_on_lengths_leaves_the_height_of_the_distances_as_it_is(
+    panel: CoveragePanel, result: Result
+) -> None:
+    panel.show_result(replace(result, lengths_confirmed=True))
+    height = panel.distances.minimumSizeHint().height()
+    panel.show_result(replace(result, lengths_confirmed=False))
+    assert panel.distances.minimumSizeHint().height() == height
+    assert "if squares are 30 mm" in panel.distances.area.bottom.labelText
+
+
 def test_the_user_need_not_wait_for_the_next_view(
     shown: Shown[CoveragePanel],
     result: Result,
