@@ -124,6 +124,7 @@ class BoardShapePanel(Panel):
         self.arrows.setData(*trace_arrows(tails, np.vstack([scale * d[:, :2], key])).T)
         colours = theme.current()
         self.arrows.setPen(theme.make_pen(colours.text, width=1.5))
+        self.arrows.setShadowPen(theme.make_pen(colours.base, width=3.5))  # over pale discs
         self.key.setText(self.tr("{0:g} mm in the plane").format(size), color=colours.text)
         self.key.setPos(corner[0] + size * scale + 0.2 * pitch, corner[1])
         low, high = at.min(axis=0) - pitch * np.array([1.0, 2.0]), at.max(axis=0) + pitch

@@ -8,13 +8,14 @@ from pathlib import Path
 import numpy as np
 import pytest
 from PySide6.QtCore import QPointF, Qt
-from PySide6.QtWidgets import QFileDialog
+from PySide6.QtWidgets import QApplication, QFileDialog
 from pytestqt.qtbot import QtBot
 
 from calibgui.dataset import Result
 from calibgui.engine.boards.shape import BoardShape
 from calibgui.formats.board_shape_json import read_board_shape
 from calibgui.gui.panels.evidence.board_shape import BoardShapePanel, _round_down
+from calibgui.gui.widgets import theme
 from tests.gui.panels.conftest import Shown, made
 
 
@@ -54,6 +55,18 @@ def test_colours_are_symmetric_about_the_plane(
     far, near = int(board_shape.deviation[:, 2].argmax()), int(board_shape.deviation[:, 2].argmin())
     assert brushes[far].red() > brushes[far].blue()
     assert brushes[near].red() < brushes[near].blue()
+
+
+def test_arrows_show_on_pale_discs(
+    shown: Shown[BoardShapePanel], bent: Result, qapp: QApplication
+) -> None:
+    theme.apply(qapp, theme.Scheme.DARK)
+    try:
+        options = shown(BoardShapePanel, bent).arrows.opts
+        assert options["shadowPen"].color().name() == theme.DARK.base
+        assert options["shadowPen"].widthF() >= options["pen"].widthF() + 1
+    finally:
+        theme.apply(qapp, theme.Scheme.LIGHT)
 
 
 def test_words_and_the_value_under_the_cursor(
