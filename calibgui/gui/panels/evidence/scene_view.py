@@ -46,7 +46,10 @@ _KEYS = {
 }
 _SHARE = 0.44
 """Half the drawn scene in shorter sides of the widget: the rest is for numbers around it."""
-_FADED = 0.45
+_HUE = 0.65
+"""Share of its view's colour that an outline has; the rest is the text's, which shows on the ground
+in either scheme."""
+_FADED = 0.65
 """Share of its colour that the farthest outline has; that of the nearest is 1."""
 _GROUND = 170
 """Opacity of the patch behind a number, of 255: it is read over any board."""
@@ -228,7 +231,7 @@ class SceneView(QWidget):
         rank = self._rank(view)
         colour = QColor(colours.muted) if view < 0 else self._colours[view]
         # Mixed with the ground, not translucent: those are drawn in a third of the time.
-        outline = _mix(colour, colours.base, 1.0 if rank else self._opacity(item.depth))
+        outline = colour if rank else mix_outline(colour, self._opacity(item.depth))
         inside = QColor(colour)
         inside.setAlpha((0, 70, 140)[rank])
         painter.setPen(QPen(outline, (1.0, 1.8, 2.5)[rank]))
@@ -377,6 +380,12 @@ class SceneView(QWidget):
             self.look_from(self.observer.zoomed(1.2 if event.text() == "+" else 1 / 1.2))
         else:
             super().keyPressEvent(event)
+
+
+def mix_outline(colour: QColor, opacity: float) -> QColor:
+    """Return the colour of an outline of a view's colour that shows on the ground."""
+    colours = theme.current()
+    return _mix(_mix(colour, colours.text, _HUE), colours.base, opacity)
 
 
 def _mix(colour: QColor, ground: str, share: float) -> QColor:

@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 import numpy as np
+import pytest
 from PySide6.QtCore import QPoint, QPointF, QRectF, Qt
-from PySide6.QtGui import QImage, QWheelEvent
+from PySide6.QtGui import QColor, QImage, QWheelEvent
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
 from calibgui.dataset import Result
 from calibgui.engine.geometry import rotations
 from calibgui.gui.panels.evidence.poses import PosesPanel
+from calibgui.gui.panels.evidence.scene_view import _FADED, mix_outline
 from calibgui.gui.widgets import theme
 from calibgui.report.scene3d import (
     Observer,
@@ -32,6 +34,28 @@ def test_a_board_picks_its_view(shown: Shown[PosesPanel], result: Result, qtbot:
     with qtbot.waitSignal(panel.picked) as signal:
         qtbot.mouseClick(panel.space, Qt.MouseButton.LeftButton, pos=at)
     assert result.views[signal.args[0]] is result.used[front.polygon.view]
+
+
+def luminance(colour: QColor) -> float:
+    """Relative luminance of WCAG 2."""
+    rgb = np.array(colour.getRgbF()[:3])
+    linear = np.where(rgb <= 0.04045, rgb / 12.92, ((rgb + 0.055) / 1.055) ** 2.4)
+    return float(linear @ [0.2126, 0.7152, 0.0722])
+
+
+@pytest.mark.parametrize("scheme", [theme.Scheme.LIGHT, theme.Scheme.DARK])
+def test_the_farthest_outline_of_any_view_shows_on_the_ground(
+    qapp: QApplication, scheme: theme.Scheme
+) -> None:
+    theme.apply(qapp, scheme)
+    try:
+        ground = luminance(QColor(theme.current().base))
+        for view in range(64):
+            outline = luminance(mix_outline(theme.view_colour(view), _FADED))
+            dark, bright = sorted((ground, outline))
+            assert (bright + 0.05) / (dark + 0.05) > 1.9, view
+    finally:
+        theme.apply(qapp, theme.Scheme.LIGHT)
 
 
 def test_the_scene_covers_its_place_at_one_and_a_half_times_the_scale(
