@@ -183,7 +183,8 @@ def draw_residual_histograms(calibration: Calibration, on_reference: bool = True
     figure = Figure(figsize=(2.2 * _WIDTH_INCHES, 3.8), layout="constrained")
     for axes, histogram, name in zip(figure.subplots(1, 3), histograms, names, strict=True):
         _draw_histogram(axes, histogram)
-        axes.set(xlabel=f"{name}, {unit}", ylabel=f"density, 1/{unit}")
+        beyond = f" ({histogram.outside} farther out)" if histogram.outside else ""
+        axes.set(xlabel=f"{name}, {unit}{beyond}", ylabel=f"density, 1/{unit}")
     return figure
 
 

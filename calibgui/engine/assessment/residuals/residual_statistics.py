@@ -20,6 +20,13 @@ from calibgui.engine.calibration.result import Calibration, ViewResiduals
 
 _BINS = 50
 """Number of bins of a histogram."""
+_REACH = 6.0
+"""Standard deviations up to which a histogram extends, by the median size: a single bad corner
+would make one bar of all others."""
+_NORMAL_MEDIAN = 0.6745
+"""Median size of a Gaussian component, in standard deviations."""
+_RAYLEIGH_MEDIAN = 1.1774
+"""Median length of a Gaussian vector, in standard deviations of a component."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -92,7 +99,7 @@ class Histogram:
     edges: Array
     """(B + 1,) edges of the bins."""
     density: Array
-    """(B,) frequency density, of unit area."""
+    """(B,) frequency density; its area is the share of the values that are not outside."""
     mean: float
     """Mean of the values."""
     sd: float
@@ -101,6 +108,8 @@ class Histogram:
     """Parameter s of the fitted density, for a Gaussian its standard deviation."""
     is_rayleigh: bool
     """True if the fitted density is Rayleigh's (of lengths), false if Gaussian (of components)."""
+    outside: int = 0
+    """Number of values beyond the outermost edges."""
 
     def __post_init__(self) -> None:
         freeze(self, "edges", "density")
@@ -119,21 +128,39 @@ def make_component_histogram(values: Array) -> Histogram:
     Its range is symmetric about 0.
     """
     values = values[np.isfinite(values)]
-    limit = float(np.abs(values).max(initial=1e-12))
-    density, edges = np.histogram(values, bins=_BINS, range=(-limit, limit), density=True)
+    limit = _limit_histogram(np.abs(values), _NORMAL_MEDIAN)
+    edges, density, outside = _count_values(values, -limit, limit)
     sd = float(values.std())
-    return Histogram(edges, density, float(values.mean()), sd, sd, is_rayleigh=False)
+    return Histogram(edges, density, float(values.mean()), sd, sd, False, outside)
 
 
 def make_length_histogram(values: Array) -> Histogram:
     """Make the histogram of residual lengths with a Rayleigh density (figure 11c)."""
     values = values[np.isfinite(values)]
-    limit = float(values.max(initial=1e-12))
-    density, edges = np.histogram(values, bins=_BINS, range=(0.0, limit), density=True)
+    edges, density, outside = _count_values(values, 0.0, _limit_histogram(values, _RAYLEIGH_MEDIAN))
     scale = float(np.sqrt(np.mean(values**2) / 2))
     return Histogram(
-        edges, density, float(values.mean()), float(values.std()), scale, is_rayleigh=True
+        edges, density, float(values.mean()), float(values.std()), scale, True, outside
     )
+
+
+def _limit_histogram(sizes: Array, median: float) -> float:
+    """Return the largest of `sizes` (n,), or where outliers begin, if that is less.
+
+    Args:
+        sizes: absolute values or lengths.
+        median: theirs if they are of Gaussian noise, in its standard deviations.
+    """
+    largest = float(sizes.max(initial=1e-12))
+    usual = _REACH / median * float(np.median(sizes)) if sizes.size else 0.0
+    return min(largest, usual) if usual > 0 else largest
+
+
+def _count_values(values: Array, low: float, high: float) -> tuple[Array, Array, int]:
+    """Return edges (B + 1,) and densities (B,) of bins, and how many values lie in none."""
+    counts, edges = np.histogram(values, bins=_BINS, range=(low, high))
+    density = counts / np.diff(edges) / max(len(values), 1)
+    return edges, density, len(values) - int(counts.sum())
 
 
 def stack_residuals(calibration: Calibration, on_reference: bool) -> Array:

@@ -55,11 +55,12 @@ class HistogramPlot(Plot):
         self.fit.setData(x, histogram.evaluate_density(x))
         self.fit.setPen(theme.make_pen(colours.bad, width=2))
         law = self.tr("Rayleigh s") if histogram.is_rayleigh else self.tr("Gaussian σ")
-        self.set_title(
-            self.tr("mean {0:.4f}, SD {1:.4f} {4}<br>{2} = {3:.4f} {4}").format(
-                round(histogram.mean, 4) + 0.0, histogram.sd, law, histogram.scale, unit
-            )
+        title = self.tr("mean {0:.4f}, SD {1:.4f} {4}<br>{2} = {3:.4f} {4}").format(
+            round(histogram.mean, 4) + 0.0, histogram.sd, law, histogram.scale, unit
         )
+        if histogram.outside:
+            title += self.tr("; {0} farther out").format(histogram.outside)
+        self.set_title(title)
         limit, highest = extent or _measure_extent(histogram)
         self._extent = (0.0 if histogram.is_rayleigh else -limit, limit), (0.0, highest)
         self.show_all()

@@ -104,3 +104,23 @@ def test_stacked_residuals_of_a_calibration() -> None:
     )
     # 0.1 px of noise, of which the 33 unknowns absorb their share of 864 coordinates.
     assert image.std() == pytest.approx(0.1 * np.sqrt(1 - 33 / 864), rel=0.08)
+
+
+def test_a_few_bad_corners_do_not_make_one_bar_of_all_others() -> None:
+    rng = np.random.default_rng(3)
+    residuals = np.concatenate([rng.normal(scale=0.1, size=(1000, 2)), [[9.0, -7.0], [-8.0, 5.0]]])
+    for histogram in (
+        residual_statistics.make_component_histogram(residuals[:, 0]),
+        residual_statistics.make_component_histogram(residuals[:, 1]),
+        residual_statistics.make_length_histogram(np.linalg.norm(residuals, axis=1)),
+    ):
+        assert histogram.outside == 2
+        assert histogram.edges[-1] < 0.7
+        area = histogram.density @ np.diff(histogram.edges)
+        assert area == pytest.approx(1000 / 1002)
+
+
+def test_a_histogram_holds_all_values_where_most_are_zero() -> None:
+    values = np.array([0.0, 0.0, 0.0, 0.2])
+    assert residual_statistics.make_component_histogram(values).outside == 0
+    assert residual_statistics.make_length_histogram(values).outside == 0

@@ -58,6 +58,16 @@ def test_both_components_are_on_the_same_axes(
     assert panel.plots[1].box.viewRange() == along_u
 
 
+def test_what_the_axes_leave_out_is_told(shown: Shown[HistogramsPanel], result: Result) -> None:
+    calibration = result.calibration
+    first, *others = calibration.residuals
+    bad = replace(first, image=np.vstack([first.image[:-1], [[6.0, 4.0]]]))
+    outlying = replace(calibration, residuals=(bad, *others))
+    for plot in shown(HistogramsPanel, replace(result, calibration=outlying)).plots:
+        assert plot.box.viewRange()[0][1] < 1.0
+        assert plot.area.title.text.endswith("; 1 farther out")
+
+
 def _stretch_along_u(result: Result) -> Result:
     """Return the result with residuals ten times as large along u."""
     calibration = result.calibration
