@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import math
+import sys
+from collections.abc import Callable, Sequence
 
 import pyqtgraph as pg
 from PySide6.QtCore import Qt
@@ -49,6 +51,36 @@ class Axis(pg.AxisItem):  # type: ignore[misc]  # pyqtgraph is not typed
             return list(super().tickStrings(values, scale, spacing))
         return [self.write_number(value) for value in values]
 
+    def logTickValues(  # noqa: N802 - pyqtgraph's name
+        self, low: float, high: float, size: float, levels: list[tuple[float, list[float]]]
+    ) -> list[tuple[float | None, list[float]]]:
+        length = 10.0**high - 10.0**low
+        if self._choose_leading(low, high) or length < sys.float_info.min:
+            return list(super().logTickValues(low, high, size, levels))
+        # A range without two numbers of a single digit: it is nearly linear.
+        spacing = 10.0 ** math.floor(math.log10(length / 2))
+        spacing *= 5 if length > 10 * spacing else 1  # two to ten numbers
+        first, last = (math.floor(10.0**end / spacing) for end in (low, high))
+        return [(spacing, [math.log10(k * spacing) for k in range(first + 1, last + 1)])]
+
+    def _choose_leading(self, low: float, high: float) -> Sequence[int]:
+        """Choose the leading digits of the numbers that are written between powers of ten.
+
+        There are two numbers at least, or nothing can be read off between them; none is chosen
+        where even all digits do not make two.
+        """
+        if high - low > _MANY_DECADES:
+            return (1,)
+        for digits in ((1, 2, 5), range(1, 10)):
+            places = [
+                power + math.log10(digit)
+                for power in range(math.floor(low), math.ceil(high) + 1)
+                for digit in digits
+            ]
+            if sum(low < place < high for place in places) >= 2:
+                return digits
+        return ()
+
     def logTickStrings(  # noqa: N802 - pyqtgraph's name
         self,
         values: list[float],
@@ -56,7 +88,8 @@ class Axis(pg.AxisItem):  # type: ignore[misc]  # pyqtgraph is not typed
         spacing: float,  # noqa: ARG002
     ) -> list[str]:
         low, high = sorted(self.range)
-        shown = (1,) if high - low > _MANY_DECADES else (1, 2, 5)
+        if not (shown := self._choose_leading(low, high)):
+            return [f"{10.0**value * scale:.6g}" for value in values]
         is_plain = low >= -_MANY_DECADES and high <= _MANY_DECADES
         texts = []
         for value in values:

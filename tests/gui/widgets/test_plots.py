@@ -110,6 +110,25 @@ def test_numbers_of_a_logarithmic_axis_are_written_alike(qtbot: QtBot) -> None:
     assert axis.logTickStrings([5, np.log10(2e6)], 1.0, 1.0) == ["10⁵", "2·10⁶"]
 
 
+@pytest.mark.parametrize(
+    ("low", "high"),
+    [(28, 140), (45, 90), (28.5, 28.9), (9.99, 10.02), (34.1, 35.9), (1e-9, 1.3e-9), (1e-3, 1e6)],
+)
+def test_a_logarithmic_axis_has_two_numbers_at_least(qtbot: QtBot, low: float, high: float) -> None:
+    axis = example(qtbot).area.left
+    axis.setLogMode(True)
+    ends = np.log10([low, high])
+    axis.setRange(*ends)
+    written = [
+        (value, text)
+        for spacing, values in axis.tickValues(*ends, 300)
+        for value, text in zip(values, axis.tickStrings(values, 1.0, spacing), strict=True)
+        if text
+    ]
+    assert 2 <= len({text for _, text in written}) <= 10
+    assert all(ends[0] <= value <= ends[1] for value, _ in written)
+
+
 def test_a_double_click_shows_all_again(qtbot: QtBot) -> None:
     plot = example(qtbot)
     plot.show()
