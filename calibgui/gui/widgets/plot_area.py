@@ -144,12 +144,17 @@ class PlotArea(pg.GraphicsWidget):  # type: ignore[misc]  # pyqtgraph is not typ
         return {"left": self.left, "bottom": self.bottom}
 
     def set_title(self, text: str, colour: str) -> None:
-        """Write a title, of two lines at most; it has no room before there is one."""
+        """Write a title, of two lines at most; it has no room if it is empty."""
         words = self.title.item
         words.setTextWidth(-1)
         self.title.setText(text, color=colour, size="10pt")
         words.setTextWidth(words.document().idealWidth())  # lines are centred in a width only
-        self._give_title(_TITLE_HEIGHT)
+        self._give_title(_TITLE_HEIGHT if text else 0.0)
+
+    def show_numbers(self, shown: bool) -> None:
+        """Write numbers along the axes, or none where nothing is plotted that has any."""
+        for axis in self.axes.values():
+            axis.setTicks(None if shown else [])
 
     def show_grid(self, shown: bool) -> None:
         """Draw lines from the axes' numbers over the view, or none."""

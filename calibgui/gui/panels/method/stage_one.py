@@ -87,8 +87,10 @@ class StageOnePanel(Panel):
         for marks in (self._root, self._current):
             marks.setSymbolPen(theme.make_pen(colours.bad, width=2))
         aspects = np.array([row.aspect for row in rows])
-        known = np.isfinite(aspects).any()  # a line of no points at all has no extent
+        known = bool(np.isfinite(aspects).any())  # a line of no points at all has no extent
         self._line.setData(np.arange(1, len(rows) + 1) if known else [], aspects if known else [])
+        self.aspects.area.show_numbers(known)
+        self.aspects.set_title("" if known else self.tr("No view determines its aspect ratio."))
 
     def _select(self, k: int, corner: int) -> None:  # noqa: ARG002 - a view has one row
         self.table.select(k)
@@ -105,6 +107,8 @@ class StageOnePanel(Panel):
         row = self._rows[max(k, 0)]
         g = evaluate_cosines_equation(row.backward, _SEARCHED, is_paper)
         self._curve.setData(_SEARCHED, g, connect="finite")
+        has_values = bool(np.isfinite(g).any())
+        self.equation.area.show_numbers(has_values)
         known = np.isfinite(row.aspect)
         self._root.setData([row.aspect] if known else [], [0.0] if known else [])
         self._current.setData([max(k, 0) + 1] if known else [], [row.aspect] if known else [])
@@ -113,6 +117,8 @@ class StageOnePanel(Panel):
             self.tr("{0}<br>r = {1:.4f}").format(name, row.aspect)
             if known
             else self.tr("{0}<br>aspect ratio not determined").format(name)
+            if has_values
+            else self.tr("{0}<br>no curve: its tilt does not determine r").format(name)
         )
 
     def _list_columns(self) -> list[Column]:

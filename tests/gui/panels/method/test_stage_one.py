@@ -119,3 +119,30 @@ def test_a_long_name_does_not_widen_the_plot(shown: Shown[StageOnePanel], result
         plot = panel.equation
         assert plot.area.minimumWidth() <= plot.area.size().width()
         assert plot.area.size().width() <= plot.width()
+
+
+def test_why_a_plot_is_empty_is_told_without_numbers(
+    shown: Shown[StageOnePanel], result: Result
+) -> None:
+    first = result.calibration.stage_one[0]
+    rows = [replace(first, aspect=np.nan, backward=np.full((3, 3), np.nan))]
+    one = replace(result, calibration=replace(result.calibration, stage_one=tuple(rows)))
+    panel = shown(StageOnePanel, one)
+    panel.select(0)
+    assert "no curve" in panel.equation.area.title.text
+    assert "No view determines" in panel.aspects.area.title.text
+
+    def count_numbers() -> list[int]:
+        return [
+            sum(len(values) for _, values in axis.tickValues(0.0, 1.0, 300))
+            if axis._tickLevels is None
+            else len(axis._tickLevels)
+            for plot in (panel.equation, panel.aspects)
+            for axis in plot.area.axes.values()
+        ]
+
+    assert count_numbers() == [0, 0, 0, 0]
+    panel.show_result(result)
+    panel.select(0)
+    assert min(count_numbers()) > 0
+    assert panel.aspects.area.title.maximumHeight() == 0
