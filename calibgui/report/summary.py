@@ -201,8 +201,10 @@ def describe_lens_error(calibration: Calibration, rms: float, does_harm: bool = 
         does_harm: whether that is more than the verdict passes over.
     """
     follows = "does not follow this lens" if does_harm else "follows this lens nearly"
+    is_as_drawn = calibration.board_shape is not None and calibration.lens_error > 0
     text = (
-        f"The lens model {calibration.camera.model} {follows}: it leaves a "
+        f"The lens model {calibration.camera.model} {follows}: "
+        f"{'with the board as drawn, ' if is_as_drawn else ''}it leaves a "
         f"displacement of {rms:.2g} px (rms) that all views share and the board "
         "does not explain. No ± includes that: each is of the values that fit best."
     )

@@ -12,6 +12,8 @@ import pytest
 
 from calibgui import engine
 from calibgui.dataset import Result, View, ViewStatus
+from calibgui.dataset.judging import judge_result
+from calibgui.engine.assessment import Cause
 from calibgui.engine.assessment.residuals.error_sources import ErrorSources
 from calibgui.engine.boards.shape import BoardShape, BoardShapeModel
 from calibgui.engine.calibration.observations import Observation
@@ -88,7 +90,13 @@ def test_a_lens_that_is_not_followed_is_named_and_the_board_is_not(good: Result)
     assert "Compare the lens models" in caution
     assert "not flat" not in caution
     assert "stands in" not in caution
-    free = texts(solved(everywhere(), model="pinhole", board_shape="bow"), Tone.CAUTION)
+    assert "as drawn" not in caution
+    bowed = solved(everywhere(), model="pinhole", board_shape="bow")
+    free = texts(bowed, Tone.CAUTION)
+    missed = f"{bowed.calibration.lens_error:.2g} px"
+    assert f"with the board as drawn, it leaves a displacement of {missed} (rms)" in free
+    finding = next(f for f in judge_result(bowed).findings if f.cause is Cause.LENS)
+    assert f"With the board as drawn, it leaves {missed} that all" in finding.evidence
     assert "The board's estimated shape stands in for the lens" in free
     assert "does not follow" not in texts(good, Tone.CAUTION)
 

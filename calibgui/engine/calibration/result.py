@@ -222,7 +222,8 @@ class Calibration:
     residuals show, not what the camera has absorbed."""
     lens_error: float = 0.0
     """Displacement that all views share and that the lens model does not follow, px rms (2-D), if
-    the residuals show one and the lens rather than the board explains it (``lens_error.py``). 0
+    the residuals show one and the lens rather than the board explains it (``lens_error.py``). It is
+    that with the board as drawn, also where its shape was estimated, which takes a part up. 0
     otherwise, and not tested where the residuals do not look as if the board were off. The
     uncertainties are then those of the parameters that fit best, widened by the shift that such an
     error makes of them; none is of the lens itself, whose rays are off by about this much."""

@@ -354,12 +354,22 @@ def list_names(names: Sequence[str]) -> str:
 
 
 def _describe_lens(case: Case, error: float, harm: float) -> Finding:
-    """Describe a lens model that leaves `error` px of all views; `harm` is in px, too."""
+    """Describe a lens model that leaves `error` px of all views; `harm` is in px, too.
+
+    A board's shape that was estimated takes a part of `error` up, which may exceed the RMS then.
+    """
+    calibration = case.calibration
+    cause = f"{error:.2g} px that all views share and the board does not explain"
+    evidence = f"Of {case.rms:.3g} px RMS it leaves {cause}."
+    if calibration.lens_error > 0 and calibration.board_shape is not None:
+        evidence = (
+            f"With the board as drawn, it leaves {cause}; with the board's estimated shape, which "
+            f"stands in for the lens, {case.rms:.3g} px RMS are left in all."
+        )
     return Finding(
         Cause.LENS,
-        f"The lens model {case.calibration.camera.model} does not follow this lens.",
-        f"Of {case.rms:.3g} px RMS it leaves {error:.2g} px that all views share and the board "
-        "does not explain.",
+        f"The lens model {calibration.camera.model} does not follow this lens.",
+        evidence,
         REMEDY_OF_LENS,
         max(error, harm),
         action=Action(ActionKind.CHOOSE_LENS_MODEL),
