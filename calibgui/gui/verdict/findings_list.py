@@ -109,7 +109,7 @@ class FindingRow(QWidget):
         self.what.setText(finding.message)
         self.what.setToolTip(finding.message)
         self.how_much = QLabel(
-            self.tr("{0} times better without").format(format_times(finding.times_better))
+            self.tr("{0} times better once mended").format(format_times(finding.times_better))
             if finding.times_better >= _MIN_TOLD
             else self.tr("{0} px").format(format_two_digits(finding.harm))
         )
