@@ -9,6 +9,7 @@ import numpy as np
 
 from calibgui.engine.arrays import Array
 from calibgui.engine.assessment import (
+    FAR_OFF,
     BoardShapeChoice,
     Bootstrap,
     CameraDifference,
@@ -92,6 +93,11 @@ def tabulate_noise_report(report: NoiseReport, explanation: Finding | None) -> s
     text = "Do the residuals look like noise?\n" + align_columns([head, *rows], left=(0, 1, 2))
     if report.passed:
         remark = "Nothing speaks against the standard deviations."
+        if report.far_corners:
+            remark += (
+                f" Beyond {FAR_OFF:g} sigma: {format_count(report.far_corners, 'corner')} in "
+                f"{format_count(report.far_views, 'view')}, each within its own uncertainty."
+            )
     elif explanation is None:
         remark = "The residuals are not just noise, but no cause of it stands out that matters."
     else:

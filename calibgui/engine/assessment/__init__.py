@@ -92,6 +92,7 @@ if TYPE_CHECKING:
         screen_outliers as screen_outliers,
     )
     from calibgui.engine.assessment.residuals.residual_checks import (
+        FAR_OFF as FAR_OFF,
         NoiseCheck as NoiseCheck,
         NoiseReport as NoiseReport,
         check_residuals as check_residuals,
@@ -180,7 +181,7 @@ load_on_demand(
             "measure_radial_shift",
         ],
         "residuals.outliers": ["Rejection", "Screening", "screen_outliers"],
-        "residuals.residual_checks": ["NoiseCheck", "NoiseReport", "check_residuals"],
+        "residuals.residual_checks": ["FAR_OFF", "NoiseCheck", "NoiseReport", "check_residuals"],
         "residuals.residual_statistics": [
             "Histogram",
             "ResidualSummary",

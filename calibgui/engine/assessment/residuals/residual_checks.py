@@ -33,6 +33,9 @@ however small it is; but least squares stays unbiased, and its standard deviatio
 average, where views are not equally noisy or tails are heavier than a Gaussian's. These two tests
 fail only where there is something to gain: by weighing the views, or by leaving out corners that
 are far off.
+
+Corners that have covariances are tested by what they say of each. Those that are far off but no
+farther than they are uncertain pass, and are counted.
 """
 
 from __future__ import annotations
@@ -84,6 +87,8 @@ _MIN_GAIN_OF_WEIGHING = 1.1
 """Ratio by which standard deviations must shrink for weighing the views to be worth it."""
 _MAX_LENGTH_IN_SIGMA = 4.5
 """Length of a residual, in sigma, that one good corner in 25,000 exceeds."""
+FAR_OFF = 5.0
+"""Length of a residual, in sigma of all, beyond which people take a corner for an outlier."""
 _MAX_RMS_OVER_MEDIAN = 1.5
 """A view's rms over that from its median, above which few corners are taken to raise it."""
 
@@ -169,6 +174,11 @@ class NoiseReport:
     are_lens_and_board_alike: bool = False
     """True if lens and board both explain the residuals, and neither explains anything beyond the
     other: the views do not tell which of them it is."""
+    far_corners: int = 0
+    """Number of corners whose residuals exceed `FAR_OFF` sigma of all, but not what their own
+    uncertainty explains."""
+    far_views: int = 0
+    """Number of views that have any of them."""
 
     @property
     def passed(self) -> bool:
@@ -221,7 +231,22 @@ def check_residuals(
             _check_directions(r[seen]),
         ),
         _are_lens_and_board_alike(causes, shared),
+        *_count_far_corners(calibration, relative, fit.observations),
     )
+
+
+def _count_far_corners(
+    calibration: Calibration, relative: Array, observations: Observations
+) -> tuple[int, int]:
+    """Count corners that are far off in the image but not by residuals `relative` (K, N, 2), and
+    the views that have any."""
+    limit = FAR_OFF * summarise_residuals(calibration.residuals).rms / np.sqrt(2)
+    counts: list[int] = []
+    for k, view in enumerate(calibration.residuals):
+        own = np.linalg.norm(relative[k, observations.corners_of(k)], axis=1)
+        far = np.linalg.norm(view.image, axis=1) > limit
+        counts.append(int(np.count_nonzero(far & (own <= _MAX_LENGTH_IN_SIGMA))))
+    return sum(counts), sum(n > 0 for n in counts)
 
 
 def _count_degrees_of_freedom(fit: LinearisedFit) -> Array:

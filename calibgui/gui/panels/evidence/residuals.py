@@ -11,6 +11,7 @@ from calibgui.app.calibrating.calibration import shorten_names
 from calibgui.dataset import Result
 from calibgui.dataset.judging import judge_result
 from calibgui.engine.assessment import (
+    FAR_OFF,
     NoiseReport,
     Verdict,
     check_residuals,
@@ -23,6 +24,7 @@ from calibgui.gui.panels.panel import Panel
 from calibgui.gui.panels.parts.scatter import ResidualScatter
 from calibgui.gui.panels.services import Services
 from calibgui.gui.widgets.reserved_label import ReservedLabel
+from calibgui.report.numbers import format_count
 
 _MARKS = {True: "✓", False: "✗"}
 
@@ -108,11 +110,18 @@ class ResidualsPanel(Panel):
         )
         self.verdict.explain(f"<table>{rows}</table>")
         if report.passed:
-            self.verdict.setText(
-                self.tr(
-                    "The residuals look like noise: nothing speaks against the ± of the result."
-                )
+            text = self.tr(
+                "The residuals look like noise: nothing speaks against the ± of the result."
             )
+            if report.far_corners:
+                text += self.tr(
+                    " Beyond {0:g} σ: {1} in {2}, each within its own uncertainty."
+                ).format(
+                    FAR_OFF,
+                    format_count(report.far_corners, "corner"),
+                    format_count(report.far_views, "view"),
+                )
+            self.verdict.setText(text)
             return
         self.verdict.setText(self.tr("The residuals are not just noise. Why? Working…"))
         self._work.start(

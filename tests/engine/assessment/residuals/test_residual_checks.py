@@ -145,6 +145,25 @@ def test_outliers_and_rounding_are_told_apart() -> None:
         assert "misplaced" in report.cause.advice
 
 
+def test_corners_that_are_far_off_but_as_uncertain_are_counted() -> None:
+    rng = np.random.default_rng(4)
+    views = []
+    for k, view in enumerate(SCENE.views):
+        sigma = np.full(len(view.uv), 0.02)
+        sigma[:2] = 2.0 if k < 3 else 0.02
+        error = rng.normal(size=view.uv.shape)
+        error[:2] /= np.linalg.norm(error[:2], axis=1, keepdims=True)
+        cov = sigma[:, None, None] ** 2 * np.eye(2)
+        views.append(Observation(view.uv + sigma[:, None] * error, view.xy, cov))
+    report = check_residuals(calibrate(views, SIZE), views)
+    assert report.passed
+    assert (report.far_corners, report.far_views) == (6, 3)
+    misplaced = [Observation(view.uv, view.xy) for view in views]
+    report = check_residuals(calibrate(misplaced, SIZE), misplaced)
+    assert report.far_corners == 0
+    assert not report.passed
+
+
 def test_blurred_views_are_listed_and_weigh_less() -> None:
     rng = np.random.default_rng(3)
     exact = scene(barrel(), 12, seed=1)

@@ -27,6 +27,7 @@ from calibgui.gui.jobs.jobs import Jobs
 from calibgui.gui.panels.evidence import residuals
 from calibgui.gui.panels.evidence.residuals import ResidualsPanel
 from calibgui.gui.window.progress import Progress
+from calibgui.report.quality import tabulate_noise_report
 from tests.gui.panels.conftest import Shown, click, made
 
 Show = Callable[[Result], ResidualsPanel]
@@ -147,6 +148,19 @@ def test_noise_is_called_noise(show: Show, result: Result, jobs: Jobs, qtbot: Qt
     panel = show(result)
     qtbot.waitUntil(lambda: not jobs.running)
     assert panel.verdict.text().startswith("The residuals look like noise")
+
+
+def test_uncertain_corners_far_off_are_counted(
+    show: Show, result: Result, jobs: Jobs, qtbot: QtBot, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    report = NoiseReport((), far_corners=7, far_views=1)
+    monkeypatch.setattr(residuals, "check_residuals", lambda *_: report)
+    panel = show(result)
+    qtbot.waitUntil(lambda: not jobs.running)
+    assert "Beyond 5 σ: 7 corners in 1 view, each within" in panel.verdict.text()
+    assert "Beyond 5 sigma: 7 corners in 1 view" in " ".join(
+        tabulate_noise_report(report, None).split()
+    )
 
 
 def test_the_user_need_not_wait_for_the_verdict(
