@@ -68,12 +68,16 @@ class ConvergencePanel(Panel):
         self._draw()
         last = calibration.history[-1]
         self._state_unit(calibration.cost)
+        is_weighted = any(view.cov is not None for view in result.observations())
+        text = (
+            self.tr("Weighted RMS residual {0:.4f} {1}; {2}.")
+            if is_weighted
+            else self.tr("RMS residual {0:.4f} {1}; {2}.")
+        )
         self.words.setText(
             self._ending(calibration.status).format(last.index)
             + " "
-            + self.tr("RMS residual {0:.4f} {1}; {2}.").format(
-                last.rms, self._unit, format_seconds(last.seconds)
-            )
+            + text.format(last.rms, self._unit, format_seconds(last.seconds))
         )
 
     def _state_unit(self, cost: Cost) -> None:

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from calibgui.dataset import Result
+from calibgui.dataset import Result, View, ViewStatus
 from calibgui.engine.calibration import Cost
 from calibgui.engine.calibration.result import Status
 from calibgui.gui.panels.method.convergence import ConvergencePanel
@@ -64,3 +64,15 @@ def test_says_how_it_ended(
     panel = shown(ConvergencePanel, ended)
     assert words in panel.words.text()
     assert f"{result.calibration.history[-1].rms:.4f} px" in panel.words.text()
+
+
+def test_says_where_residuals_are_weighted(shown: Shown[ConvergencePanel], result: Result) -> None:
+    points = [
+        view._replace(cov=np.tile(np.eye(2), (len(view.uv), 1, 1)))
+        for view in result.observations()
+    ]
+    views = tuple(View(f"{k}.png", ViewStatus.FOUND, points=seen) for k, seen in enumerate(points))
+    panel = shown(ConvergencePanel, result)
+    assert ". RMS residual" in panel.words.text()
+    panel.show_result(Result(result.calibration, views))
+    assert ". Weighted RMS residual" in panel.words.text()
