@@ -270,8 +270,8 @@ def _describe_losses(best: MethodRow, others: Sequence[MethodRow]) -> str:
     """Say in a sentence by how much the other methods predict unseen views less well."""
     if not others:
         return ""
-    losses = [f"{row.name} {row.unseen - best.unseen:.2g}" for row in others]
-    return f"Farther off, in px RMS more than it: {join_words(losses)}."
+    losses = [f"{row.name}: {row.unseen - best.unseen:.2g}" for row in others]
+    return f"The others are off by so many px RMS more: {'; '.join(losses)}."
 
 
 def _describe_agreement(best: MethodRow, others: Sequence[MethodRow]) -> str:

@@ -127,10 +127,10 @@ def test_the_best_are_named_with_their_errors(comparison: MethodComparison) -> N
     )
     assert words.startswith(
         "lucchese predicts unseen views best, with 0.1000 px RMS; within 2 % of it is bouguet. "
-        "Farther off, in px RMS more than it: opencv 0.003 and zhang-closed-form 1.4. "
+        "The others are off by so many px RMS more: opencv: 0.003; zhang-closed-form: 1.4. "
     )
     alone = describe_method_comparison(set_errors(comparison, bouguet=0.1, zhang=0.2))
-    assert "; no other method comes within 2 % of it. Farther off" in alone
+    assert "; no other method comes within 2 % of it. The others are off" in alone
     unknown = set_errors(comparison, bouguet=math.nan)
     assert describe_method_comparison(unknown) == (
         "None of the methods could be tried on unseen views."
