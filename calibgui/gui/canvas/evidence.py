@@ -13,6 +13,7 @@ from calibgui.engine.arrays import Array, Size
 from calibgui.engine.camera import DisplacementPart, compute_displacement
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.images import make_mesh
+from calibgui.engine.numbers import format_two_digits
 from calibgui.gui.canvas.canvas import Canvas
 from calibgui.gui.canvas.layers import Drawing, Layer
 from calibgui.gui.jobs.job import Job
@@ -105,7 +106,9 @@ class Evidence(QObject):
         scale = _FULL * max(camera.size) / _ARROWS / longest
         lines = tuple(_trace_arrow(a, scale * d) for a, d in zip(at, vector, strict=True))
         corner = np.array([0.0, camera.size[1] - 1.0])  # the image's name stands at the upper left
-        text = self.tr("displacement × {0:.2g}, at most {1:.2f} px").format(scale, longest)
+        text = self.tr("displacement × {0:.2g}, at most {1} px at the arrows").format(
+            scale, format_two_digits(longest)
+        )
         return Drawing(camera.size, theme.DISPLACED, lines, ((corner[None], text),))
 
     def _draw_uncertainty(self, result: Result, _: Job) -> Drawing:

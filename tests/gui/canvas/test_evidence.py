@@ -11,6 +11,7 @@ from scipy.interpolate import RegularGridInterpolator
 
 from calibgui.dataset import Result
 from calibgui.engine.camera import compute_displacement
+from calibgui.engine.numbers import format_two_digits
 from calibgui.engine.uncertainty import estimate_projection_uncertainty
 from calibgui.gui.canvas.layers import Drawing, Layer
 from calibgui.gui.widgets import theme
@@ -71,7 +72,7 @@ def test_displacement_arrows_are_magnified_as_they_say(full: MainWindow, qtbot: 
     assert caption.bottom() < full.page.canvas.to_screen(places)[0, 1], "its name hides it"
     scale = float(text.split("×")[1].split(",")[0])
     np.testing.assert_allclose(vector, scale * displacement.vector, rtol=0.06, atol=1e-6)
-    assert f"at most {displacement.length.max():.2f} px" in text
+    assert f"at most {format_two_digits(displacement.length.max())} px at the arrows" in text
 
 
 def test_uncertainty_lines_are_where_it_is_as_they_say(full: MainWindow, qtbot: QtBot) -> None:
