@@ -85,7 +85,7 @@ def list_failures(camera: FleetCamera, limits: Limits = NO_LIMITS) -> tuple[str,
 def _list_broken(found: FleetFigures, limits: Limits) -> Iterator[str]:
     """Yield a sentence on each limit that the figures break."""
     if found.grade is Grade.NOT_USABLE:
-        yield f"The calibration is not usable: {found.reason}"
+        yield f"The calibration is not usable. {found.reason}"
     edge, limit = found.error.edge, limits.largest_edge_error_px
     if limit is not None and not edge <= limit:
         found_px = f"{edge:.3g} px, beyond" if math.isfinite(edge) else "not determined, against"

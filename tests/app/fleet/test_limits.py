@@ -72,7 +72,7 @@ def test_what_the_uncertainties_explain_is_no_change() -> None:
 def test_a_camera_that_is_no_use_fails_without_limits() -> None:
     assert list_failures(REFUSED) == (REFUSED.problem,)
     bad = replace(DONE, figures=replace(FIGURES, grade=Grade.NOT_USABLE, reason="Too few views."))
-    assert list_failures(bad) == ("The calibration is not usable: Too few views.",)
+    assert list_failures(bad) == ("The calibration is not usable. Too few views.",)
 
 
 @pytest.mark.parametrize("error", [float("nan"), float("inf")])
