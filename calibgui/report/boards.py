@@ -27,6 +27,11 @@ _KINDS = {
 }
 
 
+def name_point(board: Board | None) -> str:
+    """Name what is measured of a board: "circle" or "corner"."""
+    return "circle" if board is not None and isinstance(board.pattern, Circles) else "corner"
+
+
 def describe_board(board: Board) -> str:
     """Describe a board, as "ChArUco board of 6 x 8 inner corners, DICT_4X4_50, ..."."""
     rows, cols, pattern = board.rows, board.cols, board.pattern

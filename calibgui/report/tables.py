@@ -20,6 +20,7 @@ from calibgui.engine.boards import Symmetry
 from calibgui.engine.calibration import Calibration, Cost, make_paper_table
 from calibgui.engine.camera import Lucchese, find_model
 from calibgui.engine.geometry import PAPER_NAMES
+from calibgui.report.boards import name_point
 from calibgui.report.coverage import measure_attitudes
 from calibgui.report.names import make_printable, shorten_name
 from calibgui.report.numbers import format_count, format_with_sigma
@@ -283,8 +284,8 @@ def describe_rms(result: Result) -> str:
     """Describe in a line how well the camera fits, and to how much."""
     fit = summarise_residuals(result.calibration.residuals)
     return (
-        f"RMS {fit.rms:.4f} px, sigma_x {fit.sigma_x:.4f}, sigma_y {fit.sigma_y:.4f} px; "
-        f"{format_count(fit.count, 'corner')}, {_count_used(result)}"
+        f"RMS {fit.rms:.3f} px, σx {fit.sigma_x:.3f}, σy {fit.sigma_y:.3f} px; "
+        f"{format_count(fit.count, name_point(result.board))}, {_count_used(result)}"
     )
 
 

@@ -17,7 +17,9 @@ from calibgui.engine.assessment import (
 )
 from calibgui.engine.calibration import DEFAULT_METHOD, Cost
 from calibgui.engine.numbers import format_two_digits
+from calibgui.report.boards import name_point
 from calibgui.report.names import join_words
+from calibgui.report.numbers import format_count
 
 _HEADLINES = {
     Grade.GOOD: "GOOD",
@@ -94,10 +96,11 @@ def describe_error_in_scene(verdict: Verdict, condition: str) -> str:
 
 
 def describe_fit(result: Result) -> str:
-    """Describe the residuals in a few words: RMS, sigma and the number of corners."""
+    """Describe the residuals in a few words: RMS, sigma and the number of corners or circles."""
     fit = summarise_residuals(result.calibration.residuals)
     sigma = float(np.hypot(fit.sigma_x, fit.sigma_y) / np.sqrt(2))
-    return f"RMS {fit.rms:.3f} px, σ {sigma:.3f} px of {fit.count:,} corners"
+    points = format_count(fit.count, name_point(result.board))
+    return f"RMS {fit.rms:.3f} px, σ {sigma:.3f} px of {points}"
 
 
 def describe_options(action: Action, result: Result) -> str:

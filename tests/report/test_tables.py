@@ -11,12 +11,15 @@ from calibgui import engine
 from calibgui.app.calibrating.calibration import calibrate_views
 from calibgui.app.calibrating.settings import Settings
 from calibgui.dataset import CornerSet, Result, View, ViewStatus
+from calibgui.engine.assessment import summarise_residuals
+from calibgui.engine.boards import Circles
 from calibgui.engine.boards.board import Board
 from calibgui.engine.boards.pattern import Symmetry
 from calibgui.engine.calibration.result import Cost, Undetermined
 from calibgui.engine.detection.corners import Corners, OtherBoard
 from calibgui.report import tables
 from calibgui.report.summary import describe_calibration
+from calibgui.report.verdict import describe_fit
 from tests.engine import scenes
 
 BOARD = Board(rows=8, cols=11, square=30.0)
@@ -120,11 +123,20 @@ def test_the_report_is_short_and_begins_with_the_verdict(result: Result) -> None
     assert camera < rms == len(report) - 1 <= 25
     names = ["fx", "fy", "cx", "cy"]
     assert [line.split()[0] for line in report[camera + 1 : camera + 5]] == names
+    fit = summarise_residuals(result.calibration.residuals)
+    assert f"px, σx {fit.sigma_x:.3f}, σy {fit.sigma_y:.3f} px; " in report[rms]
     assert "88" not in report[rms] and "616 corners, 7 of 9 images" in report[rms]
     long = tables.format_report(result, verbose=True)
     assert long.startswith(verdict)
     for title in ("Views\n", "Stage I, each view", "Residuals of", "paper's frame"):
         assert title in long and title not in "\n".join(report)
+
+
+def test_circles_are_called_circles(result: Result) -> None:
+    assert result.board is not None
+    circles = replace(result, board=replace(result.board, pattern=Circles(False, 0.5)))
+    assert "616 circles, 7 of 9 images" in tables.describe_rms(circles)
+    assert describe_fit(circles).endswith("px of 616 circles")
 
 
 def test_the_hundreds_of_parameters_of_a_spline_are_counted(

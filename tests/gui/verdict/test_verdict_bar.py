@@ -26,6 +26,7 @@ from calibgui.gui.dialogs.export_dialog import ExportDialog
 from calibgui.gui.panels.evidence.coverage import CoveragePanel
 from calibgui.gui.panels.evidence.residuals import ResidualsPanel
 from calibgui.gui.verdict.before_after import BeforeAndAfter
+from calibgui.gui.verdict.texts import describe_fit
 from calibgui.gui.verdict.verdict_bar import VerdictBar
 from calibgui.gui.widgets.lengths import describe_condition
 from calibgui.gui.widgets.tables import Table
@@ -187,6 +188,15 @@ def test_work_that_goes_on_keeps_what_was_done(
     comparison = act(bar, bar.button, window, qtbot)
     window.session.edit("Settings", lambda p: replace(p, settings=Settings(robust=True)))
     assert not comparison.isVisible() and len(window.session.project.results) == 2
+
+
+def test_circles_are_called_circles(plain: Project) -> None:
+    assert plain.size is not None
+    result = calibrate_views(CornerSet(plain.size, plain.views, plain.board), plain.settings)
+    assert describe_fit(result).endswith("px of 252 corners")
+    assert result.board is not None
+    circles = replace(result, board=replace(result.board, pattern=Circles(False, 0.5)))
+    assert describe_fit(circles).endswith("px of 252 circles")
 
 
 def test_findings_unfold_over_the_desk_with_their_evidence(

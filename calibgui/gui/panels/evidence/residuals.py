@@ -24,6 +24,7 @@ from calibgui.gui.panels.panel import Panel
 from calibgui.gui.panels.parts.scatter import ResidualScatter
 from calibgui.gui.panels.services import Services
 from calibgui.gui.widgets.reserved_label import ReservedLabel
+from calibgui.report.boards import name_point
 from calibgui.report.numbers import format_count
 
 _MARKS = {True: "✓", False: "✗"}
@@ -118,7 +119,7 @@ class ResidualsPanel(Panel):
                     " Beyond {0:g} σ: {1} in {2}, each within its own uncertainty."
                 ).format(
                     FAR_OFF,
-                    format_count(report.far_corners, "corner"),
+                    format_count(report.far_corners, name_point(result.board)),
                     format_count(report.far_views, "view"),
                 )
             self.verdict.setText(text)
