@@ -46,7 +46,7 @@ def tabulate_settings(
         tables.append(align_columns([[scalar, *listed], *rows], left=(0,)))
     if drifts:
         rows = [
-            [value, f"{drift.difference.rms:.3f}", f"{drift.expected:.3f}", f"{p:.2g}"]
+            [value, f"{drift.difference.rms:.3f}", f"{drift.expected:.3f}", f"{p:#.2g}"]
             for value, drift, p in zip(
                 values[1:], drifts, [drift.probability for drift in drifts], strict=True
             )

@@ -84,7 +84,9 @@ def with_digits(digits: int) -> Callable[[float], str]:
     """Text of a number with that many significant digits; a dash where there is none."""
 
     def text(value: float) -> str:
-        return f"{value:.{digits}g}" if math.isfinite(value) else "–"
+        if not math.isfinite(value):
+            return "–"
+        return f"{value:#.{digits}g}".removesuffix(".") if value else "0"
 
     return text
 

@@ -74,6 +74,12 @@ def test_a_unit_stands_below_the_heading(qtbot: QtBot) -> None:
 def test_number_formats() -> None:
     assert with_digits(3)(1234.5) == "1.23e+03"
     assert with_digits(3)(math.nan) == "–"
+    assert [with_digits(2)(value) for value in (0.9, 0.86, 12.3, 0.0)] == [
+        "0.90",
+        "0.86",
+        "12",
+        "0",
+    ]
 
 
 def test_a_hidden_column_is_for_files_only(qtbot: QtBot) -> None:
