@@ -231,7 +231,7 @@ def lay_out_page(board: Board, paper: str) -> Page:
         unit = "tags"
     text = (
         f"{bar:g} mm. Print without scaling and measure the bar. "
-        f"{describe_board(board)}, {unit} of {side:g} mm."
+        f"{describe_board(board).replace(' x ', ' × ')}, {unit} of {side:g} mm."
     )
     text_at = (
         min(x, width - _MARGIN_MM - _TEXT_ADVANCE_RATIO * _TEXT_HEIGHT_MM * len(text)),

@@ -22,6 +22,7 @@ from calibgui.engine.boards import Symmetry
 from calibgui.gui.images.thumbnails import Thumbnails
 from calibgui.gui.session.session import Session
 from calibgui.gui.widgets import theme
+from calibgui.gui.widgets.sizes import set_times_signs
 
 Index = QModelIndex | QPersistentModelIndex
 
@@ -88,9 +89,9 @@ def status_tip(view: View) -> str:
         ).format(turn)
     for rows, cols in [] if view.corners is None else [o.shape for o in view.corners.others]:
         tip += "\n" + QCoreApplication.translate(
-            "status_tip", "Another board is seen here, of {0} x {1} inner corners."
+            "status_tip", "Another board is seen here, of {0} × {1} inner corners."
         ).format(rows, cols)
-    return f"{view.image}\n{tip}"
+    return f"{view.image}\n{set_times_signs(tip)}"
 
 
 class ImageModel(QAbstractListModel):

@@ -77,4 +77,6 @@ def test_further_boards_are_told() -> None:
     uv, outline = np.zeros((2, 2)), np.zeros((4, 2))
     corners = Corners((6, 9), [[0, 0], [0, 1]], uv, uv, others=(OtherBoard((4, 5), outline),))
     tip = image_model.status_tip(View("a.png", ViewStatus.FOUND, corners=corners))
-    assert "Another board is seen here, of 4 x 5 inner corners." in tip
+    assert "Another board is seen here, of 4 × 5 inner corners." in tip
+    refused = View("a.png", ViewStatus.NO_BOARD, "This board has 7 x 10 inner corners, not 6 x 9.")
+    assert image_model.status_tip(refused).endswith("7 × 10 inner corners, not 6 × 9.")

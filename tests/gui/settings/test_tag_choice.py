@@ -71,6 +71,6 @@ def test_tags_are_counted_for_the_printer(qapp: QApplication) -> None:
     assert (dialog.rows.value(), dialog.cols.value()) == (4, 3)
     assert dialog.counted.text() == "Tags"
     sheet = dialog.make_sheet()
-    assert "AprilGrid of 4 x 3 tags" in sheet.text
+    assert "AprilGrid of 4 × 3 tags" in sheet.text
     assert "tags of 30 mm" in sheet.text
     dialog.deleteLater()
