@@ -31,6 +31,7 @@ from calibgui.engine.assessment import (
 from calibgui.engine.boards import BoardShape
 from calibgui.engine.calibration import Calibration, Status, compute_correlations, is_in_one_spot
 from calibgui.report import advice, partial
+from calibgui.report.boards import name_point
 from calibgui.report.names import shorten_name
 from calibgui.report.numbers import format_count, format_with_sigma
 from calibgui.report.verdict import describe_reason, format_headline
@@ -115,7 +116,8 @@ def _describe_basis(result: Result) -> Iterator[Sentence]:
     """Describe how many views and corners were used."""
     used = len(result.used)
     corners = sum(len(view.image) for view in result.calibration.residuals)
-    text = f"Calibrated from {format_count(used, 'view')} with {format_count(corners, 'corner')}"
+    points = format_count(corners, name_point(result.board))
+    text = f"Calibrated from {format_count(used, 'view')} with {points}"
     left_out = len(result.views) - used
     text += f"; {format_count(left_out, 'image')} left out." if left_out else ", every image used."
     yield Sentence(Tone.FACT, text)

@@ -137,6 +137,7 @@ def test_circles_are_called_circles(result: Result) -> None:
     circles = replace(result, board=replace(result.board, pattern=Circles(False, 0.5)))
     assert "616 circles, 7 of 9 images" in tables.describe_rms(circles)
     assert describe_fit(circles).endswith("px of 616 circles")
+    assert any("7 views with 616 circles" in said.text for said in describe_calibration(circles))
 
 
 def test_the_hundreds_of_parameters_of_a_spline_are_counted(
