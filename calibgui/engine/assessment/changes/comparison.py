@@ -124,8 +124,17 @@ def compare_cameras(
 
 
 def find_covered_pixels(uv: Array, views: Sequence[Observation]) -> BoolArray:
-    """Return (...) whether pixels (..., 2) lie in the convex hull of the corners of all views."""
-    sides = scipy.spatial.ConvexHull(np.concatenate([view.uv for view in views])).equations
+    """Return (...) whether pixels (..., 2) lie in the convex hull of the corners of all views.
+
+    Raises:
+        CalibrationError: if a corner is not a finite number.
+    """
+    corners = np.concatenate([view.uv for view in views])
+    if not np.isfinite(corners).all():
+        raise CalibrationError(
+            "A view holds a corner that is not a finite number.", "Remove that corner or the view."
+        )
+    sides = scipy.spatial.ConvexHull(corners).equations
     return np.asarray((uv @ sides[:, :2].T + sides[:, 2] <= 0).all(axis=-1))
 
 
