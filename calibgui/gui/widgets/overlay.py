@@ -17,8 +17,8 @@ class Overlay(QObject):
         at_bottom: whether it stands on the host's lower edge in place of hanging.
         narrowest: width that it needs, px. It stands to the left of a bar that is narrower, or
             hangs across the host where there is too little room as well.
-        beside: the part of the host, to the left of the bar, that it covers from its upper left
-            corner where it stands there.
+        beside: the part of the host, to the left of the bar, that it hangs in where it stands
+            there.
     """
 
     def __init__(
@@ -47,8 +47,10 @@ class Overlay(QObject):
         top, width = QPoint(), host.width()
         if bar is not None:
             corner = bar.mapTo(host, QPoint())
-            left = QPoint() if self._beside is None else self._beside.mapTo(host, QPoint())
-            room = corner.x() - left.x()
+            left, room = QPoint(), corner.x()
+            if self._beside is not None:
+                left = self._beside.mapTo(host, QPoint())
+                room = min(corner.x() - left.x(), self._beside.width())
             if bar.width() >= self._narrowest:
                 top, width = corner + QPoint(0, bar.height()), bar.width()
             elif room >= self._narrowest:
