@@ -94,7 +94,7 @@ def test_from_start_to_export_by_keys_alone(
     # Confirm the side of a square.
     tab_to(hand, bar.square.square)
     hand.key(Key.Key_Return)
-    assert session.project.lengths_confirmed and not bar.square.isVisible()
+    assert session.project.lengths_confirmed and not bar.square.confirm.isEnabled()
 
     # Calibrate again.
     tab_to(hand, window.calibrate)

@@ -399,10 +399,18 @@ def test_changed_settings_make_a_result_old_and_undo_makes_it_new(
     assert "Out of date" in bar.reason.text()
 
 
-@pytest.mark.parametrize("size", [(1280, 720), (1600, 900), (1920, 1080)])
+@pytest.mark.parametrize(
+    ("size", "least"), [((1280, 720), 0.19), ((1600, 900), 0.24), ((1920, 1080), 0.24)]
+)
 def test_before_and_after_use_the_room(
-    plain: Project, open_project: Open, window: MainWindow, qtbot: QtBot, size: tuple[int, int]
+    plain: Project,
+    open_project: Open,
+    window: MainWindow,
+    qtbot: QtBot,
+    size: tuple[int, int],
+    least: float,
 ) -> None:
+    """Beside the tools of a small window the tables leave the map less."""
     window.resize(*size)
     bar = open_project(calibrated(replace(plain, settings=Settings(fixed={"fx": 180.0}))))
     comparison = act(bar, bar.button, window, qtbot)
@@ -410,7 +418,7 @@ def test_before_and_after_use_the_room(
     image = comparison.map.plot.image
     drawn = image.mapRectToScene(image.boundingRect())
     share = drawn.width() * drawn.height() / (comparison.width() * comparison.height())
-    assert share > 0.21
+    assert share > least
     for table in (comparison.errors, comparison.parameters):
         assert table.horizontalHeader().length() <= table.viewport().width()
         assert table.viewport().width() < table.horizontalHeader().length() + 40
