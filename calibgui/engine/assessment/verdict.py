@@ -19,10 +19,10 @@ includes how far another lens model goes there that fits as well (``lens_extrapo
 board's shape that brings nothing is not what is wrong; where it leaves pixels too poorly known all
 the same, the views do not tell board and camera apart, and photographs of a stiff board are needed.
 
-Against the truth of 24 rendered sets with shifted rows, wrong held values, bowed boards and unequal
-squares that were remedied (``tests/benchmarks/verdict_gain.py``), e was within 14 % in 22, 30 % off
-in one, and 2.3 times too large in one that has little to gain; the true error fell by 0.95 to 5.5
-times x, 1.8 in the median: s' is cautious, and the truth is one draw.
+Against the truth of 23 rendered sets with shifted rows, wrong held values, bowed boards and unequal
+squares that were remedied (``tests/benchmarks/verdict_gain.py``), e was within 16 % in 21, 27 % too
+large in one, and 2.2 times in one that has little to gain; the true error fell by 0.66 to 4.1 times
+x, 1.2 in the median: the truth is one draw.
 
 A calibration is good where it has been measured: its grade rests on the pixels that corners cover,
 and on half of all pixels. A board in the image's middle is not enough: where corners cover too
