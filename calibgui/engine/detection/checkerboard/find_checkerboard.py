@@ -67,6 +67,7 @@ _MAX_GAP_ROUNDS = 16
 _MAX_ROUNDS = 4
 """Number of times that corners are left out and the rest fitted again; a board that has not come to
 rest by then is none."""
+_NO_GRID = "its corners lie on no smooth grid, or too many squares do not alternate"
 _TOO_MANY_FAIL = "too many of its corners fail"
 _STATE_SIZE = "State the number of inner corners, rows x columns, or leave it out."
 
@@ -294,7 +295,7 @@ def _fit_board(
             return Refusal(shape, "too few of its corners are sound")
         lattice = verification.drop_broken_lines(lattice, grey)
         if not is_large_enough(lattice):
-            return Refusal(shape, "its corners do not lie on a smooth grid of squares")
+            return Refusal(shape, _NO_GRID)
         if objection := find_objection(lattice, grey, plain=plain):
             return Refusal(lattice.shape, objection)
         if method == "saddle":
@@ -303,6 +304,7 @@ def _fit_board(
             lattice, lambda part: fit_plain_corners(grey, part, plain)
         )
         described = verification.find_described_corners(fit, lattice, None, displacement)
+        described &= ~verification.find_doubtful_lines(lattice, fit.residual)
         near = verification.find_tolerable_displacements(displacement, lattice)
         good = described & near
         if good.all():

@@ -217,9 +217,14 @@ class VerificationThresholds:
     """Greatest rms distance of a board's corners from the smooth grid map through them, steps."""
     max_broken_places: float = 0.1
     """Greatest number of places inside a board that show squares but no corner, over that of its
-    corners. Fixed by squares that are dark or bright at random."""
+    corners. Fixed by squares that are dark or bright at random ..."""
+    max_broken_places_alone: float = 1 / 6
+    """... and of a lattice that stands alone, over a part of which something may lie."""
     min_border_corners: float = 1 / 3
     """Share of a border line's places below which its corners are doubted."""
+    min_full_border: float = 2 / 3
+    """The same where the image shows that the board ends before it. Fixed by "no margin" of
+    `tests.benchmarks.corner_troubles`: a patterned ground had 3 corners of 5, by chance."""
     max_alternating_places: float = 1 / 3
     """Share of the places around a lattice that alternate, beyond which the pattern goes on."""
 

@@ -9,7 +9,7 @@ squares. The rules, in the order in which they are asked:
   (`is_credible`);
 - the corners lie on one smooth grid map, and hardly any place between them shows squares that form
   no corner (`drop_broken_lines`);
-- border lines of few corners behind the end of the board are left out (`drop_stray_lines`);
+- border lines that are not full, behind the end of the board, are left out (`drop_stray_lines`);
 - the edge model fitted to a corner describes it (`find_described_corners`), and those that it
   describes worse are hardly drawn aside (`find_displaced_corners`);
 - the edges step from one square to the next (`has_step_edges`): waves cross likewise, only wider.
@@ -61,7 +61,7 @@ _LINES_THAT_PREDICT = MAX_GAP + 2
 """Number of lines of a lattice, the first, on which places and steps in front of it depend."""
 _MIN_ENDS = 2
 """Number of sides on which a lattice that stands alone is seen to end."""
-_PLAIN_NEAR = 0.25
+_PLAIN_NEAR = 0.2
 """Distance from the corners, squares, to which marks in the squares, and what hides a part of them,
 do not reach."""
 
@@ -168,13 +168,17 @@ def drop_broken_lines(lattice: Lattice, image: GreyImage) -> Lattice:
             break
         kept[borders[int(np.argmax(excess))]] = False
     corners = np.count_nonzero(lattice.found & kept)
-    if np.count_nonzero(broken & kept) > limits.max_broken_places * corners:
-        kept[:] = False
+    if (count := np.count_nonzero(broken & kept)) > limits.max_broken_places * corners:
+        is_covered = count <= limits.max_broken_places_alone * corners and stands_alone(
+            lattice.select(kept), image
+        )
+        if not is_covered:
+            kept[:] = False
     return drop_stray_lines(drop_isolated_and_crop(lattice.select(kept)), image)
 
 
 def drop_stray_lines(lattice: Lattice, image: GreyImage) -> Lattice:
-    """Drop border lines of few corners, one on each side, and what lies beyond an empty line,
+    """Drop border lines that are not full, one on each side, and what lies beyond an empty line,
     before which the board is seen to end."""
     limits = THRESHOLDS.verification
     found = lattice.found
@@ -183,7 +187,7 @@ def drop_stray_lines(lattice: Lattice, image: GreyImage) -> Lattice:
     if not (found.any(axis=0).all() and found.any(axis=1).all()):
         lattice = _drop_beyond_ends(lattice, image)
         found = lattice.found
-    least = [limits.min_border_corners * count for count in lattice.shape]
+    least = [limits.min_full_border * count for count in lattice.shape]
     across, along = np.count_nonzero(found, axis=1), np.count_nonzero(found, axis=0)
     if (across[[0, -1]] >= least[1]).all() and (along[[0, -1]] >= least[0]).all():
         return lattice
@@ -192,7 +196,7 @@ def drop_stray_lines(lattice: Lattice, image: GreyImage) -> Lattice:
         turned = turn_lattice(lattice, quarters)
         if not len(turned.uv):
             continue
-        if np.count_nonzero(turned.found[0]) < limits.min_border_corners * turned.shape[1]:
+        if turned.found[0].mean() < limits.min_full_border:
             rest = drop_isolated_and_crop(Lattice(turned.uv[1:], not turned.dark))
             if len(rest) and _does_end_above(rest, image, step, may_be_cut=True):
                 lattice = turn_lattice(rest, -quarters)
@@ -295,6 +299,18 @@ def find_described_corners(
         & (fit.residual <= max_residual)
         & find_usable_covariances(fit.covariance)
     )
+
+
+def find_doubtful_lines(lattice: Lattice, residual: Array) -> BoolArray:
+    """Find the corners (n,) of the border lines of a lattice in which the edge model describes all
+    corners worse than most, by its `residual` (n,): such are the rims of things that lie on the
+    board's end."""
+    clear = lattice.found
+    clear[clear] = ~find_suspect_corners(residual)
+    doubtful = np.zeros(lattice.shape, np.bool_)
+    for line in (np.s_[0], np.s_[-1], np.s_[:, 0], np.s_[:, -1]):
+        doubtful[line] |= ~clear[line].any()
+    return np.asarray(doubtful[lattice.found])
 
 
 def find_suspect_corners(residual: Array) -> BoolArray:

@@ -66,3 +66,25 @@ def test_what_only_reflections_hold_together_is_not_joined() -> None:
     """Saddle points in a reflection led across it in fewer steps than there are squares: of a
     board of 10 x 14 corners a half was handed out."""
     assert find("glare", 3014).whole == 1
+
+
+@pytest.mark.parametrize("seed", [91010, 91018, 91051])
+def test_a_patterned_ground_adds_no_line_to_the_board(seed: int) -> None:
+    """Up to 3 of 5 corners of a line lay where squares at the board's end meet what lies beyond."""
+    assert find("no margin", seed).whole == 1
+
+
+@pytest.mark.parametrize("seed", [91021, 91035, 91046])
+def test_a_large_thing_with_a_pattern_may_lie_on_the_board(seed: int) -> None:
+    """The board was refused for the few places at which the thing looks like squares."""
+    assert find("object", seed).whole == 1
+
+
+@pytest.mark.parametrize("seed", [5, 50])
+def test_a_clip_at_the_end_of_the_board_adds_no_line(seed: int) -> None:
+    """Where it covers half of the last line of squares its rim passed for one more corner."""
+    assert find("clips", seed).wrong == 0
+
+
+def test_marks_that_leave_a_fifth_of_a_square_free_cost_no_corner() -> None:
+    assert find("marks in squares", 91018).whole == 1

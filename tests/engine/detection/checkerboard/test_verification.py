@@ -182,8 +182,8 @@ class TestBrokenLines:
         assert len(verification.drop_broken_lines(Lattice(uv, True), image)) == 144 * passes
 
     @pytest.mark.parametrize("quarters", range(4))
-    @pytest.mark.parametrize(("found", "passes"), [(3, True), (2, False)])
-    def test_a_border_line_has_as_many_corners_as_broken_places(
+    @pytest.mark.parametrize(("found", "passes"), [(4, True), (2, False)])
+    def test_a_border_line_has_more_corners_than_broken_places(
         self, found: int, passes: bool, quarters: int
     ) -> None:
         levels = alternate(6, 9)
@@ -200,8 +200,9 @@ class TestBrokenLines:
         assert len(verification.drop_broken_lines(lattice, image)) == 50
 
     @staticmethod
-    def count_kept(broken: int, hide: bool = False) -> int:
-        """Count the corners kept of 88, of which some are missing inside the board."""
+    def count_kept(broken: int, hide: bool = False, cut: bool = True) -> int:
+        """Count the corners kept of 88, of which some are missing inside the board, where the image
+        cuts the outermost squares or does not."""
         levels, missing = alternate(8, 11), []
         for k in range(5):
             row, col = 2 + k // 3 * 3, 1 + k % 3 * 3
@@ -211,11 +212,18 @@ class TestBrokenLines:
         if hide:
             for u, v in np.rint(lattice.uv[1:-1, 1:-1].reshape(-1, 2)).astype(int):
                 image[v - 7 : v, u - 7 : u + 7] = 125
+        if cut:
+            border = MARGIN + SQUARE // 2
+            image = image[border:-border, border:-border]
+            lattice = Lattice(lattice.uv - border, lattice.dark)
         return len(verification.drop_broken_lines(drop(lattice, *missing[:broken]), image))
 
     def test_a_tenth_of_the_places_inside_may_be_broken(self) -> None:
         assert self.count_kept(8) == 80
         assert self.count_kept(9) == 0
+
+    def test_more_may_be_of_a_board_that_is_seen_to_end(self) -> None:
+        assert self.count_kept(9, cut=False) == 79
 
     def test_hidden_places_inside_are_not_broken(self) -> None:
         assert self.count_kept(9, hide=True) == 79
@@ -236,13 +244,13 @@ class TestBrokenLines:
 
 class TestStrayLines:
     @pytest.mark.parametrize("quarters", range(4))
-    @pytest.mark.parametrize(("found", "passes"), [(3, True), (2, False)])
-    def test_few_corners_beyond_the_end_of_the_board_are_dropped(
+    @pytest.mark.parametrize(("found", "passes"), [(6, True), (5, False)])
+    def test_a_line_beyond_the_end_of_the_board_is_dropped_unless_full(
         self, found: int, passes: bool, quarters: int
     ) -> None:
         """The line beyond the last row is the border of the board."""
         image, lattice = paint(alternate(6, 9)), place(7, 9)
-        stray = drop(lattice, *((6, col) for col in range(9) if not 3 <= col < 3 + found))
+        stray = drop(lattice, *((6, col) for col in range(9) if not 2 <= col < 2 + found))
         kept = verification.drop_stray_lines(turn_lattice(stray, quarters), image)
         assert len(kept) == 54 + found * passes
         assert sorted(kept.shape) == ([7, 9] if passes else [6, 9])
@@ -268,6 +276,18 @@ class TestStrayLines:
     def test_few_corners_before_the_end_of_the_board_are_kept(self) -> None:
         lattice = drop(place(6, 9), *((0, col) for col in range(2, 9)))
         assert verification.drop_stray_lines(lattice, paint(alternate(6, 9))) is lattice
+
+
+def test_a_border_line_needs_a_corner_that_is_described_as_well_as_most() -> None:
+    lattice = drop(place(4, 5), (0, 0), (0, 2))
+    residual = np.ones(len(lattice))
+    residual[:3] = 3.0
+    assert not verification.find_doubtful_lines(lattice, np.ones(len(lattice))).any()
+    doubtful = verification.find_doubtful_lines(lattice, residual)
+    assert doubtful[:3].all()
+    assert not doubtful[3:].any()
+    residual[1] = 2.0
+    assert not verification.find_doubtful_lines(lattice, residual).any()
 
 
 class TestContinuation:
