@@ -149,11 +149,9 @@ def describe_lens_choice(choice: LensChoice) -> str:
     if chosen.fuller is not None:
         names = ", ".join(chosen.spared)
         error += f" ({chosen.fuller.held_out:.3f} px with {names} estimated)"
-    name = (
-        f"{chosen.model}, with {', '.join(chosen.fixed)} held at 0"
-        if chosen.fixed
-        else chosen.model
-    )
+    name = get_short_lens_title(chosen.model)
+    if chosen.fixed:
+        name += f", with {', '.join(chosen.fixed)} held at 0"
     if chosen.model == SIMPLEST_MODEL:
         text = (
             f"The paper's model ({name}) is kept: {error}, and no other model that these "
@@ -161,8 +159,7 @@ def describe_lens_choice(choice: LensChoice) -> str:
         )
     else:
         clauses = "; ".join([error, *_describe_refusal(choice)])
-        title = get_short_lens_title(chosen.model)
-        text = f"{title} ({name}): {clauses}. {_describe_rivals(choice)}"
+        text = f"{name}: {clauses}. {_describe_rivals(choice)}"
     if not chosen.is_sound:
         faults = _list_remarks(chosen, min(trial.rms for trial in choice.trials.values()))
         text += f" No model is without reservations; of this one: {'; '.join(faults)}."
@@ -178,22 +175,23 @@ def format_lens_options(choice: LensChoice) -> str:
 def _describe_refusal(choice: LensChoice) -> list[str]:
     """Say in a clause why the paper's model is not kept; no clause if it was not tried."""
     if SIMPLEST_MODEL in choice.refused:
-        return [f"{SIMPLEST_MODEL} cannot be calibrated from them"]
+        return [f"{get_short_lens_title(SIMPLEST_MODEL)} cannot be calibrated from them"]
     if SIMPLEST_MODEL not in choice.trials:
         return []
     trial = choice.trials[SIMPLEST_MODEL]
+    simplest = get_short_lens_title(SIMPLEST_MODEL)
     if not trial.is_sound:
         faults = "; ".join(_list_remarks(trial, trial.rms))
-        return [f"{SIMPLEST_MODEL} does not suit them ({faults})"]
+        return [f"{simplest} does not suit them ({faults})"]
     if trial.validation is None:
-        return [f"{SIMPLEST_MODEL} leaves {trial.rms:.3g} px on the views themselves"]
+        return [f"{simplest} leaves {trial.rms:.3g} px on the views themselves"]
     if SIMPLEST_MODEL in choice.adequate:
         difference = choice.differences[SIMPLEST_MODEL]
         return [
-            f"{SIMPLEST_MODEL} predicts them as well, but images what they cover up to "
+            f"{simplest} predicts them as well, but images what they cover up to "
             f"{format_px(difference)} px elsewhere"
         ]
-    clause = f"{SIMPLEST_MODEL} predicts them with {trial.held_out:.3f} px"
+    clause = f"{simplest} predicts them with {trial.held_out:.3f} px"
     if trial.valid_share < choice.chosen.valid_share:
         clause += f" and is one-to-one on {_format_share(trial.valid_share)} of the image only"
     return [clause]
@@ -210,7 +208,8 @@ def _describe_rivals(choice: LensChoice) -> str:
         )
     return (
         "Of the models that predict as well it is the simplest whose map differs from that of "
-        f"{choice.reference} by less than the uncertainty of both ({choice.tolerance:.2g} px)."
+        f"{get_short_lens_title(choice.reference)} by less than the uncertainty of both "
+        f"({choice.tolerance:.2g} px)."
     )
 
 

@@ -71,4 +71,4 @@ def get_short_lens_title(model: str) -> str:
     Raises:
         CalibrationError: if there is no such model.
     """
-    return get_lens_title(model).partition(" (")[0]
+    return find_model(model).short_title

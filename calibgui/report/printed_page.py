@@ -15,12 +15,14 @@ from html import escape
 from matplotlib.figure import Figure
 
 from calibgui.dataset import Result
+from calibgui.report.boards import name_point
 from calibgui.report.coverage import measure_attitudes
 from calibgui.report.figures import (
     draw_distortion,
     draw_residual_histograms,
     draw_residual_scatter,
 )
+from calibgui.report.lens_models import get_short_lens_title
 from calibgui.report.names import shorten_name
 from calibgui.report.numbers import format_with_sigma
 from calibgui.report.summary import Tone, describe_calibration
@@ -63,11 +65,12 @@ def make_printed_page(result: Result, name: str) -> PrintedPage:
         f'<p><img src="{key}" width="{_choose_width(figure)}"><br><i>{escape(caption)}</i></p>'
         for key, (caption, figure) in figures.items()
     )
+    lens = get_short_lens_title(calibration.camera.model)
     parts = [
         f"<h1>Calibration “{escape(name)}”</h1>",
         f"<p>{escape(describe_rms(result))}</p>",
         _list_sentences(result),
-        f"<h2>Camera, {escape(calibration.camera.model)}, {_describe_size(result)}</h2>",
+        f"<h2>Camera, {escape(lens)}, {_describe_size(result)}</h2>",
         _tabulate_parameters(result),
         "<h2>Views</h2>",
         _tabulate_views(result),
@@ -146,7 +149,13 @@ def _tabulate_views(result: Result) -> str:
         )
     ]
     unit = f"mm {result.condition}".rstrip()
-    head = ["Image", "Corners", "RMS [px]", f"Distance [{unit}]", "Tilt [°]"]
+    head = [
+        "Image",
+        f"{name_point(result.board)}s".capitalize(),
+        "RMS [px]",
+        f"Distance [{unit}]",
+        "Tilt [°]",
+    ]
     return _make_table(head, rows)
 
 

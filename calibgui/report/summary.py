@@ -32,6 +32,7 @@ from calibgui.engine.boards import BoardShape
 from calibgui.engine.calibration import Calibration, Status, compute_correlations, is_in_one_spot
 from calibgui.report import advice, partial
 from calibgui.report.boards import name_point
+from calibgui.report.lens_models import get_short_lens_title
 from calibgui.report.names import shorten_name
 from calibgui.report.numbers import format_count, format_with_sigma
 from calibgui.report.verdict import describe_reason, format_headline
@@ -205,7 +206,7 @@ def describe_lens_error(calibration: Calibration, rms: float, does_harm: bool = 
     follows = "does not follow this lens" if does_harm else "follows this lens nearly"
     is_as_drawn = calibration.board_shape is not None and calibration.lens_error > 0
     text = (
-        f"The lens model {calibration.camera.model} {follows}: "
+        f"The lens model {get_short_lens_title(calibration.camera.model)} {follows}: "
         f"{'with the board as drawn, ' if is_as_drawn else ''}it leaves a "
         f"displacement of {rms:.2g} px (rms) that all views share and the board "
         "does not explain. No ± includes that: each is of the values that fit best."

@@ -75,7 +75,7 @@ def format_report(result: Result, *, verbose: bool = False) -> str:
         "\n".join([*_format_verdict(result, verdict), *remarks]),
         list_unused_views(result.views),
         tabulate_intrinsics(result.calibration),
-        describe_residuals(result.calibration),
+        describe_residuals(result),
         "\n".join(map(format_bullet, notes)),
         tabulate_views(result),
         tabulate_stage_one(result),
@@ -193,7 +193,7 @@ def tabulate_views(result: Result) -> str:
             strict=True,
         )
     ]
-    head = ["view", "image", "corners", "rms", "distance", "tilt"]
+    head = ["view", "image", f"{name_point(result.board)}s", "rms", "distance", "tilt"]
     units = ["", "", "", "px", "mm", "deg"]
     condition = f", distances {result.condition}" if result.condition else ""
     return f"Views{condition}\n" + align_columns([head, units, *rows], left=(1,))
@@ -294,12 +294,14 @@ def _count_used(result: Result) -> str:
     return f"{len(result.used)} of {format_count(len(result.views), 'image')}"
 
 
-def describe_residuals(calibration: Calibration) -> str:
+def describe_residuals(result: Result) -> str:
     """Describe the residuals of the calibration, and how the solve ended."""
+    calibration = result.calibration
     fit = summarise_residuals(calibration.residuals)
-    corners, views = format_count(fit.count, "corner"), format_count(len(calibration.poses), "view")
+    points = format_count(fit.count, name_point(result.board))
+    views = format_count(len(calibration.poses), "view")
     lines = [
-        f"Residuals of {corners} in {views}",
+        f"Residuals of {points} in {views}",
         f"  in the image            rms {fit.rms:.4f} px, "
         f"sigma_x {fit.sigma_x:.4f} px, sigma_y {fit.sigma_y:.4f} px",
         f"  in the median view      sigma_x {fit.median_sigma_x:.4f} px, "

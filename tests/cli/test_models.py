@@ -34,7 +34,7 @@ def test_a_corners_file_is_compared_on(corners_file: Path, tmp_path: Path, capsy
     printed, problems = capsys.readouterr()
     assert problems == ""
     assert f"corners in {COUNT} views (* recommended)" in printed
-    assert "The paper's model (lucchese) is kept" in printed
+    assert "The paper's model (Lucchese) is kept" in printed
     lines = printed.splitlines()
     assert all(len(line) <= 80 or str(file) in line for line in lines)
     content = json.loads(file.read_text())
@@ -59,7 +59,7 @@ def test_json_stands_alone_and_quiet_is_one_line(corners_file: Path, capsys: Cap
     assert json.loads(capsys.readouterr().out)["recommended"] == "lucchese"
     assert main(["models", str(corners_file), "-q"]) == 0
     printed, problems = capsys.readouterr()
-    assert "lucchese" in printed and printed.count("\n") == 1
+    assert "Lucchese" in printed and printed.count("\n") == 1
     assert problems == ""
 
 
@@ -90,7 +90,7 @@ def test_calibrate_chooses_the_lens_model(
     printed = " ".join(capsys.readouterr().out.split())
     settings = read_result(file).calibration.settings
     assert settings["model"] == "lucchese"
-    assert settings["model_reason"].startswith("The paper's model (lucchese) is kept")
+    assert settings["model_reason"].startswith("The paper's model (Lucchese) is kept")
     assert settings["model_reason"] in printed
     assert read_result(file).calibration.warnings[0] == settings["model_reason"]
 

@@ -117,7 +117,7 @@ def test_tables_fit_a_terminal_and_mark_the_recommended(
 def test_the_papers_model_is_kept_where_nothing_speaks_against_it(kept: LensChoice) -> None:
     error = kept.trials["lucchese"].held_out
     assert describe_lens_choice(kept) == (
-        f"The paper's model (lucchese) is kept: it predicts unseen views with {error:.3f} px RMS, "
+        f"The paper's model (Lucchese) is kept: it predicts unseen views with {error:.3f} px RMS, "
         "and no other model that these views determine does better by more than chance and 1 %."
     )
     shaken = change(kept, "lucchese", is_valid_at_corners=False)
@@ -130,7 +130,7 @@ def test_the_papers_model_is_kept_where_nothing_speaks_against_it(kept: LensChoi
 def test_coefficients_that_the_views_leave_open_are_named(kept: LensChoice) -> None:
     held = change(kept, "lucchese", fixed={"k3": 0.0, "k2": 0.0})
     assert describe_lens_choice(held).startswith(
-        "The paper's model (lucchese, with k3, k2 held at 0) is kept: it predicts "
+        "The paper's model (Lucchese, with k3, k2 held at 0) is kept: it predicts "
     )
     row = next(row for row in list_lens_rows(held) if row.model == "lucchese")
     assert row.held == ("k3", "k2") and row.is_eligible
@@ -145,7 +145,7 @@ def test_coefficients_that_harm_are_named_with_what_they_cost(kept: LensChoice) 
     held = change(kept, "lucchese", fixed={"k3": 0.0, "p1": 0.0, "p2": 0.0}, fuller=worse)
     error = held.chosen.held_out
     assert describe_lens_choice(held).startswith(
-        "The paper's model (lucchese, with k3, p1, p2 held at 0) is kept: it predicts unseen views "
+        "The paper's model (Lucchese, with k3, p1, p2 held at 0) is kept: it predicts unseen views "
         f"with {error:.3f} px RMS (0.345 px with p1, p2 estimated), and no other "
     )
     row = next(row for row in list_lens_rows(held) if row.model == "lucchese")
@@ -176,12 +176,11 @@ def test_there_is_a_reason_for_another_model(fisheye: LensChoice) -> None:
     words = describe_lens_choice(choice)
     error = choice.trials["kannala-brandt"].held_out
     assert words.startswith(
-        f"Kannala-Brandt (kannala-brandt): it predicts unseen views with {error:.3f} px RMS; "
-        "lucchese leaves "
+        f"Kannala-Brandt: it predicts unseen views with {error:.3f} px RMS; Lucchese leaves "
     )
     assert words.endswith(
         "Of the models that predict as well it is the simplest whose map differs from that of "
-        "kannala-brandt-decentering by less than the uncertainty of both (0.031 px)."
+        "Kannala-Brandt with decentering by less than the uncertainty of both (0.031 px)."
     )
     alone = replace(choice, adequate=("kannala-brandt",), reference="kannala-brandt")
     assert describe_lens_choice(alone).endswith(
@@ -190,18 +189,18 @@ def test_there_is_a_reason_for_another_model(fisheye: LensChoice) -> None:
     assert "It is the richest" in describe_lens_choice(replace(choice, reference=choice.model))
     gone = {k: v for k, v in choice.trials.items() if k != "lucchese"}
     refused = replace(choice, trials=gone, refused={"lucchese": "No."})
-    assert "; lucchese cannot be calibrated from them." in describe_lens_choice(refused)
-    assert "lucchese" not in describe_lens_choice(replace(choice, trials=gone))
+    assert "; Lucchese cannot be calibrated from them." in describe_lens_choice(refused)
+    assert "Lucchese" not in describe_lens_choice(replace(choice, trials=gone))
 
 
 def test_the_reason_against_the_papers_model_is_what_it_lacks(kept: LensChoice) -> None:
     other = replace(kept, model="brown-conrady-4", adequate=("brown-conrady-4",))
     error = kept.trials["lucchese"].held_out
-    assert f"; lucchese predicts them with {error:.3f} px. " in describe_lens_choice(other)
+    assert f"; Lucchese predicts them with {error:.3f} px. " in describe_lens_choice(other)
     narrow = change(other, "lucchese", valid_share=0.835)
     assert "px and is one-to-one on 83 % of the image only. " in describe_lens_choice(narrow)
     folded = change(other, "lucchese", is_valid_at_corners=False)
-    assert "; lucchese does not suit them (" in describe_lens_choice(folded)
+    assert "; Lucchese does not suit them (" in describe_lens_choice(folded)
     elsewhere = replace(
         other,
         adequate=("lucchese", "brown-conrady-4"),

@@ -85,7 +85,7 @@ def test_boards_far_away_are_to_be_held_nearer(fill: tuple[float, float], is_adv
 def test_a_lens_that_is_not_followed_is_named_and_the_board_is_not(good: Result) -> None:
     wrong = solved(everywhere(), model="pinhole")
     caution = texts(wrong, Tone.CAUTION)
-    assert "The lens model pinhole does not follow this lens" in caution
+    assert "The lens model Pinhole does not follow this lens" in caution
     assert f"{wrong.calibration.lens_error:.2g} px (rms)" in caution
     assert "Compare the lens models" in caution
     assert "not flat" not in caution

@@ -136,6 +136,10 @@ def test_circles_are_called_circles(result: Result) -> None:
     assert result.board is not None
     circles = replace(result, board=replace(result.board, pattern=Circles(False, 0.5)))
     assert "616 circles, 7 of 9 images" in tables.describe_rms(circles)
+    assert "Residuals of 616 circles" in tables.describe_residuals(circles)
+    assert "circles" in tables.tabulate_views(circles) and "corners" in tables.tabulate_views(
+        result
+    )
     assert describe_fit(circles).endswith("px of 616 circles")
     assert any("7 views with 616 circles" in said.text for said in describe_calibration(circles))
 
@@ -202,7 +206,7 @@ def test_another_lens_model_has_no_paper_column() -> None:
 
 
 def test_rms_comes_with_sigma_and_count(result: Result) -> None:
-    text = "\n".join(lines(tables.describe_residuals(result.calibration)))
+    text = "\n".join(lines(tables.describe_residuals(result)))
     for words in ("616 corners in 7 views", "rms 0.1", "sigma_x 0.", "sigma_y 0.", "mean e' 0."):
         assert words in text
     assert "converged after" in text

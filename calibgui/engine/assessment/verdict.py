@@ -347,7 +347,8 @@ def _grade(
         return Grade.GOOD, "The photographs show nothing wrong."
     grade = Grade.GOOD if error.median <= MAX_GOOD_PX else Grade.USABLE
     return grade, (
-        "Nothing is wrong where there are corners; beyond them pixels are "
+        "Nothing is wrong among corners, where pixels are known to "
+        f"{format_two_digits(error.worst_covered)} px; beyond them they are "
         f"{_tell_how_known(error)}: bring corners closer to the image's edge."
     )
 

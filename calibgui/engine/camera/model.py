@@ -73,6 +73,12 @@ class Lens(ABC):
     and centre would take up any value of it, the residuals could not tell, and all of them would
     be undetermined together.
     """
+
+    @property
+    def short_title(self) -> str:
+        """Title without the programs that the model is known from, for sentences."""
+        return self.title.partition(" (")[0]
+
     asymmetric: tuple[str, ...] = ()
     """Names of the coefficients without which the lens is symmetric about its axis."""
     radius_in_pixels: bool = False

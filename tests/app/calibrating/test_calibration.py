@@ -245,7 +245,7 @@ def test_the_papers_lens_model_is_kept_where_it_is_enough() -> None:
     calibration = result.calibration
     assert calibration.camera.model == calibration.settings["model"] == "lucchese"
     assert calibration.warnings[0] == calibration.settings["model_reason"]
-    assert calibration.warnings[0].startswith("The paper's model (lucchese) is kept: it predicts")
+    assert calibration.warnings[0].startswith("The paper's model (Lucchese) is kept: it predicts")
     assert progress == [(0, 4), (1, 4), (2, 4), (3, 4), (4, 5), (1, 1)]
     by_name = calibrate_views(noisy(), Settings()).calibration
     np.testing.assert_array_equal(calibration.camera.params, by_name.camera.params)
@@ -281,7 +281,7 @@ def test_what_a_bent_board_hides_of_the_lens_is_not_held_at_zero(
 def test_a_fisheye_lens_gets_a_model_of_its_own() -> None:
     result = calibrate_views(fisheye(), AUTO)
     assert result.calibration.camera.model == "kannala-brandt"
-    assert result.calibration.warnings[0].startswith("Kannala-Brandt (kannala-brandt): it predicts")
+    assert result.calibration.warnings[0].startswith("Kannala-Brandt: it predicts")
     again = calibrate_views(fisheye(), AUTO, lens=recall_lens_choice(result))
     assert again.calibration.settings["model_reason"] == result.calibration.warnings[0]
 

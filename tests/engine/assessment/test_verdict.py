@@ -91,7 +91,7 @@ def test_an_error_of_thousands_of_pixels_is_no_number(worst: float, known: str) 
     calibration = calibrate(CLEAN, VGA)
     error = PixelError(0.02, worst, worst, 0.02, 0.02, 0.03)
     _, reason = _grade(calibration, error, [])
-    assert f"beyond them pixels are {known}:" in reason
+    assert f"known to 0.030 px; beyond them they are {known}:" in reason
 
 
 @pytest.mark.parametrize(("count", "grade"), [(2, Grade.NOT_USABLE), (4, Grade.USABLE)])
@@ -107,8 +107,8 @@ def test_few_views_are_never_good_however_small_their_noise(count: int, grade: G
 @pytest.mark.parametrize(
     ("count", "message"),
     [
-        (10, "The lens model pinhole does not follow this lens."),
-        (4, "4 views are too few: the lens model pinhole does not follow this lens."),
+        (10, "The lens model Pinhole does not follow this lens."),
+        (4, "4 views are too few: the lens model Pinhole does not follow this lens."),
     ],
 )
 def test_a_recommended_lens_that_is_not_followed_takes_photographs(

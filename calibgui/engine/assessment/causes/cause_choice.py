@@ -50,6 +50,7 @@ from calibgui.engine.calibration.calibrate import calibrate
 from calibgui.engine.calibration.observations import Observation
 from calibgui.engine.calibration.problem import recover_image_arguments
 from calibgui.engine.calibration.result import Calibration
+from calibgui.engine.camera.models import find_model
 from calibgui.engine.errors import CalibrationError
 
 _MIN_LENS_PX = 0.1
@@ -366,9 +367,10 @@ def _describe_lens(case: Case, error: float, harm: float) -> Finding:
             f"With the board as drawn, it leaves {cause}; with the board's estimated shape, which "
             f"stands in for the lens, {case.rms:.3g} px RMS are left in all."
         )
+    lens = find_model(calibration.camera.model).short_title
     return Finding(
         Cause.LENS,
-        f"The lens model {calibration.camera.model} does not follow this lens.",
+        f"The lens model {lens} does not follow this lens.",
         evidence,
         REMEDY_OF_LENS,
         max(error, harm),

@@ -43,6 +43,7 @@ from calibgui.engine.calibration.result import Calibration, ViewResiduals
 from calibgui.engine.calibration.result_assembly import compute_view_residuals
 from calibgui.engine.calibration.subset_fit import fit_some_views
 from calibgui.engine.camera.camera import Camera
+from calibgui.engine.camera.models import find_model
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.threads import with_one_blas_thread
 
@@ -252,8 +253,9 @@ class BoardShapeChoice:
         """Sentence that recommends a model, with its figures."""
         before = self.validations[BoardShapeModel.NOMINAL].held_out
         if (error := self.nominal.lens_error) > 0:
+            lens = find_model(self.nominal.camera.model).short_title
             return (
-                f"Keep the board as drawn: the lens model {self.nominal.camera.model} leaves "
+                f"Keep the board as drawn: the lens model {lens} leaves "
                 f"{error:.2g} px that it cannot follow, which a board shape would stand in for. "
                 "The lens comes first: choose a model that follows it, and then the board's shape."
             )

@@ -22,6 +22,7 @@ from calibgui.gui.panels.services import Services
 from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.lengths import describe_condition
 from calibgui.gui.widgets.reserved_label import ReservedLabel
+from calibgui.report.boards import name_point
 from calibgui.report.coverage import count_corners_per_cell, measure_attitudes
 
 _CELLS = (24, 18)
@@ -55,7 +56,7 @@ class CoveragePanel(Panel):
     def __init__(self, services: Services) -> None:
         super().__init__(services)
         self._work = Latest(services.jobs, self)
-        self.density = HeatMap(self.tr("corners in a cell"))
+        self.density = HeatMap("")
         self.density.bar.axis.is_count = True
         self.density.setMinimumHeight(_MAP_HEIGHT)
         self.density.setToolTip(
@@ -94,6 +95,11 @@ class CoveragePanel(Panel):
         uv = np.concatenate([view.uv for view in observations])
         self.density.show_values(
             count_corners_per_cell(uv, size, _CELLS).astype(np.float64), image_rectangle(size)
+        )
+        self.density.bar.set_quantity(
+            self.tr("circles in a cell")
+            if name_point(result.board) == "circle"
+            else self.tr("corners in a cell")
         )
         self.density.fit(size)
         attitude = measure_attitudes(result.calibration, observations)

@@ -13,6 +13,7 @@ from calibgui.gui.panels.method.lens_tables import LensTables
 from calibgui.gui.panels.on_demand import OnDemandPanel, have_same_views
 from calibgui.gui.panels.services import Services
 from calibgui.gui.widgets.reserved_label import ReservedLabel
+from calibgui.report.boards import name_point
 from calibgui.report.lens_choice import LensRow, describe_lens_choice, list_lens_rows
 from calibgui.report.lens_models import describe_lens_model, get_lens_title
 from calibgui.report.numbers import format_count
@@ -105,12 +106,13 @@ class LensModelsPanel(OnDemandPanel[LensChoice]):
     def _show_row(self, row: int) -> None:
         """Show what there is to know of a lens model, and offer it."""
         shown = self._chosen = self._rows[row]
+        board = None if self._result is None else self._result.board
         fit = self.tr("{0}: RMS {1:.3f} px, σx {2:.3f} px and σy {3:.3f} px of {4}.").format(
             get_lens_title(shown.model),
             shown.rms,
             shown.sigma_x,
             shown.sigma_y,
-            format_count(shown.corners, "corner"),
+            format_count(shown.corners, name_point(board)),
         )
         remarks = [f"{'; '.join(shown.remarks)}."] if shown.remarks else []
         self.remarks.setText("\n".join([fit, *remarks, describe_lens_model(shown.model)]))

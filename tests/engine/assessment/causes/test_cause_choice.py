@@ -31,7 +31,7 @@ def found(views: list[Observation], **settings: object) -> tuple[Finding, ...]:
 def test_a_wrong_lens_is_named_before_the_board() -> None:
     findings = found(CLEAN, model="pinhole")
     assert [finding.cause for finding in findings] == [Cause.LENS]
-    assert "pinhole" in findings[0].message
+    assert "Pinhole" in findings[0].message
 
 
 def print_badly(xy: Array) -> Array:

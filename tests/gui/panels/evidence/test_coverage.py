@@ -11,6 +11,7 @@ import pytest
 from pytestqt.qtbot import QtBot
 
 from calibgui.dataset import Result
+from calibgui.engine.boards import Circles
 from calibgui.engine.calibration.result import Degeneracy, Diagnosis
 from calibgui.engine.numbers import format_two_digits
 from calibgui.engine.uncertainty.next_view import NextView, propose_views
@@ -46,6 +47,14 @@ def test_density_counts_the_corners(panel: CoveragePanel, result: Result) -> Non
     rows, cols = counts.shape
     one = uv[inside][17] + 0.5
     assert counts[int(one[1] / 480 * rows), int(one[0] / 640 * cols)] >= 1
+
+
+def test_circles_are_called_circles(panel: CoveragePanel, result: Result) -> None:
+    assert panel.density.accessibleName() == "corners in a cell"
+    board = result.board
+    assert board is not None
+    panel.show_result(replace(result, board=replace(board, pattern=Circles(False, 0.5))))
+    assert panel.density.accessibleName() == "circles in a cell"
 
 
 def test_tilts_and_distances(panel: CoveragePanel, result: Result) -> None:
