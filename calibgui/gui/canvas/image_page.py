@@ -28,7 +28,6 @@ from calibgui.gui.widgets.icons import Icon, draw_icon
 from calibgui.gui.widgets.overlay import Overlay
 from calibgui.gui.widgets.picture import Levels, stretch_levels
 from calibgui.gui.widgets.reserved_label import ReservedLabel
-from calibgui.gui.widgets.sizes import set_times_signs
 from calibgui.gui.widgets.wrapped_label import WrappedLabel
 
 
@@ -199,7 +198,7 @@ class ImagePage(QWidget):
     def _show_marks(self) -> None:
         session, view = self._session, self._session.view
         remark = "" if view is None or view.corners is None else view.corners.remark
-        self.reason.setText("" if view is None else set_times_signs(view.reason or remark))
+        self.reason.setText("" if view is None else view.reason or remark)
         self.reason.setVisible(bool(self.reason.text()))
         for action in self.tools:
             enable_action(

@@ -22,9 +22,9 @@ _LINES = 4
 class OnDemandPanel(Panel, Generic[Found]):
     """A panel whose content is computed from the result when the user presses a button.
 
-    The button cancels the work while it goes on. A text below it says what the button is for, what
-    goes on, why it failed, or what was found. A subclass calls `_lay_out` and implements `_invite`,
-    `_find` and `_show_found`.
+    The progress bar cancels the work. A text below the button says what that is for, what goes on,
+    why it failed, or what was found. A subclass calls `_lay_out` and implements `_invite`, `_find`
+    and `_show_found`.
 
     Args:
         services: as for `Panel`.
@@ -39,7 +39,7 @@ class OnDemandPanel(Panel, Generic[Found]):
     ) -> None:
         super().__init__(services)
         self._work = Latest(services.jobs, self)
-        self._button, self._label, self._working = button, label, working
+        self._label, self._working = label, working
         self._asked: Result | None = None
         """Result that the work is on, or that its outcome is of."""
         self._is_working = False
@@ -50,8 +50,7 @@ class OnDemandPanel(Panel, Generic[Found]):
         """What the work found; None before its end."""
         self.run = QPushButton(button)
         self.run.setToolTip(tip)
-        self.run.setMinimumWidth(self.run.sizeHint().width())  # also while it says Cancel
-        self.run.clicked.connect(self._start_or_cancel)
+        self.run.clicked.connect(self._start)
         self.words = ScrollingText(_LINES)
         self.words.setAccessibleName(self.tr("What was found"))
 
@@ -75,13 +74,6 @@ class OnDemandPanel(Panel, Generic[Found]):
         layout.addWidget(self.words)
         layout.addWidget(content, 1)
         layout.addStretch()  # while there is no content: room for it would have to be scrolled
-
-    def _start_or_cancel(self) -> None:
-        if self._is_working:
-            self._work.cancel()
-            self._end()
-        else:
-            self._start()
 
     def _start(self) -> None:
         result = self._result
@@ -117,7 +109,7 @@ class OnDemandPanel(Panel, Generic[Found]):
 
     def _refresh(self, result: Result) -> None:
         found = self.found
-        self.run.setText(self.tr("&Cancel") if self._is_working else self._button)
+        self.run.setEnabled(not self._is_working)
         for widget in self._shown_if_found:
             widget.setVisible(found is not None)
         if found is not None:

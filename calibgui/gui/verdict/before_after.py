@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import textwrap
 
 import numpy as np
 from PySide6.QtCore import QSize, Signal, SignalInstance
@@ -28,6 +29,8 @@ _TABLES_SHARE = 0.55
 """Share of the width that the tables have at most: the map takes what they leave."""
 _AXES = QSize(130, 70)
 """Room that axes, scale of colours and caption take beside and below the map, px."""
+_HEADING_LETTERS = 12
+"""Letters of a grade that stand in one line over its errors, where the map needs the width."""
 _LEAST = 320
 """Its least height where there is room, device-independent px: some parameters below the errors."""
 
@@ -107,12 +110,13 @@ class BeforeAndAfter(DropDown):
                 ),
                 *estimate_columns(self.tr("After"), [r.b for r in rows], [r.sigma_b for r in rows]),
                 Column(
-                    self.tr("Change in σ"),
+                    self.tr("Change"),
                     [row.sigmas for row in rows],
                     with_decimals(1),
                     self.tr(
                         "Over the standard deviation of a difference of independent estimates."
                     ),
+                    unit="σ",
                 ),
             ]
         )
@@ -169,8 +173,17 @@ class BeforeAndAfter(DropDown):
         self.errors.show_columns(
             [
                 Column(self.tr("Verdict"), [name for name, *_ in pairs]),
-                Column(grades[0], [a for _, a, _ in pairs], _format_error),
-                Column(grades[1], [b for *_, b in pairs], _format_error),
+                *(
+                    Column(
+                        grade,
+                        errors,
+                        _format_error,
+                        heading="\n".join(textwrap.wrap(grade, _HEADING_LETTERS)),
+                    )
+                    for grade, errors in zip(
+                        grades, ([a for _, a, _ in pairs], [b for *_, b in pairs]), strict=True
+                    )
+                ),
             ]
         )
         rows = self.errors.verticalHeader().length() + self.errors.horizontalHeader().height()

@@ -11,6 +11,7 @@ from calibgui.engine.boards import AprilGrid, Pattern
 from calibgui.gui.session.session import Session
 from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.number_box import fit_width
+from calibgui.gui.widgets.pattern_texts import list_pattern_texts
 from calibgui.gui.widgets.reserved_label import ReservedLabel
 
 
@@ -98,7 +99,7 @@ class SquareRow(QWidget):
         pattern, board = project.pattern, project.board
         if not pattern.has_squares:
             known = self.tr(
-                "How far apart are the circles? The board has {0} × {1} circles as counted; "
+                "How far apart are the circles? {4}, {0} × {1}; "
                 "lengths hold if they are {2:g} {3} apart."
             )
             counting = self.tr("How far apart are the circles? The board is being counted.")
@@ -107,7 +108,7 @@ class SquareRow(QWidget):
             )
         elif isinstance(pattern, AprilGrid):
             known = self.tr(
-                "How long are the tags' sides? The board has {0} × {1} corners as counted; "
+                "How long are the tags' sides? {4}, {0} × {1} corners; "
                 "lengths hold if tags are {2:g} {3}."
             )
             counting = self.tr("How long are the tags' sides? The board is being counted.")
@@ -116,7 +117,7 @@ class SquareRow(QWidget):
             )
         else:
             known = self.tr(
-                "How long are the squares? The board has {0} × {1} inner corners as counted; "
+                "How long are the squares? {4}, {0} × {1} inner corners; "
                 "lengths hold if squares are {2:g} {3}."
             )
             counting = self.tr("How long are the squares? The board is being counted.")
@@ -125,7 +126,8 @@ class SquareRow(QWidget):
             )
         if board is not None and project.grid_size_doubt is None:
             length = project.square / project.unit.mm
-            return known.format(board.rows, board.cols, length, project.unit)
+            name = list_pattern_texts()[pattern.kind].name
+            return known.format(board.rows, board.cols, length, project.unit, name)
         if any(view.status is ViewStatus.WAITING for view in project.views):
             return counting
         return parts

@@ -31,6 +31,7 @@ from calibgui.gui.panels.latest import Latest
 from calibgui.gui.session.session import Session
 from calibgui.gui.verdict.findings_list import FindingsList
 from calibgui.gui.verdict.mark import Mark, get_colour
+from calibgui.gui.verdict.reason_and_figures import ReasonAndFigures
 from calibgui.gui.verdict.remedier import Remedied, Remedier
 from calibgui.gui.verdict.square_row import SquareRow
 from calibgui.gui.verdict.texts import (
@@ -39,12 +40,12 @@ from calibgui.gui.verdict.texts import (
     describe_fit,
     describe_grade,
 )
-from calibgui.gui.verdict.words import Words
 from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.elided import elide_name
 from calibgui.gui.widgets.lengths import state_condition
+from calibgui.gui.widgets.pattern_texts import list_pattern_texts
 from calibgui.report.summary import describe_lost_images
-from calibgui.report.verdict import describe_reason
+from calibgui.report.verdict import describe_reason, join_names
 
 _PROOFS = {
     Cause.BOARD_SHAPE: "BoardShapePanel",
@@ -101,7 +102,7 @@ class VerdictBar(QFrame):
         font.setBold(True)
         font.setPointSizeF(1.25 * font.pointSizeF())
         self.headline.setFont(font)
-        self._words = Words()
+        self._words = ReasonAndFigures()
         self.reason, self.figures = self._words.reason, self._words.figures
         self._fit = ""
         """The words on the residuals, which are made once for each calibration."""
@@ -270,7 +271,12 @@ class VerdictBar(QFrame):
         project = self._session.project
         is_searched = all(view.status is not ViewStatus.WAITING for view in project.views)
         if project.views and is_searched and not project.usable:
-            return self.tr("No photograph can be used: click one to see why.")
+            if all(view.status is not ViewStatus.NO_BOARD for view in project.views):
+                return self.tr("No photograph can be used: click one to see why.")
+            kind = list_pattern_texts()[project.pattern.kind].name
+            return self.tr(
+                "No board of the kind “{0}” was found: click a photograph to see why."
+            ).format(kind)
         if project.by_hand and not project.usable:
             return self.tr(
                 "Mark the board in the photographs (M), or let them be searched: Set-up."
@@ -380,10 +386,14 @@ def _describe_reason(verdict: Verdict, result: Result) -> str:
         return f"{diagnosis.message} {describe_lost_images(result) or diagnosis.hint}"
     reason = describe_reason(verdict, result)
     searched = [view for view in result.views if view.status is not ViewStatus.WAITING]
-    lost = sum(view.enabled and not view.usable for view in searched)
+    lost = [
+        elide_name(PurePath(view.image).stem, _NAME_LENGTH)
+        for view in searched
+        if view.enabled and not view.usable
+    ]
     if not lost:
         return reason
     text = QCoreApplication.translate(
-        "VerdictBar", "{0} of {1} photographs could not be used: click one to see why."
+        "VerdictBar", "{0} of {1} ({2}) could not be used: click one to see why."
     )
-    return f"{reason} {text.format(lost, len(result.views))}"
+    return f"{reason} {text.format(len(lost), len(result.views), join_names(lost, most=1))}"

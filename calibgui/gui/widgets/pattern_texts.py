@@ -6,6 +6,8 @@ from typing import NamedTuple
 
 from PySide6.QtCore import QCoreApplication
 
+from calibgui.engine.boards import AprilGrid, Pattern
+
 translate = QCoreApplication.translate
 
 
@@ -63,3 +65,12 @@ def list_pattern_texts() -> dict[str, PatternTexts]:
             translate("PatternTexts", "&Search for a PuzzleBoard"),
         ),
     }
+
+
+def name_points(pattern: Pattern) -> str:
+    """Name what is counted on a board, in the user's language."""
+    if not pattern.has_squares:
+        return translate("PatternTexts", "Circles")
+    if isinstance(pattern, AprilGrid):
+        return translate("PatternTexts", "Corners")
+    return translate("PatternTexts", "Inner corners")

@@ -8,7 +8,7 @@ from PySide6.QtCore import QEvent, QPointF, QSize, Qt
 from PySide6.QtGui import QPainter, QPaintEvent, QResizeEvent, QTextLayout, QTextOption
 from PySide6.QtWidgets import QSizePolicy
 
-from calibgui.gui.widgets.wrapped_label import WrappedLabel, join_values
+from calibgui.gui.widgets.wrapped_label import WrappedLabel, typeset
 
 
 class ReservedLabel(WrappedLabel):
@@ -18,10 +18,10 @@ class ReservedLabel(WrappedLabel):
         lines: the number of lines.
     """
 
+    _lines, _tip = 1, ""  # Qt asks for them while the label is made
+
     def __init__(self, lines: int) -> None:
         super().__init__()
-        self._lines = lines
-        self._tip = ""
         self.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
         self.reserve(lines)
 
@@ -62,7 +62,7 @@ class ReservedLabel(WrappedLabel):
 
     def changeEvent(self, event: QEvent) -> None:  # noqa: N802 - Qt's name
         super().changeEvent(event)
-        if event.type() == QEvent.Type.FontChange and hasattr(self, "_tip"):
+        if event.type() == QEvent.Type.FontChange:
             self.reserve(self._lines)
 
     def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name
@@ -77,14 +77,13 @@ class ReservedLabel(WrappedLabel):
 
     def _show_rest(self) -> None:
         """Have the tooltip say what there is no room for."""
-        if hasattr(self, "_tip"):
-            rest = self.text() if self.is_cut and self.text() not in self._tip else ""
-            self.setToolTip("\n\n".join(filter(None, (rest, self._tip))))
+        rest = self.text() if self.is_cut and self.text() not in self._tip else ""
+        self.setToolTip("\n\n".join(filter(None, (rest, self._tip))))
 
     def _break_lines(self, most: int) -> list[str]:
         """Break the text into lines, at most so many; the last one ends in "…" if it is cut."""
         width, metrics, lines = max(self.width(), 1), self.fontMetrics(), list[str]()
-        rest = join_values(self.text())
+        rest = typeset(self.text())
         while rest:
             paragraph, _, after = rest.partition("\n")
             taken = self._measure_line(paragraph, width)

@@ -9,7 +9,7 @@ from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import QFrame, QSizePolicy, QTextBrowser
 
 from calibgui.gui.widgets.focus_ring import FocusRing
-from calibgui.gui.widgets.wrapped_label import join_values
+from calibgui.gui.widgets.wrapped_label import typeset
 
 _SHARE = 0.1
 """Share of the window's height that the text may take, if that is more than its lines."""
@@ -25,6 +25,7 @@ class ScrollingText(QTextBrowser):
     def __init__(self, lines: int) -> None:
         super().__init__()
         self._lines = lines
+        self._text = ""
         self.setFrameShape(QFrame.Shape.NoFrame)
         self.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         self.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
@@ -34,8 +35,9 @@ class ScrollingText(QTextBrowser):
 
     def show_text(self, text: str) -> None:
         """Show a text, from its beginning."""
-        if text != self.toPlainText():  # which has plain spaces
-            self.setPlainText(join_values(text))
+        if text != self._text:
+            self._text = text
+            self.setPlainText(typeset(text))
             self._fit()
 
     def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name

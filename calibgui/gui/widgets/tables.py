@@ -243,6 +243,10 @@ class _Order(QSortFilterProxyModel):
             model.make_sortable(column)
 
 
+_MEASURED_ROWS = 100
+"""Rows below those in sight whose texts have room in the columns as well, at least."""
+
+
 class _Titles(QHeaderView):
     """Titles of columns; only the one that the rows are sorted by has room for its arrow."""
 
@@ -250,8 +254,8 @@ class _Titles(QHeaderView):
         super().__init__(Qt.Orientation.Horizontal, parent)
         self.setSectionsClickable(True)
         self.setHighlightSections(False)  # every row is selected as a whole
-        # Columns as wide as what is in sight: measuring thousands of rows would be felt.
-        self.setResizeContentsPrecision(0)
+        # Measuring thousands of rows would be felt; a table of values is measured whole.
+        self.setResizeContentsPrecision(_MEASURED_ROWS)
         # The table measures its columns when that is due: Qt would at every change.
         self.setSectionResizeMode(QHeaderView.ResizeMode.Fixed)
 

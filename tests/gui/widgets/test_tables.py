@@ -167,3 +167,14 @@ def test_a_row_that_was_selected_before_the_table_had_room_comes_into_sight(qtbo
     table.verticalScrollBar().setValue(0)
     table.resize(200, 300)
     assert table.viewport().rect().contains(table.visualRect(table.model().index(40, 0)))
+
+
+def test_what_is_scrolled_to_is_read_whole(qtbot: QtBot) -> None:
+    table = Table()
+    qtbot.addWidget(table)
+    values = ["1"] * 30 + ["0.019988 ± 0.000079"]
+    table.show_columns([Column("n", [f"k{k}" for k in range(31)]), Column("value", values)])
+    table.resize(400, 120)
+    table.show()
+    text = table.fontMetrics().horizontalAdvance(values[-1])
+    assert table.horizontalHeader().sectionSize(1) > text

@@ -7,7 +7,7 @@ from PySide6.QtGui import QTextLayout
 from PySide6.QtWidgets import QLabel
 from pytestqt.qtbot import QtBot
 
-from calibgui.gui.widgets.wrapped_label import WrappedLabel, join_values
+from calibgui.gui.widgets.wrapped_label import WrappedLabel, typeset
 
 
 @pytest.mark.parametrize(
@@ -18,11 +18,12 @@ from calibgui.gui.widgets.wrapped_label import WrappedLabel, join_values
         ("if squares are 30 mm.", "if squares are 30_mm."),
         ("tilted by 45 degrees", "tilted by 45_degrees"),
         ("12 mirrors and 3 sets of 5 pxs", "12 mirrors and 3 sets of 5 pxs"),
+        ("a board of 7 x 10 corners", "a board of 7_×_10 corners"),
         ("the ± of the result", "the_±_of the result"),
     ],
 )
 def test_numbers_stay_with_their_units(text: str, joined: str) -> None:
-    assert join_values(text) == joined.replace("_", "\N{NO-BREAK SPACE}")
+    assert typeset(text) == joined.replace("_", "\N{NO-BREAK SPACE}")
 
 
 def test_a_label_breaks_between_words_only(qtbot: QtBot) -> None:

@@ -22,7 +22,7 @@ from calibgui.gui.panels.services import Services
 from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.tab_bar import TabWidget
 from calibgui.gui.widgets.tables import Column, Table, with_digits
-from calibgui.gui.widgets.wrapped_label import join_values
+from calibgui.gui.widgets.wrapped_label import typeset
 from calibgui.report.summary import Sentence, Tone, describe_calibration
 
 _PAPER_UNITS = ("px", "px", "px⁻²", "px⁻⁴", "px⁻⁶", "px⁻¹", "px⁻¹", "px⁻²", "px", "px")
@@ -142,7 +142,7 @@ def _format_html(sentences: Sequence[Sentence]) -> str:
     }
     rows = "".join(
         f'<tr><td style="color:{colour[s.tone]}; padding:3px 8px"><b>{_MARKS[s.tone]}</b></td>'
-        f'<td style="padding:3px 0">{escape(join_values(s.text))}</td></tr>'
+        f'<td style="padding:3px 0">{escape(typeset(s.text))}</td></tr>'
         for s in sentences
     )
     return f"<table>{rows}</table>"

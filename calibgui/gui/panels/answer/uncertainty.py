@@ -72,7 +72,7 @@ class UncertaintyPanel(Panel):
         bar.addStretch(1)
         self.distance.valueChanged.connect(self._refresh_now)
         self.limit.valueChanged.connect(self._draw_limit)
-        self.words = ReservedLabel(4)
+        self.words = ReservedLabel(5)
         self.plot = HeatMap(self.tr("one σ, worst direction [px]"))
         self.plot.setToolTip(
             self.tr(
@@ -80,7 +80,8 @@ class UncertaintyPanel(Panel):
                 "What turning and shifting the camera would undo is taken out.\n"
                 "It is what the calibration says of itself. The verdict's error may be another:\n"
                 "where the remedy of a finding was tried, it is measured against the camera that\n"
-                "the remedy gives."
+                "the remedy gives. Where there are no corners it adds how far another lens model\n"
+                "goes apart from this one that fits as well."
             )
         )
         self.plot.scene().sigMouseMoved.connect(self._hover)
@@ -128,8 +129,8 @@ class UncertaintyPanel(Panel):
         share = found.fraction(limit)
         inside = self.tr(" (inside the red line)") if 0 < share < 1 else ""
         text = self.tr(
-            "Points {0} are imaged to {1} px at the centre, {2} px in the median, "
-            "{3} px at worst (1σ). {4:.0f} % of the image is known to {5:g} px or "
+            "By this lens model points {0} are imaged to {1} px at the centre, {2} px in the "
+            "median, {3} px at worst (1σ). {4:.0f} % of the image is known to {5:g} px or "
             "better{6}."
         ).format(
             describe_distance(found.distance)

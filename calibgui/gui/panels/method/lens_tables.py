@@ -78,6 +78,7 @@ class LensTables(LinkedTables):
                 [row.unseen_p95 for row in rows],
                 px,
                 self.tr("Length that 95 % of the residuals of unseen views do not exceed"),
+                optional=True,
                 unit="px",
             ),
             Column(self.tr("Remarks"), ["; ".join(row.remarks) for row in rows], hidden=True),

@@ -73,18 +73,19 @@ class MethodTables(LinkedTables):
                 unit="px",
             ),
             Column(
-                self.tr("Time [s]"),
-                [row.seconds for row in rows],
-                format_seconds,
-                self.tr("Time of initialisation and refinement from all views"),
-                heading=self.tr("Time"),
-            ),
-            Column(
                 self.tr("Steps"),
                 [_NAN if row.iterations is None else float(row.iterations) for row in rows],
                 with_decimals(0),
                 self.tr("Iterations of the refinement; a dash where there are none, or not told"),
                 optional=True,
+            ),
+            Column(
+                self.tr("Time [s]"),
+                [row.seconds for row in rows],
+                format_seconds,
+                self.tr("Time of initialisation and refinement from all views"),
+                optional=True,
+                heading=self.tr("Time"),
             ),
             Column(self.tr("Remarks"), [" ".join(row.remarks) for row in rows], hidden=True),
         ]

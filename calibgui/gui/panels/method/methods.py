@@ -2,30 +2,30 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from html import escape
 
 import numpy as np
 from PySide6.QtCore import QT_TRANSLATE_NOOP, Qt
-from PySide6.QtWidgets import QFrame, QPushButton, QSplitter, QTextBrowser
+from PySide6.QtGui import QResizeEvent
+from PySide6.QtWidgets import QFrame, QPushButton, QSplitter, QTextBrowser, QWidget
 
 from calibgui.app.calibrating.method_comparison import compare_methods_again
 from calibgui.dataset import Result
 from calibgui.engine.assessment import MethodComparison
 from calibgui.engine.calibration import METHODS, Cost, recover_arguments
 from calibgui.engine.errors import Progress
+from calibgui.gui.panels.method.linked_tables import LinkedTables
 from calibgui.gui.panels.method.method_tables import MethodTables
 from calibgui.gui.panels.on_demand import OnDemandPanel, have_same_views
 from calibgui.gui.panels.parts.difference_map import Difference, DifferenceMap
-from calibgui.gui.panels.parts.split import Split
 from calibgui.gui.panels.services import Services
 from calibgui.gui.widgets import theme
-from calibgui.gui.widgets.wrapped_label import join_values
+from calibgui.gui.widgets.wrapped_label import typeset
 from calibgui.report.methods import MethodRow, describe_method_comparison, list_method_rows
 
 _WIDE = 820
-"""Width from which on the map is beside the table, px."""
-_TABLES_HEIGHT = 180
-"""Least height of the tables, px: some methods to compare, whatever the map below needs."""
+"""Width from which on the map is beside the tables, px; else it is behind a tab of theirs."""
 
 
 class MethodsPanel(OnDemandPanel[MethodComparison]):
@@ -53,18 +53,14 @@ class MethodsPanel(OnDemandPanel[MethodComparison]):
         self.use = QPushButton(self.tr("&Use this method"))
         self.use.clicked.connect(self._use)
         self.tables = MethodTables()
-        self.tables.setMinimumHeight(_TABLES_HEIGHT)
         self.tables.picked.connect(self._show_row)
         self.map = DifferenceMap()
         self.about = QTextBrowser()
         self.about.setAccessibleName(self.tr("About the method"))
         self.about.setFrameShape(QFrame.Shape.NoFrame)
-        chosen = QSplitter(Qt.Orientation.Vertical)
-        chosen.setChildrenCollapsible(False)
-        for part, share in ((self.map, 5), (self.about, 2)):
-            chosen.addWidget(part)
-            chosen.setStretchFactor(chosen.indexOf(part), share)
-        self.compared = Split(_WIDE, (self.tables, 2), (chosen, 3))
+        self.compared = _Compared(
+            self.tables, {self.tr("Map"): self.map, self.tr("About"): self.about}
+        )
         self._lay_out(self.compared, self.use)
 
     def _missing(self, result: Result) -> str:
@@ -152,10 +148,51 @@ class MethodsPanel(OnDemandPanel[MethodComparison]):
         return "".join(
             [
                 f"<b>{escape(row.title)}</b>",
-                *(f"<p style='margin:3px 0'>{escape(join_values(text))}</p>" for text in words),
+                *(f"<p style='margin:3px 0'>{escape(typeset(text))}</p>" for text in words),
                 f"<p style='color:{theme.current().muted}; margin:3px 0'>{escape(source)}</p>",
             ]
         )
+
+
+class _Compared(QSplitter):
+    """Tables with what belongs to their chosen row: beside them, or behind tabs if it is narrow.
+
+    Args:
+        tables: the tables, each behind a tab.
+        parts: what belongs to the row, by the names of their tabs.
+    """
+
+    def __init__(self, tables: LinkedTables, parts: Mapping[str, QWidget]) -> None:
+        super().__init__(Qt.Orientation.Horizontal)
+        self._tables, self._parts = tables, parts
+        self._beside = QSplitter(Qt.Orientation.Vertical)
+        for splitter in (self, self._beside):
+            splitter.setChildrenCollapsible(False)
+        self.addWidget(tables)
+        self.addWidget(self._beside)
+        self._is_wide: bool | None = None
+        self._arrange(is_wide=False)
+
+    def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name
+        self._arrange(is_wide=event.size().width() >= _WIDE)
+        super().resizeEvent(event)
+
+    def _arrange(self, *, is_wide: bool) -> None:
+        if is_wide is self._is_wide:
+            return
+        self._is_wide = is_wide
+        if self._tables.currentWidget() in self._parts.values():
+            self._tables.setCurrentIndex(0)  # not the tab that happens to be beside it
+        for name, part in self._parts.items():
+            if is_wide:
+                self._beside.addWidget(part)
+                part.show()
+            else:
+                self._tables.addTab(part, name)
+        self._beside.setVisible(is_wide)
+        if is_wide:
+            self.setSizes([2 * self.width() // 5, 3 * self.width() // 5])
+            self._beside.setSizes([5 * self.height() // 7, 2 * self.height() // 7])
 
 
 def _get_method(result: Result) -> str:

@@ -52,7 +52,7 @@ def test_the_button_compares_and_the_tables_hold_the_figures(
     assert panel.words.toPlainText().startswith("This result is of the lens model Lucchese")
     assert not panel.tables.isVisible() and not panel.use.isVisible()
     qtbot.mouseClick(panel.run, LEFT)
-    assert "Cancel" in panel.run.text()
+    assert not panel.run.isEnabled()
     qtbot.waitUntil(lambda: panel.found is not None, timeout=60_000)
     assert panel.tables.isVisible() and "ompare" in panel.run.text()
     assert panel.words.toPlainText() == describe_lens_choice(choice)

@@ -1,4 +1,4 @@
-"""The verdict's sentences in a place whose height no sentence changes."""
+"""The reason for a verdict, over its figures, in a place whose height no sentence changes."""
 
 from __future__ import annotations
 
@@ -14,8 +14,8 @@ _SIZE_OF_FIGURES = 0.9
 """Size of the figures' letters, of the others': each figure has one line in the least width."""
 
 
-class Words(QWidget):
-    """The reason over the figures; a long reason takes lines of the figures."""
+class ReasonAndFigures(QWidget):
+    """Shows the reason over the figures; a long reason takes lines of the figures."""
 
     def __init__(self) -> None:
         super().__init__()
