@@ -21,6 +21,7 @@ from calibgui.gui.canvas.marking_bar import CornerBar, RoiBar
 from calibgui.gui.canvas.roi_tool import RoiTool
 from calibgui.gui.jobs.job import Job
 from calibgui.gui.session.session import Session
+from calibgui.gui.widgets.pattern_texts import name_points
 
 _MARKABLE = (ViewStatus.WAITING, ViewStatus.FOUND, ViewStatus.NO_BOARD)
 """States of images whose boards can be marked."""
@@ -67,6 +68,7 @@ class Marker(QObject):
         self._canvas.setFocus()
         if (board := self._session.project.board) is not None:
             self.roi_bar.show_board((board.rows, board.cols))
+        self.roi_bar.counted.setText(name_points(self._session.project.pattern))
         self.roi_bar.show()
         self._points_changed()
 
@@ -115,9 +117,9 @@ class Marker(QObject):
             return
         self._forget_preview(tool)
         self.roi_bar.words.setText(
-            self.tr(
-                "Click the four outermost inner corners, going round the board: {0} of 4."
-            ).format(len(tool.points))
+            self.tr("Click the four outermost {1}, going round the board: {0} of 4.").format(
+                len(tool.points), name_points(self._session.project.pattern).lower()
+            )
             + (self.tr(" Backspace takes one back.") if tool.points else "")
         )
 

@@ -75,7 +75,8 @@ class RoiBar(_Bar):
             box.valueChanged.connect(self.board_changed)
         self.accept.setToolTip(self.tr("Keep these corners and go on (Enter)"))
         self.leave.setToolTip(self.tr("Leave the image as it was (Esc)"))
-        self.add_row(QLabel(self.tr("Inner corners")), self.counts[0], QLabel("×"), self.counts[1])
+        self.counted = QLabel()
+        self.add_row(self.counted, self.counts[0], QLabel("×"), self.counts[1])
         self.add_row(self.accept, self.leave)
 
     @property

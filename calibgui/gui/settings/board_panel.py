@@ -33,6 +33,7 @@ from calibgui.gui.session.session import Session, remember_by_hand
 from calibgui.gui.settings.pattern_choice import PatternChoice
 from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.narrow_combo import NarrowCombo
+from calibgui.gui.widgets.pattern_texts import name_points
 
 _UNKNOWN = GRID_LINES.start - 1
 """Value of a box for a number of rows or columns that is not known."""
@@ -155,8 +156,7 @@ class BoardPanel(QWidget):
         self._form.setRowVisible(self.method, not circles)
         self.by_hand.setChecked(project.by_hand)
         tags = isinstance(project.pattern, AprilGrid)
-        corners = self.tr("Corners") if tags else self.tr("Inner corners")
-        self.counted.setText(self.tr("Circles") if circles else corners)
+        self.counted.setText(name_points(project.pattern))
         square = self.tr("Tag") if tags else self.tr("Square")
         self.side.setText(self.tr("Distance") if circles else square)
         if not self._typing:

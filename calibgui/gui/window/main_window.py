@@ -175,7 +175,9 @@ class MainWindow(QMainWindow):
         self.session.failed.connect(self._show_failed_work)
         self.session.notified.connect(self.banner.show_text)
         self.session.withdrawn.connect(self.banner.withdraw)
-        Offers(self.session, self.detector, self.calibrator, self.files, self.images, self.banner)
+        self.offers = Offers(
+            self.session, self.detector, self.calibrator, self.files, self.images, self.banner
+        )
         self.verdict.panel_wanted.connect(self._show_panel_named)
         self.verdict.calibration_wanted.connect(self._calibrate_anew)
         self.images.list.addActions(self.page.tools)
@@ -287,6 +289,8 @@ class MainWindow(QMainWindow):
 
     def _show_failed_work(self, error: Exception) -> None:
         """Show why work has ended without a result: also a bug whose dialog was shown before."""
+        if self.offers.put_off(error):
+            return
         if not self.show_failure(error):
             self.banner.show_error(
                 CalibrationError(

@@ -75,15 +75,28 @@ class Offers(QObject):
         detector.finished.connect(self._look_for_another)
         self._offered: dict[str, Document] = {}
         """The documents that offers were made for."""
+        self._others_offered: dict[str, Hashable] = {}
+        """Offers of another board, and what was looked for when they were made."""
         session.changed.connect(self._withdraw)
         self._folders_offered: tuple[str, int] | None = None
         """An offer of folders, and the number of images in the project when it was made."""
         self._looking: Job | None = None
         self._looking_for: Hashable = None
         """What `_looking` depends on."""
+        self._put_off: CalibrationError | None = None
+        """A failure to show if `_looking` finds nothing."""
         self._marks_asked: tuple[Document, Hashable] | None = None
         """What was looked at for marks last: every fit ends a search, if of nothing new."""
         session.changed.connect(self._drop_look)
+
+    def put_off(self, failure: BaseException) -> bool:
+        """Keep a failure back while another board is looked for in photographs that show none of
+        the stated one, which is the likely cause; return whether that is so."""
+        usable = any(view.usable for view in self._session.project.views)
+        if self._looking is None or usable or not isinstance(failure, CalibrationError):
+            return False
+        self._put_off = failure
+        return True
 
     def _offer(self, text: str, choice: str, does: Callable[[], None]) -> None:
         """Offer something to do with the project that is open."""
@@ -91,10 +104,14 @@ class Offers(QObject):
         self._offered[text] = self._session.document
 
     def _withdraw(self) -> None:
-        """Withdraw offers that were made for another project."""
+        """Withdraw offers that were made for another project, or for another board in it."""
         for text, document in list(self._offered.items()):
             if document is not self._session.document:
                 del self._offered[text]
+                self._banner.withdraw(text)
+        for text, sought in list(self._others_offered.items()):
+            if sought != self._get_sought():
+                del self._others_offered[text]
                 self._banner.withdraw(text)
         if self._folders_offered is not None:
             text, count = self._folders_offered
@@ -208,19 +225,41 @@ class Offers(QObject):
     def _get_question(self) -> Hashable:
         """Return what a look for another board depends on: not on where the corners are, which a
         calibration locates anew."""
+        found = tuple(
+            (view.image, view.corners is not None) for view in self._session.project.views
+        )
+        return self._get_sought(), found
+
+    def _get_sought(self) -> Hashable:
+        """Return the board that is looked for."""
         project = self._session.project
-        found = tuple((view.image, view.corners is not None) for view in project.views)
-        return project.pattern, project.grid_size, found
+        return project.pattern, project.grid_size
+
+    def _offer_other(self, text: str, choice: str, edit: Callable[[], None]) -> None:
+        """Offer to look for another board, until another one is looked for."""
+
+        def search() -> None:
+            edit()
+            self._detector.search()  # also while the calibrator is at work
+            self._calibrator.calibrate()
+
+        self._offer(text, choice, search)
+        self._others_offered[text] = self._get_sought()
 
     def _drop_look(self) -> None:
         """End a look for another board whose question is no longer asked."""
         if self._looking is not None and self._get_question() != self._looking_for:
+            self._put_off = None
             self._looking.cancel()
 
     def _end_look(self) -> None:
-        self._looking = None
+        failure, self._looking, self._put_off = self._put_off, None, None
+        if failure is not None:
+            self._banner.show_error(failure)
 
     def _offer_another(self, found: _OtherBoard) -> None:
+        if found != _OtherBoard():
+            self._put_off = None
         if found.grid_size is not None:
             self._offer_size(found.grid_size)
         elif found.is_mirrored:
@@ -236,27 +275,23 @@ class Offers(QObject):
     def _offer_size(self, grid_size: GridSize) -> None:
         stated = self._session.project.grid_size
         assert stated is not None
-
-        def search() -> None:
-            self._session.edit(self.tr("Number of corners"), lambda p: set_grid_size(p, grid_size))
-            self._calibrator.calibrate()
-
-        self._offer(
+        self._offer_other(
             self.tr(
                 "A board of {0} × {1} inner corners is in no image; the images show {2} × {3}."
             ).format(*stated, *grid_size),
             self.tr("&Search for {0} × {1}").format(*grid_size),
-            search,
+            lambda: self._session.edit(
+                self.tr("Number of corners"), lambda p: set_grid_size(p, grid_size)
+            ),
         )
 
     def _offer_pattern(self, pattern: Pattern) -> None:
         texts = list_pattern_texts()[pattern.kind]
-
-        def search() -> None:
-            self._session.edit(self.tr("Pattern"), lambda p: set_pattern(p, pattern))
-            self._calibrator.calibrate()
-
-        self._offer(texts.recognised, texts.search, search)
+        self._offer_other(
+            texts.recognised,
+            texts.search,
+            lambda: self._session.edit(self.tr("Pattern"), lambda p: set_pattern(p, pattern)),
+        )
 
 
 def _find_other_board(project: Project, job: Job) -> _OtherBoard:

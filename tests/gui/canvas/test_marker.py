@@ -13,6 +13,7 @@ from calibgui.app.projects.document import Document
 from calibgui.app.projects.project import Project
 from calibgui.app.system.resources import find_resource
 from calibgui.dataset import View, ViewStatus
+from calibgui.engine.boards.kinds import KINDS
 from calibgui.engine.detection.find_corners import find_corners
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.images.reading import read_image
@@ -42,6 +43,20 @@ def test_enter_accepts_and_goes_on_with_the_next_image_that_needs_it(
     assert all(view.usable for view in window.session.project.views)
     assert page.canvas.tool is None and not page.tools[0].isChecked()
     assert window.session.image == str(paths[2])
+
+
+def test_what_is_to_be_clicked_is_called_as_in_the_set_up(window: MainWindow, qtbot: QtBot) -> None:
+    path = find_resource("sample") / "view01.png"
+    hand, page = Hand(window, qtbot), window.page
+    for pattern, name in ((KINDS["aprilgrid"], "Corners"), (KINDS["circles"], "Circles")):
+        views = (View(str(path), ViewStatus.NO_BOARD, "too dark"),)
+        window.session.begin(Document(Project(views=views, size=(640, 480), pattern=pattern)))
+        hand.wait(lambda: page.shown_path == str(path))
+        page.tools[0].trigger()
+        bar = page.marker.roi_bar
+        assert bar.counted.text() == window.board.counted.text() == name
+        assert f"the four outermost {name.lower()}, going" in bar.words.text()
+        page.marker.leave()
 
 
 def test_an_excluded_image_is_not_offered_to_be_marked(window: MainWindow, qtbot: QtBot) -> None:

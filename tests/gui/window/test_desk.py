@@ -318,9 +318,9 @@ def test_a_high_window_has_all_figures_below_a_long_reason(full: MainWindow, qtb
     verdict = full.verdict
     qtbot.waitUntil(lambda: verdict.verdict is not None)
     resize(full, qtbot, 960, 1000)
-    reason = "Nothing is wrong where there are corners"
+    reason = "Nothing is wrong among corners"
     while verdict.reason.count_lines() < 3:
-        reason += "; beyond them pixels"
+        reason += "; beyond them they"
         verdict._words.give_reason(reason)
     verdict.figures.setText(
         "Error: centre 0.001, covered 0.003, edge 6.4, worst 22 px\n"

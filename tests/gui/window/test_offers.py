@@ -82,6 +82,16 @@ def test_an_offer_ends_with_its_project(window: MainWindow, tmp_path: Path) -> N
     assert not window.banner.isVisible()
 
 
+def test_an_offer_of_another_board_ends_when_another_is_chosen(window: MainWindow) -> None:
+    """It would offer what is searched for already, or over what was found with undo."""
+    window.offers._offer_another(offers._OtherBoard(Charuco()))
+    assert "ChArUco" in window.banner.text.text() and window.banner.isVisible()
+    window.session.edit("Square", lambda project: replace(project, square=12.0))
+    assert window.banner.isVisible()
+    window.session.edit("Pattern", lambda project: set_pattern(project, CIRCLES))
+    assert not window.banner.isVisible()
+
+
 def make_folders(folder: Path) -> None:
     """Make folders with photographs of one camera each, in one that has none itself."""
     for place, count in (("left & low", 2), ("right", 1)):
@@ -226,6 +236,35 @@ def test_the_look_for_another_board_ends_with_its_question(
     assert not window.banner.isVisible()
 
 
+@pytest.mark.parametrize("found", [Charuco(), None])
+def test_a_failure_waits_for_the_look_that_may_explain_it(
+    window: MainWindow,
+    qtbot: QtBot,
+    monkeypatch: pytest.MonkeyPatch,
+    tmp_path: Path,
+    found: Pattern | None,
+) -> None:
+    """Nobody is told to take other photographs of a board that another search would find."""
+    may_end = Event()
+
+    def look(*_: object) -> Pattern | None:
+        may_end.wait(10)
+        return found
+
+    monkeypatch.setattr(offers, "find_other_pattern", look)
+    monkeypatch.setattr(offers, "find_mirrored_pattern", lambda *_: None)
+    blank = [View(str(tmp_path / "blank.png"), ViewStatus.NO_BOARD, "No board.")]
+    window.session.edit("Add", lambda project: replace(project, views=tuple(blank)))
+    window.detector.finished.emit(True)
+    window.session.failed.emit(CalibrationError("None can be used.", "Take others."))
+    assert not window.banner.isVisible()
+    may_end.set()
+    qtbot.waitUntil(window.banner.isVisible, timeout=5_000)
+    qtbot.waitUntil(lambda: not window.session.jobs.running)
+    said = "None can be used.\nTake others." if found is None else "These look like"
+    assert window.banner.text.text().startswith(said)
+
+
 def test_a_size_that_is_counted_from_parts_is_told(
     window: MainWindow, qtbot: QtBot, tmp_path: Path
 ) -> None:
@@ -290,4 +329,4 @@ def test_grids_of_circles_that_are_cut_are_refused_as_by_the_command_line(
     qtbot.waitUntil(lambda: session.result is not None, timeout=60_000)
     qtbot.waitUntil(lambda: not session.jobs.running, timeout=60_000)
     assert not window.page.reason.isVisible()
-    assert "4 × 4 circles as counted" in window.verdict.square.counted.text()
+    assert "Circles, 4 × 4;" in window.verdict.square.counted.text()
