@@ -233,7 +233,8 @@ def describe_method_comparison(comparison: MethodComparison, *, by_label: bool =
 
     Args:
         comparison: the comparison.
-        by_label: true to name methods by their labels, not as arguments name them.
+        by_label: true for words beside a table of the window, whose labels name the methods then,
+            not arguments, and which has the errors of those that predict less well.
     """
     rows = list_method_rows(comparison)
     if by_label:
@@ -246,7 +247,7 @@ def describe_method_comparison(comparison: MethodComparison, *, by_label: bool =
     near = [row for row in cameras[1:] if row.unseen <= (1 + _NEAR_SHARE) * best.unseen]
     sentences = [
         _describe_best(best, near),
-        _describe_losses(best, cameras[1 + len(near) :]),
+        "" if by_label else _describe_losses(best, cameras[1 + len(near) :]),
         _describe_agreement(best, cameras[1:]),
         _describe_lines([row for row in rows if row.kind == "lines"]),
     ]

@@ -126,8 +126,14 @@ def texts(root: QWidget) -> Iterator[str]:
 
 def english(root: QWidget, folder: Path) -> set[str]:
     """The texts with words outside the brackets, apart from markup and paths."""
-    no_words = re.compile(f"{OPEN}[^{CLOSE}]*{CLOSE}|<[^>]*>|{re.escape(str(folder))}")
-    return {text for text in texts(root) if WORD.search(no_words.sub("", text))}
+    no_words = re.compile(f"{OPEN}[^{OPEN}{CLOSE}]*{CLOSE}|<[^>]*>|{re.escape(str(folder))}")
+
+    def strip(text: str) -> str:
+        while (shorter := no_words.sub("", text)) != text:  # a text may have others in it
+            text = shorter
+        return text
+
+    return {text for text in texts(root) if WORD.search(strip(text))}
 
 
 NAMES = {"Calibration 1", "k3 held", "Letter", "Tabloid", "inch"}

@@ -34,6 +34,8 @@ from calibgui.gui.settings.pattern_choice import PatternChoice
 from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.narrow_combo import NarrowCombo
 from calibgui.gui.widgets.pattern_texts import name_points
+from calibgui.gui.widgets.sizes import set_times_signs
+from calibgui.report.boards import describe_recognised_board
 
 _UNKNOWN = GRID_LINES.start - 1
 """Value of a box for a number of rows or columns that is not known."""
@@ -151,6 +153,7 @@ class BoardPanel(QWidget):
     def _refresh(self) -> None:
         project = self._session.project
         self.pattern.show_pattern(project.pattern, project.square / project.unit.mm)
+        self.pattern.kind.setToolTip(self._describe_pattern(project))
         self.method.setCurrentIndex(self.method.findData(project.method))
         circles = not project.pattern.has_squares
         self._form.setRowVisible(self.method, not circles)
@@ -166,6 +169,12 @@ class BoardPanel(QWidget):
             self.square.setValue(project.square / project.unit.mm)
         self.square.blockSignals(False)
         self.unit.setCurrentText(project.unit)
+
+    def _describe_pattern(self, project: Project) -> str:
+        """Say what a pattern is, and what of it was read from the images."""
+        tip, seen = self.tr("What is printed on the board."), project.corner_set
+        read = "" if seen is None else describe_recognised_board(project.pattern, seen)
+        return f"{tip} {set_times_signs(read)}".rstrip()
 
     def _show_board(self) -> None:
         """Show the board as stated or as seen."""

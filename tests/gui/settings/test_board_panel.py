@@ -52,6 +52,20 @@ def choose(box: QComboBox, row: int) -> None:
         QTest.keyClick(box, Qt.Key.Key_Down if box.currentIndex() < row else Qt.Key.Key_Up)
 
 
+def test_what_was_read_of_a_pattern_is_said(
+    session: Session, panel: BoardPanel, tmp_path: Path
+) -> None:
+    project, read = examples.calibrated(tmp_path), Charuco("DICT_4X4_50", 0.7, legacy=False)
+    views = tuple(
+        replace(view, corners=view.corners and replace(view.corners, pattern=read))
+        for view in project.views
+    )
+    session.begin(Document(replace(project, views=views, pattern=Charuco())))
+    assert "6 × 7 inner corners, DICT_4X4_50, markers 0.70" in panel.pattern.kind.toolTip()
+    session.begin(Document(project))
+    assert panel.pattern.kind.toolTip() == "What is printed on the board."
+
+
 @pytest.mark.parametrize("kind", KINDS)
 def test_all_fields_begin_in_one_column(panel: BoardPanel, qtbot: QtBot, kind: str) -> None:
     choose(panel.pattern.kind, list(KINDS).index(kind))
