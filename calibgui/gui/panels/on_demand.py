@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Generic, TypeVar
 
-from PySide6.QtWidgets import QHBoxLayout, QPushButton, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QApplication, QHBoxLayout, QPushButton, QVBoxLayout, QWidget
 
 from calibgui.dataset import Result
 from calibgui.engine.errors import Progress
@@ -109,7 +109,7 @@ class OnDemandPanel(Panel, Generic[Found]):
 
     def _refresh(self, result: Result) -> None:
         found = self.found
-        self.run.setEnabled(not self._is_working)
+        self._enable_button()
         for widget in self._shown_if_found:
             widget.setVisible(found is not None)
         if found is not None:
@@ -118,6 +118,14 @@ class OnDemandPanel(Panel, Generic[Found]):
             self.words.show_text(self._working)
         else:
             self.words.show_text(self._failure or self._invite(result))
+
+    def _enable_button(self) -> None:
+        """Let the button be pressed unless the work goes on; the focus comes back to it."""
+        if self._is_working:
+            self.run.clearFocus()  # Qt would hand it on, as if the user had
+        self.run.setEnabled(not self._is_working)
+        if self.run.isEnabled() and QApplication.focusWidget() is None:
+            self.run.setFocus()
 
     def _holds_for(self, asked: Result, result: Result) -> bool:
         """Return whether what was found of one result holds for another; by default for itself."""

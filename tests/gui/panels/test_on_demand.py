@@ -8,7 +8,7 @@ from dataclasses import replace
 
 import pytest
 from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QLabel, QPushButton
+from PySide6.QtWidgets import QApplication, QLabel, QPushButton
 from pytestqt.qtbot import QtBot
 
 from calibgui.dataset import Result
@@ -86,6 +86,17 @@ def test_the_button_starts_the_work(panel: CountingPanel, jobs: Jobs, qtbot: QtB
     qtbot.waitUntil(lambda: panel.found == 9)
     assert state(panel) == DONE
     assert panel.content.text() == "9 of 10"
+
+
+def test_the_focus_is_the_buttons_again(panel: CountingPanel, qtbot: QtBot) -> None:
+    """It goes nowhere else meanwhile: a ring would be drawn around what nobody chose."""
+    panel.run.setFocus()
+    qtbot.waitUntil(panel.run.hasFocus)
+    qtbot.keyClick(panel.run, Qt.Key.Key_Space)
+    assert QApplication.focusWidget() is None
+    panel.may_end.set()
+    qtbot.waitUntil(lambda: panel.found == 9)
+    assert panel.run.hasFocus()
 
 
 def test_the_work_can_be_cancelled(panel: CountingPanel, jobs: Jobs, qtbot: QtBot) -> None:

@@ -25,7 +25,9 @@ from calibgui.gui.widgets.wrapped_label import typeset
 from calibgui.report.methods import MethodRow, describe_method_comparison, list_method_rows
 
 _WIDE = 820
-"""Width from which on the map is beside the tables, px; else it is behind a tab of theirs."""
+"""Width from which on the map is beside the tables, px."""
+_HIGH = 560
+"""Height from which on it is below them in a narrower panel, px; else it is behind a tab."""
 
 
 class MethodsPanel(OnDemandPanel[MethodComparison]):
@@ -155,7 +157,8 @@ class MethodsPanel(OnDemandPanel[MethodComparison]):
 
 
 class _Compared(QSplitter):
-    """Tables with what belongs to their chosen row: beside them, or behind tabs if it is narrow.
+    """Tables with what belongs to their chosen row: beside or below them, or behind tabs if there
+    is too little room for both.
 
     Args:
         tables: the tables, each behind a tab.
@@ -165,34 +168,41 @@ class _Compared(QSplitter):
     def __init__(self, tables: LinkedTables, parts: Mapping[str, QWidget]) -> None:
         super().__init__(Qt.Orientation.Horizontal)
         self._tables, self._parts = tables, parts
-        self._beside = QSplitter(Qt.Orientation.Vertical)
-        for splitter in (self, self._beside):
+        self._apart = QSplitter(Qt.Orientation.Vertical)
+        for splitter in (self, self._apart):
             splitter.setChildrenCollapsible(False)
         self.addWidget(tables)
-        self.addWidget(self._beside)
-        self._is_wide: bool | None = None
-        self._arrange(is_wide=False)
+        self.addWidget(self._apart)
+        self._apart.hide()
+        self._add_tabs()
 
     def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name
-        self._arrange(is_wide=event.size().width() >= _WIDE)
+        width, height = event.size().width(), event.size().height()
+        is_wide, is_apart = width >= _WIDE, not self._apart.isHidden()
+        wants_apart = is_wide or height >= _HIGH
+        orientation = Qt.Orientation.Horizontal if is_wide else Qt.Orientation.Vertical
+        if wants_apart and not (is_apart and orientation is self.orientation()):
+            self.setOrientation(orientation)
+            self._take_apart(width if is_wide else height)
+        elif is_apart and not wants_apart:
+            self._apart.hide()
+            self._add_tabs()
         super().resizeEvent(event)
 
-    def _arrange(self, *, is_wide: bool) -> None:
-        if is_wide is self._is_wide:
-            return
-        self._is_wide = is_wide
+    def _add_tabs(self) -> None:
+        for name, part in self._parts.items():
+            self._tables.addTab(part, name)
+
+    def _take_apart(self, length: int) -> None:
+        """Show tables and parts together in a length across or down, px."""
         if self._tables.currentWidget() in self._parts.values():
             self._tables.setCurrentIndex(0)  # not the tab that happens to be beside it
-        for name, part in self._parts.items():
-            if is_wide:
-                self._beside.addWidget(part)
-                part.show()
-            else:
-                self._tables.addTab(part, name)
-        self._beside.setVisible(is_wide)
-        if is_wide:
-            self.setSizes([2 * self.width() // 5, 3 * self.width() // 5])
-            self._beside.setSizes([5 * self.height() // 7, 2 * self.height() // 7])
+        for part in self._parts.values():
+            self._apart.addWidget(part)
+            part.show()
+        self._apart.show()
+        self.setSizes([2 * length // 5, 3 * length // 5])
+        self._apart.setSizes([5 * self.height() // 7, 2 * self.height() // 7])
 
 
 def _get_method(result: Result) -> str:

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from PySide6.QtCore import Qt
+from PySide6.QtCore import QPoint, Qt
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
@@ -112,6 +112,10 @@ def test_what_belongs_to_a_method_is_behind_a_tab_in_a_narrow_panel(panel: Metho
     assert tabs.count() == 2
     assert panel.map.isVisible() and panel.about.isVisible() and table.isVisible()
     assert panel.map.width() > table.width() and panel.map.height() > panel.about.height()
+    panel.resize(480, 800)
+    QApplication.processEvents()
+    assert tabs.count() == 2 and panel.map.isVisible() and panel.about.isVisible()
+    assert panel.map.mapTo(panel, QPoint()).y() > table.mapTo(panel, table.rect().bottomLeft()).y()
     panel.resize(380, 360)
     QApplication.processEvents()
     assert tabs.count() == 4 and not panel.map.isVisible() and table.isVisible()
