@@ -303,6 +303,8 @@ def _fit_board(
         fit, displacement = fit_undisturbed(
             lattice, lambda part: fit_plain_corners(grey, part, plain)
         )
+        if verification.are_edges_too_wide(fit):
+            return Refusal(lattice.shape, verification.TOO_BLURRED)
         described = verification.find_described_corners(fit, lattice, None, displacement)
         described &= ~verification.find_doubtful_lines(lattice, fit.residual)
         near = verification.find_tolerable_displacements(displacement, lattice)

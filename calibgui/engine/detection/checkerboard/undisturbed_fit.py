@@ -85,7 +85,7 @@ def fit_plain_corners(
     grey: GreyImage, lattice: Lattice, plain: float
 ) -> tuple[XCornerFit, BoolArray]:
     """Fit the edge model at all corners of a checkerboard, and near those that are the better for
-    it; see `FitCorners`.
+    it; see `FitCorners`. Edges that are too wide for any board are not looked at closer.
 
     Args:
         grey: (h, w) grey levels.
@@ -93,6 +93,8 @@ def fit_plain_corners(
         plain: how far from the corners nothing is printed in the squares and on their edges.
     """
     fit = fit_x_corners(grey, lattice, bare_edge=plain)
+    if verification.are_edges_too_wide(fit):
+        return fit, np.zeros(len(lattice), np.bool_)
     # What covers a part of the squares would pass for light of a corner's own.
     suspect = verification.find_suspect_corners(fit.board_residual)
     if plain > _NEAR and suspect.any():

@@ -376,13 +376,25 @@ def has_step_edges(fit: XCornerFit, is_alone: bool = False) -> bool:
     have edges that are less like steps, and wider, unless its squares overlap or part by much: that
     may be discs."""
     limits = THRESHOLDS.verification
-    blur = compute_median(fit.model.unknowns[:, 4:6] / fit.model.square_height, axis=0).max()
+    blur = _measure_blur(fit)
     misfit = compute_median(fit.residual / fit.contrast)
     if not is_alone:
         return bool(blur < limits.max_edge_blur and misfit < limits.max_median_misfit)
     is_even = abs(compute_median(fit.model.ink_spread)) < limits.max_spread_if_blurred
     max_blur = THRESHOLDS.prefilter.max_edge_blur_alone if is_even else limits.max_edge_blur
     return bool(blur < max_blur and misfit < limits.max_median_misfit_alone)
+
+
+def are_edges_too_wide(fit: XCornerFit) -> bool:
+    """Return whether edges are wider than those of any board, one that stands alone among them: see
+    `has_step_edges`. The fit of all corners tells, since to leave out some hardly changes that."""
+    return _measure_blur(fit) >= THRESHOLDS.prefilter.max_edge_blur_alone
+
+
+def _measure_blur(fit: XCornerFit) -> float:
+    """Measure the median blur of the edges in the direction in which they are wider, squares."""
+    relative = fit.model.unknowns[:, 4:6] / fit.model.square_height
+    return float(compute_median(relative, axis=0).max())
 
 
 def stands_alone(lattice: Lattice, image: GreyImage) -> bool:

@@ -3,9 +3,11 @@ as without them."""
 
 from __future__ import annotations
 
+import cv2
 import numpy as np
 import pytest
 
+from calibgui.engine.boards.board import Board
 from calibgui.engine.detection.checkerboard import undisturbed_fit
 from calibgui.engine.detection.checkerboard.undisturbed_fit import (
     fit_plain_corners,
@@ -13,25 +15,43 @@ from calibgui.engine.detection.checkerboard.undisturbed_fit import (
 )
 from calibgui.engine.detection.find_corners import find_corners
 from calibgui.engine.detection.lattice import Lattice
+from calibgui.engine.errors import NoBoardError
 from tests.scenes.checkerboards import draw
 from tests.scenes.conditions import Conditions
+from tests.scenes.perspective import photograph_pattern
 from tests.scenes.troubles import TROUBLES
 
 
-def test_an_undisturbed_board_is_fitted_once(monkeypatch: pytest.MonkeyPatch) -> None:
-    scene = draw(Conditions(), 3)
-    image = scene.photograph(0).astype(np.float32)
-    calls = []
+@pytest.fixture
+def calls(monkeypatch: pytest.MonkeyPatch) -> list[int]:
+    """One entry for each time that corners are fitted."""
+    calls: list[int] = []
     fit_once = undisturbed_fit.fit_x_corners
     monkeypatch.setattr(
         undisturbed_fit,
         "fit_x_corners",
         lambda *args, **options: calls.append(1) or fit_once(*args, **options),
     )
+    return calls
+
+
+def test_an_undisturbed_board_is_fitted_once(calls: list[int]) -> None:
+    scene = draw(Conditions(), 3)
+    image = scene.photograph(0).astype(np.float32)
     _, displacement = fit_undisturbed(
         Lattice(scene.uv, True), lambda part: fit_plain_corners(image, part, 0.5)
     )
     assert not displacement.any()
+    assert len(calls) == 1
+
+
+def test_a_board_far_out_of_focus_is_fitted_once(calls: list[int]) -> None:
+    """It was fitted six times before it was refused, which took ten times as long as to find a
+    sharp one."""
+    sharp = photograph_pattern((640, 480), Board(7, 10, 20.0), 0.7, 0.8)
+    image = cv2.GaussianBlur(sharp, (0, 0), 12.8)
+    with pytest.raises(NoBoardError, match="too blurred"):
+        find_corners(image)
     assert len(calls) == 1
 
 
