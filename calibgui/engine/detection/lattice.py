@@ -59,7 +59,10 @@ class Lattice:
         return int(np.count_nonzero(self.found))
 
     def select(self, mask: BoolArray) -> Lattice:
-        """Return the lattice with the corners under a mask (rows, cols) only."""
+        """Return the lattice with the corners under a mask (rows, cols) only: itself, with
+        the steps that it knows, if these are all."""
+        if mask[self.found].all():
+            return self
         return Lattice(np.where(mask[..., None], self.uv, np.nan), self.dark)
 
     def steps(self) -> tuple[Array, Array]:

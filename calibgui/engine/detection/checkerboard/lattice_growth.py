@@ -165,6 +165,9 @@ def _fill_places(
 def _are_free(uv: Array, right: Array, down: Array, lattice: Lattice) -> BoolArray:
     """Return a mask (n,) of the points `uv` (n, 2) px that are no corners of a lattice, to half of
     the shorter of the steps `right` and `down` (n, 2) px."""
-    distance, _ = scipy.spatial.cKDTree(lattice.uv[lattice.found]).query(uv)
+    # A tree that is asked so little is not worth balancing.
+    corners = lattice.uv[lattice.found]
+    tree = scipy.spatial.cKDTree(corners, compact_nodes=False, balanced_tree=False)
+    distance, _ = tree.query(uv)
     step = np.minimum(compute_lengths(right), compute_lengths(down))
     return np.asarray(distance > step / 2)
