@@ -135,7 +135,8 @@ def find_candidates(
             # The finer levels may show all of its small squares: until then it is of no use.
             waiting.append((depth, content))
             continue
-        found = _grow_lattices(content, content.lattices, sparse, is_sufficient, is_other)
+        seeds = _drop_fragments(content.lattices, depth, candidates)
+        found = _grow_lattices(content, seeds, sparse, is_sufficient, is_other)
         del content  # its images, while the next level's are made
         candidates = _drop_parts(_carry_down(found, candidates, levels[:depth]) + candidates)
         is_sure = bool(found) and all(_is_surely_complete(new.lattice) for new in found)
@@ -355,6 +356,25 @@ def _select_missed(
         if not any(
             len(lattice) - len(known) < least * min(known.shape) and is_part(lattice, known)
             for known in full
+        )
+    ]
+
+
+def _drop_fragments(
+    lattices: list[Lattice], depth: int, candidates: list[Candidate]
+) -> list[Lattice]:
+    """Drop the lattices of a level that are small fragments of what a coarser one shows: it shows
+    that better, and to grow them would take many rounds to end in the same."""
+    known = [
+        Lattice(np.asarray(_scale_to_level(each.lattice.uv, depth)), each.lattice.dark)
+        for each in candidates
+    ]
+    share = THRESHOLDS.search.max_fragment_share
+    return [
+        lattice
+        for lattice in lattices
+        if not any(
+            len(lattice) < share * len(larger) and is_part(lattice, larger) for larger in known
         )
     ]
 

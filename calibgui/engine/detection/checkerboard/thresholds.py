@@ -55,6 +55,9 @@ class SearchThresholds:
     max_shared_corners: float = 0.25
     """Share of its corners that a lattice may have in common with a larger one before it counts as
     part of that: the pattern of a floor that goes on behind a board may catch some of its."""
+    max_fragment_share: float = 0.1
+    """Share of the corners of what a coarser level shows, below which a part of that is not grown
+    in a finer one. The "waves" hold such of 0.03."""
     max_level_shift: float = 2.0
     """Greatest distance of a corner from where the next coarser level shows it, px; a corner
     without a saddle point within keeps its place."""

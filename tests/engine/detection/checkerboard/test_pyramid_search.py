@@ -152,3 +152,19 @@ def test_squares_that_are_too_small_in_a_level_are_not_judged_there(
     )
     assert len(next(iter(pyramid_search.find_candidates(draw(step=20.0).image)))) == 1
     assert judged == [(240, 320)]
+
+
+def test_fragments_of_what_a_coarser_level_shows_are_not_grown(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """One of 19 corners grew in 13 rounds to the most of the 634 that were known, which took longer
+    than all else."""
+    sizes: list[int] = []
+
+    def grow(seed: Lattice, *args: Any) -> Lattice:
+        sizes.append(len(seed))
+        return grow_lattice(seed, *args)
+
+    monkeypatch.setattr(pyramid_search, "grow_lattice", grow)
+    list(pyramid_search.find_candidates(draw_without_board(11), plain=1 / 8))
+    assert min(sizes) > 500
