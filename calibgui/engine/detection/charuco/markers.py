@@ -27,7 +27,6 @@ from dataclasses import dataclass, replace
 from typing import Generic, Protocol, TypeVar
 
 import numpy as np
-import scipy
 
 from calibgui.engine.arrays import Array, BoolArray, Int32Array, IntArray
 from calibgui.engine.detection.charuco.thresholds import CHARUCO_THRESHOLDS
@@ -148,8 +147,11 @@ def drop_repeated(numbers: IntArray, corners: Array) -> tuple[IntArray, Array]:
 def _select_largest_part(numbers: IntArray, i: IntArray, j: IntArray) -> IntArray:
     """Select the indices of the largest set of markers that pairs i, j (p,) connect, without those
     whose number was read twice in it."""
-    links = scipy.sparse.coo_array((np.ones(len(i)), (i, j)), shape=(len(numbers),) * 2)
-    part = scipy.sparse.csgraph.connected_components(links, directed=False)[1]
+    part, before = np.arange(len(numbers)), None
+    while before is None or (part != before).any():  # the least index spreads over its set
+        before, part = part, part[part]
+        np.minimum.at(part, i, part[j])
+        np.minimum.at(part, j, part[i])
     largest = np.flatnonzero(part == np.bincount(part).argmax())
     times_read = Counter(numbers[largest].tolist())
     return largest[[times_read[k] == 1 for k in numbers[largest].tolist()]]

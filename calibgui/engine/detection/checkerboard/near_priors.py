@@ -15,7 +15,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from calibgui.engine.arrays import Array
+from calibgui.engine.arrays import Array, BoolArray, IntArray
 from calibgui.engine.detection import grid_map
 from calibgui.engine.detection.checkerboard.board_priors import (
     BoardPriors,
@@ -49,6 +49,21 @@ class _Polynomial(NamedTuple):
     """(n, 2, k) of the terms by X and by Y."""
     share: float
     """Cost of its terms, of all that the values allow."""
+
+
+class _Lines(NamedTuple):
+    """The lines of n corners along one axis."""
+
+    order: IntArray
+    """(n,) indices of the corners, line after line."""
+    is_same: BoolArray
+    """(n - 1, 1) whether a corner and the next are on one line."""
+    distance: Array
+    """(n - 1, 1) from a corner to the next, 1 if that is on another line, units."""
+    is_inner: BoolArray
+    """(n - 2,) whether a corner and those before and after it are on one line."""
+    weight: Array
+    """(m, 1) of the differences of slopes there, which makes them as large as of even lines."""
 
 
 class NearPriors(BoardPriors):
@@ -110,25 +125,32 @@ class NearPriors(BoardPriors):
         """
         n, k = values.shape
         before, after, second = (np.full((n, 2, k), np.nan) for _ in range(3))
-        lines = np.rint(self._places / _SAME_LINE)
-        for axis in (0, 1):
-            order = np.lexsort((lines[:, axis], lines[:, 1 - axis]))
-            same = np.diff(lines[order, 1 - axis]) == 0
-            distance = np.diff(self._places[order, axis])
-            rise = np.diff(values[order], axis=0)
-            slope = np.where(same[:, None], rise / np.where(same, distance, 1.0)[:, None], np.nan)
+        for axis, line in enumerate(self._lines):
+            order, same, inner = line.order, line.is_same, line.is_inner
+            slope = np.where(same, np.diff(values[order], axis=0) / line.distance, np.nan)
             before[order[1:], axis], after[order[:-1], axis] = slope, slope
-            inner = same[1:] & same[:-1]
-            one, other = distance[:-1][inner, None], distance[1:][inner, None]
-            bend = (slope[1:] - slope[:-1])[inner]
-            # of values of a variance 1 the slopes' difference has that below, and of even lines 6
-            variance = 1 / one**2 + 1 / other**2 + (1 / one + 1 / other) ** 2
-            second[order[1:-1][inner], axis] = bend * np.sqrt(6 / variance)
+            second[order[1:-1][inner], axis] = (slope[1:] - slope[:-1])[inner] * line.weight
         return (
             np.where(np.isnan(before), after, before),
             np.where(np.isnan(after), before, after),
             second,
         )
+
+    @cached_property
+    def _lines(self) -> list[_Lines]:
+        """The lines of corners along X and along Y."""
+        lines, found = np.rint(self._places / _SAME_LINE), []
+        for axis in (0, 1):
+            order = np.lexsort((lines[:, axis], lines[:, 1 - axis]))
+            same = np.diff(lines[order, 1 - axis]) == 0
+            distance = np.diff(self._places[order, axis])
+            inner = same[1:] & same[:-1]
+            one, other = distance[:-1][inner, None], distance[1:][inner, None]
+            # of values of a variance 1 the slopes' difference has that below, and of even lines 6
+            variance = 1 / one**2 + 1 / other**2 + (1 / one + 1 / other) ** 2
+            apart = np.where(same, distance, 1.0)[:, None]
+            found.append(_Lines(order, same[:, None], apart, inner, np.sqrt(6 / variance)))
+        return found
 
     @cached_property
     def _polynomials(self) -> list[_Polynomial]:
@@ -137,17 +159,18 @@ class NearPriors(BoardPriors):
         centre = self._places.mean(axis=0)
         half = np.maximum(np.ptp(self._places, axis=0) / 2, 1.0)
         table = ((self._places - centre) / half)[..., None] ** np.arange(_MAX_DEGREE + 1)
+        powers = np.argwhere(np.ones((_MAX_DEGREE + 1, _MAX_DEGREE + 1)))
+        all_terms = [
+            grid_map.compute_polynomial_terms(table, powers, half, order)
+            for order in ((0, 0), (1, 0), (0, 1))
+        ]
         polynomials = []
         for degree in range(_MAX_DEGREE + 1):
-            powers = np.argwhere(np.ones((degree + 1, degree + 1)))
-            powers = powers[powers.sum(axis=1) <= degree]
-            share = _TERM_COST * len(powers) / n
+            chosen = powers.sum(axis=1) <= degree
+            share = _TERM_COST * np.count_nonzero(chosen) / n
             if share >= 1:
                 break
-            terms, *derivatives = (
-                grid_map.compute_polynomial_terms(table, powers, half, order)
-                for order in ((0, 0), (1, 0), (0, 1))
-            )
+            terms, *derivatives = (np.compress(chosen, each, axis=1) for each in all_terms)
             least = np.finfo(np.float64).eps * max(terms.shape)
             inverse = np.asarray(np.linalg.pinv(terms, rcond=least), dtype=np.float64)
             polynomials.append(_Polynomial(terms, inverse, np.stack(derivatives, axis=1), share))
