@@ -26,7 +26,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from calibgui.engine.arrays import Array, GreyImage
+from calibgui.engine import kernels
+from calibgui.engine.arrays import Array, GreyImage, IntArray
 from calibgui.engine.detection.circles.thresholds import CIRCLE_THRESHOLDS
 from calibgui.engine.detection.detector_io import estimate_least_noise
 from calibgui.engine.detection.edge_intensity import compute_edge
@@ -41,7 +42,7 @@ _MAX_RELATIVE_STEP = 0.3
 _MIN_BLUR = 0.3
 """Least blur, px: that of the pixel alone is 0.29."""
 _MAX_PIXELS_AT_ONCE = 400_000
-"""Number of pixels fitted at once."""
+"""Number of pixels looked at at once."""
 _UNKNOWNS = 8
 """Number of unknowns."""
 _C, _S = np.s_[:, 0:2], np.s_[:, 2:5]
@@ -146,23 +147,59 @@ def _estimate_start(image: GreyImage, uv: Array, steps: Array, reach: float, pap
 
 def _take_step(image: GreyImage, x: Array, gradient: Array, band: float) -> EllipseFit:
     """Take one Gauss-Newton step on the pixels within `band` blurs of the edges."""
-    n = len(x)
-    half = int(
-        np.ceil(np.sqrt(np.linalg.inv(_assemble_matrix(x[_S])).max()) + band * x[_BLUR].max() + 2)
-    )
-    portion = max(_MAX_PIXELS_AT_ONCE // (2 * half + 1) ** 2, 1)
-    parts = [
-        _fit_portion(image, x[i : i + portion], gradient[i : i + portion], band, half)
-        for i in range(0, n, portion)
-    ]
-    return EllipseFit(*(np.concatenate(part) for part in zip(*parts, strict=True)))
+    products = _sum_products(image, x, gradient, band, _MIN_RHO)
+    N, g = products[:, :_UNKNOWNS, :_UNKNOWNS], products[:, :_UNKNOWNS, _UNKNOWNS]
+    count = products[:, 6, 6]
+    scale = np.sqrt(np.einsum("nii->ni", N)) + 1e-300
+    N = N / scale[:, :, None] / scale[:, None] + 1e-12 * np.eye(_UNKNOWNS)
+    g = g / scale
+    move = np.linalg.solve(N, g[..., None])[..., 0]
+    square = np.maximum(products[:, -1, -1] - np.sum(move * g, axis=1), 0.0)
+    square /= np.maximum(count - _UNKNOWNS, 1)
+    with np.errstate(over="ignore"):  # of a disc without pixels, whose covariance is infinite
+        inverse = np.linalg.inv(N)[:, :2, :2] / scale[:, :2, None] / scale[:, None, :2]
+    moved = x + _limit_step(move / scale, x)
+    noise = np.maximum(square, estimate_least_noise(image))
+    return EllipseFit(moved, noise[:, None, None] * inverse, np.sqrt(square))
 
 
-def _fit_portion(
-    image: GreyImage, x: Array, gradient: Array, band: float, half: int
-) -> tuple[Array, Array, Array]:
-    """Compute unknowns (k, 8), covariances (k, 2, 2) and residuals (k,) of k discs after a step."""
-    grey, qu, qv, weight = _read_bands(image, x, band, half)
+def _is_photograph(image: GreyImage, *_: object) -> bool:
+    """Return whether an image is as read from a file: a kernel is compiled for each type."""
+    return image.dtype.kind == "u"
+
+
+@kernels.with_kernel("ellipse_fit", "sum_products", _is_photograph)
+def _sum_products(
+    image: GreyImage, x: Array, gradient: Array, band: float, min_rho: float
+) -> Array:
+    """Sum the products of the model's derivatives, and of the residuals, over each disc's band.
+
+    Args:
+        image: (h, w) grey levels.
+        x: (n, 8) unknowns.
+        gradient: (n, 2) of the light, grey levels per px.
+        band: half width of the bands, blurs; their pixels are at most 0.7 px farther away.
+        min_rho: least rho of a pixel.
+
+    Returns:
+        (n, 9, 9) the derivatives by the unknowns first, the residual last.
+    """
+    reach = np.sqrt(np.linalg.inv(_assemble_matrix(x[_S])).max(axis=(1, 2))) + band * x[_BLUR] + 2
+    half = np.ceil(reach).astype(np.int64)
+    portion = max(_MAX_PIXELS_AT_ONCE // (2 * int(half.max()) + 1) ** 2, 1)
+    products = []
+    for i in range(0, len(x), portion):
+        part = slice(i, i + portion)
+        band_of = _read_bands(image, x[part], half[part], band, min_rho)
+        J = _differentiate_model(x[part], gradient[part], *band_of)
+        products.append(J @ J.transpose(0, 2, 1))
+    return np.concatenate(products)
+
+
+def _differentiate_model(
+    x: Array, gradient: Array, grey: Array, qu: Array, qv: Array, weight: Array
+) -> Array:
+    """Compute the derivatives by the unknowns, and the residuals, of pixels: (k, 9, K)."""
     su, sv, rho, slope = _evaluate_conic(x, qu, qv)
     bend = (x[:, 2] * x[:, 4] - x[:, 3] ** 2)[:, None] * (rho / slope) ** 2 / slope
     d = (1 - rho) * rho / slope - bend * x[_BLUR][:, None] ** 2 / 2
@@ -173,7 +210,7 @@ def _fit_portion(
     r = (grey - x[_M][:, None] - light - a * E.value) * weight
     # On the edge, where E' is not 0, d changes with q^T S q like -1 / (2 |S q|) and moves with c.
     by_d = a * E.slope * weight
-    J = np.stack(
+    return np.stack(
         [
             by_d * su / slope,
             by_d * sv / slope,
@@ -183,40 +220,32 @@ def _fit_portion(
             a * E.by_blur * weight,
             weight,
             weight * E.value,
+            r,
         ],
         axis=1,
     )
-    scale = np.sqrt(np.sum(J * J, axis=2)) + 1e-300
-    J /= scale[..., None]
-    N = J @ J.transpose(0, 2, 1) + 1e-12 * np.eye(_UNKNOWNS)
-    g = (J @ r[..., None])[..., 0]
-    move = np.linalg.solve(N, g[..., None])[..., 0]
-    square = np.maximum(np.sum(r * r, axis=1) - np.sum(move * g, axis=1), 0.0)
-    square /= np.maximum(weight.sum(axis=1) - _UNKNOWNS, 1)
-    inverse = np.linalg.inv(N)[:, :2, :2] / (scale[:, :2, None] * scale[:, None, :2])
-    moved = x + _limit_step(move / scale, x)
-    noise = np.maximum(square, estimate_least_noise(image))
-    return moved, noise[:, None, None] * inverse, np.sqrt(square)
 
 
 def _read_bands(
-    image: GreyImage, x: Array, band: float, half: int
+    image: GreyImage, x: Array, half: IntArray, band: float, min_rho: float
 ) -> tuple[Array, Array, Array, Array]:
-    """Read the pixels near the edges.
+    """Read the pixels near the edges, at most `half` (n,) px from the centres along u and v.
 
     Returns:
         Grey levels (n, K), offsets from the centres along u and v, and weights: 1, or 0 beyond the
         last pixel of a disc that has fewer than K.
     """
-    offset = np.arange(-half, half + 1)
+    offset = np.arange(-half.max(), half.max() + 1)
+    is_own = abs(offset) <= half[:, None]
     at = np.rint(x[_C]).astype(np.int64)
     u, v = at[:, :1] + offset, at[:, 1:] + offset
     height, width = image.shape
-    inside = ((v >= 0) & (v < height))[:, :, None] & ((u >= 0) & (u < width))[:, None]
+    inside = (is_own & (v >= 0) & (v < height))[:, :, None]
+    inside = inside & (is_own & (u >= 0) & (u < width))[:, None]
     du, dv = (u - x[:, :1])[:, None], (v - x[:, 1:2])[:, :, None]
     _, _, rho, slope = _evaluate_conic(x, *np.broadcast_arrays(du, dv))
     near = abs((1 - rho) * rho / slope) <= (band * x[_BLUR] + 0.7)[:, None, None]
-    disc, row, col = np.nonzero(inside & near & (rho > _MIN_RHO))
+    disc, row, col = np.nonzero(inside & near & (rho > min_rho))
     counts = np.bincount(disc, minlength=len(x))
     place = np.arange(len(disc)) - np.repeat(np.cumsum(counts) - counts, counts)
     grey, qu, qv, weight = (np.ones((len(x), counts.max(initial=1))) for _ in range(4))
