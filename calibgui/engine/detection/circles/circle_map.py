@@ -42,6 +42,8 @@ _MIN_DEGREE, _MAX_DEGREE = 3, 5
 """Degrees of the residual's polynomial: below 3 a lens has no effect."""
 _POWERS = np.array([(k - j, j) for k in range(_MAX_DEGREE + 1) for j in range(k + 1)])
 """(21, 2) powers of X and Y in the polynomial's terms, by degree."""
+_QUADRATIC_TERMS = 6
+"""Number of its terms up to degree 2."""
 _PARAMETERS = 10
 """Number of parameters of a homography and a radial lens."""
 _MIN_POINTS_PER_TERM = 1.5
@@ -67,6 +69,14 @@ class CircleMap:
         """Number of parameters that were fitted: those of the polynomial, whose terms up to degree
         2 say as much as the homography and the lens, or else those of these."""
         return max(2 * int(np.count_nonzero(self.coefficients.any(axis=1))), _PARAMETERS)
+
+    def compute_leverages(self, xy: Array) -> Array:
+        """Compute how much of its own deviation the map follows at each of the points `xy` (n, 2)
+        that it was fitted to: (n,) 0 to 1, those of its polynomial, or of one of degree 2."""
+        count = max(int(np.count_nonzero(self.coefficients.any(axis=1))), _QUADRATIC_TERMS)
+        basis = np.linalg.svd(self._compute_terms(xy, (0, 0))[:, :count], full_matrices=False)
+        is_told = basis.S > _RANK_TOLERANCE * basis.S[0]
+        return np.asarray(np.sum(basis.U[:, is_told] ** 2, axis=1))
 
     def locate(self, xy: Array) -> Array:
         """Compute positions (n, 2) px of points (n, 2) of the board, pitches."""

@@ -73,6 +73,14 @@ _UNSEEN = (
 _MAX_SCATTER_SIGMAS = 3.0
 """Greatest excess of the variance about the map over the stated one that counts as chance, standard
 deviations of the former."""
+_MAX_DISAGREEMENT = 6.0
+"""Greatest distance of a centre from where the others predict it, standard deviations ..."""
+_MIN_DISAGREEMENT = 0.02
+"""... or pitches, whichever is more."""
+_MIN_FREEDOM = 6.0
+"""Number of circles beyond those that the map takes from which on such centres are told."""
+_MIN_LEFT = 0.05
+"""Least part of its own deviation that the map is taken to leave a circle."""
 _NO_ELLIPSES = "ellipses do not describe the edges of its circles"
 _TOO_MANY_FAIL = "too many of its circles fail or are covered"
 _CENTRE_ITERATIONS = 3
@@ -328,6 +336,7 @@ def _verify_circles(fit: EllipseFit, xy: Array, image: GreyImage, count: int) ->
         limits.max_relative_residual * contrast,
     )
     uv, are_marks = fit.uv, np.zeros_like(good)
+    variance = np.einsum("nii->n", fit.covariance) / 2
     for _ in range(_CENTRE_ITERATIONS):
         # A circle that fails must not bend the map for the others.
         if np.count_nonzero(good) < fewest:
@@ -344,6 +353,7 @@ def _verify_circles(fit: EllipseFit, xy: Array, image: GreyImage, count: int) ->
         shape = np.abs(spread / radii[:, None, None] ** 2 - np.eye(2)).max(axis=(1, 2))
         good = good & (np.linalg.norm(off, axis=1) < limits.max_misplacement)
         good = good & (shape < limits.max_shape_difference)
+        good[good] = _find_agreeing(xy[good], uv[good], variance[good])
     if np.count_nonzero(good) < fewest:
         raise _distrust(_TOO_MANY_FAIL)
     if _measure_misfit(fit) > limits.max_relative_residual:
@@ -352,6 +362,40 @@ def _verify_circles(fit: EllipseFit, xy: Array, image: GreyImage, count: int) ->
         raise _distrust("too many of its circles are of another size")
     scatter = _estimate_scatter(xy[good], uv[good], fit.covariance[good])
     return _VerifiedCircles(good, uv, radius, are_marks & good, scatter)
+
+
+def _find_agreeing(xy: Array, uv: Array, variance: Array) -> BoolArray:
+    """Find the centres that lie where the others predict them, about as closely as these do: (n,)
+    True.
+
+    What covers a circle, as a dot of paint, may have an edge as good as the circle's and lie beside
+    it. Shadows' edges draw circles aside by less, all along a line: these stay, for they tell how
+    far centres scatter. A centre's deviation from the map of all is less than that from the others'
+    by 1 - h, h its leverage, and has a variance less by as much. The usual variance is that whose
+    median is seen, as no outlier makes it larger.
+
+    Args:
+        xy: (n, 2) the circles' centres, pitches.
+        uv: (n, 2) their images, px.
+        variance: (n,) stated, along u and v, px^2.
+    """
+    agreeing = np.ones(len(xy), dtype=bool)
+    while np.count_nonzero(agreeing) > _MIN_FREEDOM:
+        circle_map = fit_circle_map(xy[agreeing], uv[agreeing], are_exact=True)
+        left = 1 - circle_map.compute_leverages(xy[agreeing])
+        if left.sum() < _MIN_FREEDOM:
+            return agreeing
+        left = np.maximum(left, _MIN_LEFT)
+        off = np.sum((uv[agreeing] - circle_map.locate(xy[agreeing])) ** 2, axis=1) / left
+        usual = np.median(off) / (2 * np.log(2))
+        pitch2 = abs(np.linalg.det(circle_map.differentiate(xy[agreeing])))
+        most = _MAX_DISAGREEMENT**2 * np.maximum(usual, variance[agreeing])
+        excess = off / np.maximum(most, _MIN_DISAGREEMENT**2 * pitch2)
+        worst = np.argmax(excess)
+        if excess[worst] < 1:
+            return agreeing
+        agreeing[np.flatnonzero(agreeing)[worst]] = False
+    return agreeing
 
 
 def _estimate_scatter(xy: Array, uv: Array, covariance: Array) -> float:

@@ -417,6 +417,28 @@ def test_circles_beside_covered_ones_keep_their_numbers(
         assert np.abs(scene.error(corners)).max() < 0.05
 
 
+@pytest.mark.parametrize(
+    ("pattern", "grid_size"), [(Circles(False, 0.45), (6, 8)), (Circles(True, 0.7), (9, 4))]
+)
+def test_a_dot_of_paint_over_a_circle_is_not_taken_for_it(
+    pattern: Circles, grid_size: GridSize
+) -> None:
+    """Its edge is as good as the circle's, and its size may be that of a mark."""
+    scene = Scene(Board(*grid_size, 24.0, pattern), _SMALL, (0.3, 0.2, 0.1), distance=500.0)
+    image = scene.image()
+    whole = find_corners(image, grid_size, pattern=pattern)
+    place = np.array((2, 1))
+    u, v = whole.uv[(whole.grid == place).all(axis=1)][0] + [2.2, -1.5]
+    rows, cols = np.indices(image.shape)
+    share = np.clip(10.5 - np.hypot(cols - u, rows - v), 0, 1)
+    painted = np.rint(image * (1 - share) + 90 * share).astype(np.uint8)
+    corners = find_corners(painted, grid_size, pattern=Circles(pattern.asymmetric))
+    assert not (corners.grid == place).all(axis=1).any()
+    assert len(corners) == len(whole) - 1
+    assert corners.cov is not None and np.sqrt(corners.cov[:, 0, 0].max()) < 0.02
+    assert np.abs(scene.error(corners)).max() < 0.05
+
+
 def test_a_covered_circle_might_be_the_mark() -> None:
     scene = _show_marked({(0, 0)}, 0.1)
     image = scene.image()
