@@ -116,6 +116,8 @@ class EdgeFitThresholds:
     """Spread of the dark squares beyond which it is not believed, squares."""
     min_opposite_pixels: int = 20
     """Number of pairs of opposite pixels from which on their differences give the noise."""
+    min_noise_freedom: int = 20
+    """Number of pixels beyond that of unknowns from which on a corner tells the noise by itself."""
     max_rho: float = 0.95
     """Largest correlation rho of the two edges."""
     rho_sigma: float = 0.3

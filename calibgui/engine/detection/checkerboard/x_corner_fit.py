@@ -188,7 +188,9 @@ def fit_x_corners(
     # What is printed looks like light where it is blurred.
     is_plain = priors is None and min(plain, bare_edge) == 0.5
     uneven = find_uneven_light(before, products, square, least_noise, is_plain, is_bare)
-    noise = np.maximum(_estimate_noise(square, odd_part), least_noise)
+    freedom = products[M][M] - UNKNOWNS  # the derivative by m is 1
+    noise = _pool_noise(_estimate_noise(square, odd_part), freedom)
+    noise = np.maximum(noise, least_noise)
     covariance = noise[:, None, None] * inverse
     by_bend = np.zeros_like(covariance)
     if is_large:
@@ -480,3 +482,17 @@ def _estimate_noise(square: Array, odd_part: Array) -> Array:
     enough = pairs > _THRESHOLDS.min_opposite_pixels
     noise = np.where(enough, total / np.maximum(pairs - 2, 1), square)
     return square if compute_median(noise) > compute_median(square) else noise
+
+
+def _pool_noise(noise: Array, freedom: Array) -> Array:
+    """Return noise^2 (n,) that those corners take from the board which hardly tell it: a model of
+    as many unknowns as pixels leaves nothing unexplained.
+
+    Args:
+        noise: (n,) as each corner tells it, grey levels^2.
+        freedom: (n,) number of pixels that were read beyond the number of unknowns.
+    """
+    known = np.maximum(freedom, 0.0)
+    share = np.minimum(known / _THRESHOLDS.min_noise_freedom, 1.0)
+    pooled = np.sum(known * noise) / max(float(known.sum()), 1.0)
+    return np.asarray(share * noise + (1 - share) * pooled)

@@ -396,6 +396,16 @@ def test_corners_that_are_predicted_badly_are_looked_for_where_the_others_expect
     assert np.abs(refined.uv - truth).max() < 0.5
 
 
+@pytest.mark.parametrize("distance", [300.0, 350.0])
+def test_corners_between_narrow_gaps_are_as_sure_as_they_are_right(distance: float) -> None:
+    """In a gap of 3 to 4 px hardly more pixels are read at a corner than it has unknowns."""
+    board = Board(8, 10, 20.0, AprilGrid("t36h11", 0.1, 1, False))
+    scene = replace(KALIBR, board=board, rvec=(0.3, 0.2, 0.1), distance=distance)
+    corners = find_corners(scene.image(), board.grid_size, pattern=AprilGrid())
+    assert len(corners) >= 74
+    assert_at_bound(scene, corners, (0.5, 1.3))
+
+
 def test_noise_moves_no_corners_of_tags_without_small_squares() -> None:
     """It has saddle points beside the corners of large tags, which are none themselves."""
     pattern = AprilGrid("t36h11", 0.3, 2, True, False)
