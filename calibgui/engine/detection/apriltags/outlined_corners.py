@@ -37,6 +37,11 @@ from calibgui.engine.images.sampling import sample_image
 _MAX_PLACING_DISTANCE = 1.6
 """Greatest distance of a tag's corners from the middle of the nearest one that was read at which it
 is looked for, sides of a tag, less the gap: that of its neighbours."""
+_MAX_SQUARE_LEVEL = 0.95
+"""Greatest median level in the middle of dark squares, over that of the paper between two tags and
+from that of their ink. Sharp it is 0, and 1 of paper; on rendered boards under blurs up to 0.9 of
+the gap it was at most 0.87, and at least 1.0 of paper: that is darker between two tags than between
+four."""
 _MIN_SINE = 0.2
 """Least sine of the angle at a tag's corners."""
 _MAX_SHIFT, _MIN_MAX_SHIFT = 1.0, 2.0
@@ -73,12 +78,11 @@ def has_corner_squares(image: GreyImage, tags: Markers[TagLayout], border: float
         image, homography.apply_homography(H, np.broadcast_to(at, (n, *at.shape)))
     ).reshape(n, 3, 4)
     square, paper, ink = np.moveaxis(levels, 1, 0)
-    middle_level = (np.median(paper, axis=1) + np.median(ink, axis=1))[:, None] / 2
-    is_dark_ink = np.asarray((ink < paper).all(axis=1))
-    dark = np.equal(square < middle_level, is_dark_ink[:, None])
+    paper, ink = np.median(paper, axis=1), np.median(ink, axis=1)
+    level = (square - ink[:, None]) / (paper - ink)[:, None]
     # Around the board anything may follow the tags; what lies between two of them is printed.
     between = _find_corners_between(tags.squares)
-    return bool(np.mean(dark[between] if between.any() else dark) > 0.5)
+    return bool(np.median(level[between] if between.any() else level) < _MAX_SQUARE_LEVEL)
 
 
 def _find_corners_between(squares: IntArray) -> BoolArray:

@@ -21,7 +21,7 @@ from calibgui.engine.detection.apriltags.tag_gap import fit_gap, measure_gap
 from calibgui.engine.detection.corners import Corners
 from calibgui.engine.detection.find_corners import find_corners
 from calibgui.engine.detection.lattice import Lattice
-from calibgui.engine.errors import CalibrationError, NoBoardError
+from calibgui.engine.errors import CalibrationError, NoBoardError, UnknownPartError
 from calibgui.engine.geometry.rotations import rotation_from_vector
 from calibgui.engine.images.sampling import make_mesh
 from tests.engine.detection.conftest import Scene
@@ -404,6 +404,26 @@ def test_corners_between_narrow_gaps_are_as_sure_as_they_are_right(distance: flo
     corners = find_corners(scene.image(), board.grid_size, pattern=AprilGrid())
     assert len(corners) >= 74
     assert_at_bound(scene, corners, (0.5, 1.3))
+
+
+@pytest.mark.parametrize("squares", [None, True])
+def test_gaps_that_are_blurred_away_are_told(squares: bool | None) -> None:
+    """Their small squares are no paper, and the corners beside them lie a pixel aside."""
+    board = Board(8, 10, 20.0, AprilGrid("t36h11", 0.1, 1, False))
+    scene = replace(KALIBR, board=board, rvec=(0.3, 0.2, 0.1), distance=220.0)
+    with pytest.raises(UnknownPartError, match="so narrow in this image"):
+        find_corners(scene.image(blur=2.5), pattern=AprilGrid(corner_squares=squares))
+
+
+@pytest.mark.parametrize("squares", [False, True])
+def test_corners_beside_blurred_gaps_are_as_unsure_as_they_are_wrong(squares: bool) -> None:
+    board = Board(8, 10, 20.0, AprilGrid("t36h11", 0.2, 1, False, squares))
+    scene = replace(KALIBR, board=board, rvec=(0.3, 0.2, 0.1), distance=250.0)
+    corners = find_corners(scene.image(blur=2.5), pattern=AprilGrid())
+    assert len(corners) == 80
+    assert corners.cov is not None
+    error = scene.error(corners)
+    assert np.einsum("ni,nij,nj->n", error, np.linalg.inv(corners.cov), error).mean() / 2 < 2.5
 
 
 def test_noise_moves_no_corners_of_tags_without_small_squares() -> None:
