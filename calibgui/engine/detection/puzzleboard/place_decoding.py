@@ -43,6 +43,9 @@ from calibgui.engine.boards.puzzleboard import (
 _MAX_DOUBT = 0.002
 """Greatest probability that the accepted place is not the true one. One dot tells 8 % of the parts
 of 5 x 5 corners from another part: a smaller limit would refuse these."""
+_MAX_DOUBT_ALONE = 1e-6
+"""Greatest such probability up to which it is not asked whether an inverse print, or a mirror,
+makes another place still likelier: what they show of the pattern may look like another part."""
 _WRONG_SHARES = np.array([2e-4, 0.01, 0.05, 0.15, 0.3])
 """Shares e of wrong dots that are considered ..."""
 _WRONG_SHARE_WEIGHTS = np.array([0.8, 0.05, 0.05, 0.05, 0.05])
@@ -215,9 +218,9 @@ def may_be_dots(dots: Dots) -> bool:
     least = max(_MIN_EVIDENCE * count, _MIN_ALL_EVIDENCE)
     return any(
         _find_top(*_compute_logs(*pair, is_inverted)) > least
-        for seen, signs in ((dots, (False, True)), (dots.mirror(), (False,)))
+        for seen in (dots, dots.mirror())
         for pair in _compare_turns(seen)
-        for is_inverted in signs
+        for is_inverted in (False, True)
     )
 
 
@@ -225,16 +228,21 @@ def find_place_of_print(dots: Dots, board: StatedBoard | None = None) -> tuple[P
     """Find the likeliest place of dots that may be printed inversely or seen in a mirror.
 
     Returns:
-        The place, and whether only the mirror image of the dots has one; if none is certain, the
-        likeliest place of the dots as they are.
+        The likeliest place, and whether it is that of the mirror image of the dots; if none is
+        certain, the likeliest place of the dots as they are.
     """
     place = find_place(dots, board)
-    if is_certain(place):
+    if place.doubt <= _MAX_DOUBT_ALONE:
         return place, False
-    for other, is_mirrored in ((dots.invert(), False), (dots.mirror(), True)):
-        if is_certain(found := find_place(other, board)):
-            return found, is_mirrored
-    return place, False
+    mirrored = dots.mirror()
+    best, is_mirrored = min(
+        (place, False),
+        (find_place(dots.invert(), board), False),
+        (find_place(mirrored, board), True),
+        (find_place(mirrored.invert(), board), True),
+        key=lambda found: found[0].doubt,
+    )
+    return (best, is_mirrored) if is_certain(best) else (place, False)
 
 
 def is_certain(place: Place) -> bool:

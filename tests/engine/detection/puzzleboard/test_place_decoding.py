@@ -11,6 +11,7 @@ from calibgui.engine.detection.puzzleboard.place_decoding import (
     Dots,
     StatedBoard,
     find_place,
+    find_place_of_print,
     is_certain,
     may_be_dots,
     measure_dot_noise,
@@ -128,12 +129,29 @@ def test_the_noise_of_the_dots() -> None:
     assert sigma == pytest.approx(0.3, abs=0.03)
 
 
+@pytest.mark.parametrize("is_inverted", [False, True])
+@pytest.mark.parametrize("is_mirrored", [False, True])
+def test_a_mirror_or_an_inverse_print_makes_no_other_place(
+    is_inverted: bool, is_mirrored: bool
+) -> None:
+    """Seen as they are the dots may look like another part of the pattern."""
+    rng = np.random.default_rng(5)
+    for k in range(12):
+        origin = int(rng.integers(490)), int(rng.integers(490))
+        dots = _see_dots(origin, (8, 8), k % 4, 0.0, 0.15, rng)
+        dots = dots.invert() if is_inverted else dots
+        place, mirrored = find_place_of_print(dots.mirror() if is_mirrored else dots)
+        assert is_certain(place)
+        assert mirrored == is_mirrored
+        assert is_mirrored or place.first == origin
+
+
 def test_what_may_be_dots() -> None:
     """Real ones pass turned, inverted, mirrored and with many wrong."""
     rng = np.random.default_rng(10)
     for quarters, wrong in ((0, 0.0), (1, 0.3), (2, 0.3), (3, 0.3)):
         dots = _see_dots((30, 40), (16, 18), quarters, wrong, 0.2, rng)
-        for print_ in (dots, dots.invert(), dots.mirror()):
+        for print_ in (dots, dots.invert(), dots.mirror(), dots.mirror().invert()):
             assert may_be_dots(print_)
     assert may_be_dots(_see_dots((0, 0), (3, 3), 0, 0.0, 0.1, rng))
     bare = 0.05 * rng.standard_normal((2, 20, 20))
