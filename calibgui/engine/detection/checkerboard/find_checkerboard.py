@@ -33,6 +33,7 @@ from calibgui.engine.detection.checkerboard.numbering import (
     list_numberings,
     place_corners,
 )
+from calibgui.engine.detection.checkerboard.pixel_noise import estimate_pixel_noise
 from calibgui.engine.detection.checkerboard.prefilter import (
     OBJECTIONS_TO_CIRCLES,
     Refusal,
@@ -310,9 +311,10 @@ def _fit_board(
         near = verification.find_tolerable_displacements(displacement, lattice)
         good = described & near
         if good.all():
-            is_board = verification.has_step_edges(fit) or (
+            noise = estimate_pixel_noise(lattice, grey)
+            is_board = verification.has_step_edges(fit, noise=noise) or (
                 verification.stands_alone(lattice, grey)
-                and verification.has_step_edges(fit, is_alone=True)
+                and verification.has_step_edges(fit, is_alone=True, noise=noise)
             )
             if not is_board:
                 return Refusal(lattice.shape, verification.TOO_BLURRED)

@@ -370,14 +370,15 @@ def limit_fit_shift(spacing: Array) -> Array:
     return np.maximum(limits.max_fit_shift * spacing, limits.min_fit_shift_limit)
 
 
-def has_step_edges(fit: XCornerFit, is_alone: bool = False) -> bool:
+def has_step_edges(fit: XCornerFit, is_alone: bool = False, noise: float = 0.0) -> bool:
     """Return whether the squares are flat inside and step at their edges: waves cross likewise,
-    only wider, and are not described by steps. A lattice that `is_alone`, see `stands_alone`, may
-    have edges that are less like steps, and wider, unless its squares overlap or part by much: that
-    may be discs."""
+    only wider, and are not described by steps; `noise`, grey levels, is left out of account. A
+    lattice that `is_alone`, see `stands_alone`, may have edges that are less like steps, and wider,
+    unless its squares overlap or part by much: that may be discs."""
     limits = THRESHOLDS.verification
     blur = _measure_blur(fit)
-    misfit = compute_median(fit.residual / fit.contrast)
+    unexplained = np.sqrt(np.maximum(fit.residual**2 - noise**2, 0.0))
+    misfit = compute_median(unexplained / fit.contrast)
     if not is_alone:
         return bool(blur < limits.max_edge_blur and misfit < limits.max_median_misfit)
     is_even = abs(compute_median(fit.model.ink_spread)) < limits.max_spread_if_blurred
