@@ -302,14 +302,15 @@ def find_described_corners(
 
 
 def find_doubtful_lines(lattice: Lattice, residual: Array) -> BoolArray:
-    """Find the corners (n,) of the border lines of a lattice in which the edge model describes all
-    corners worse than most, by its `residual` (n,): such are the rims of things that lie on the
-    board's end."""
+    """Find the corners (n,) of the border lines of a lattice that hold few corners, all of which
+    the edge model describes worse than most, by its `residual` (n,): such are the rims of things
+    that lie on the board's end."""
     clear = lattice.found
     clear[clear] = ~find_suspect_corners(residual)
     doubtful = np.zeros(lattice.shape, np.bool_)
     for line in (np.s_[0], np.s_[-1], np.s_[:, 0], np.s_[:, -1]):
-        doubtful[line] |= ~clear[line].any()
+        is_sparse = lattice.found[line].mean() < THRESHOLDS.verification.min_border_corners
+        doubtful[line] |= is_sparse and not clear[line].any()
     return np.asarray(doubtful[lattice.found])
 
 
