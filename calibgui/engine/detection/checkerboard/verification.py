@@ -61,7 +61,7 @@ _LINES_THAT_PREDICT = MAX_GAP + 2
 """Number of lines of a lattice, the first, on which places and steps in front of it depend."""
 _MIN_ENDS = 2
 """Number of sides on which a lattice that stands alone is seen to end."""
-_PLAIN_NEAR = 0.2
+_PLAIN_NEAR = 0.25
 """Distance from the corners, squares, to which marks in the squares, and what hides a part of them,
 do not reach."""
 

@@ -84,7 +84,3 @@ def test_a_large_thing_with_a_pattern_may_lie_on_the_board(seed: int) -> None:
 def test_a_clip_at_the_end_of_the_board_adds_no_line(seed: int) -> None:
     """Where it covers half of the last line of squares its rim passed for one more corner."""
     assert find("clips", seed).wrong == 0
-
-
-def test_marks_that_leave_a_fifth_of_a_square_free_cost_no_corner() -> None:
-    assert find("marks in squares", 91018).whole == 1
