@@ -88,7 +88,7 @@ def _step(
             g[j] = products[i, order[j], order[m]]
             for k in range(m):
                 L[j, k] = products[i, order[j], order[k]]
-        total, count = products[i, order[m], order[m]], products[i, 6, 6]
+        total, count = products[i, order[m], order[m]], max(products[i, 6, 6], 1.0)
         s1, s2, rho = x[i, 4], x[i, 5], x[i, 8]
         weight = total / count / rho_sigma**2
         L[8, 8] += weight
@@ -136,7 +136,8 @@ def step_unknowns(
 ) -> tuple[Array, Array, Array]:
     """Compute ``_step_unknowns`` of the reference."""
     n, m = unknowns.shape
-    typical = float(compute_median(products[:, order[m], order[m]] / products[:, 6, 6]))
+    count = np.maximum(products[:, 6, 6], 1.0)
+    typical = float(compute_median(products[:, order[m], order[m]] / count))
     limits = damping, rho_sigma, blur_difference_sigma, max_rho, min_blur
     stepped, inverse, square = np.empty((n, m)), np.empty((n, 2, 2)), np.empty(n)
     _step(

@@ -57,6 +57,7 @@ def test_the_same_step_of_the_unknowns() -> None:
     J = rng.normal(size=(n, 30, 10)) * 10.0 ** rng.uniform(-2, 2, 10)
     J[..., 6] = 1.0  # the derivative by m
     J[0, :, 3] = J[0, :, 2]  # not to be told apart
+    J[1] = 0.0  # no pixel was read
     products = J.transpose(0, 2, 1) @ J
     x = rng.normal(size=(n, 9))
     x[:, 4:6] = rng.uniform(0.3, 2.0, (n, 2))

@@ -115,7 +115,8 @@ def _step_unknowns(
     m = unknowns.shape[1]
     products = products[:, order[:, None], order]
     N, g = products[:, :m, :m].copy(), products[:, :m, m].copy()
-    squares, count = products[:, m, m], N[:, 6, 6]  # the derivative by m is 1
+    squares = products[:, m, m]
+    count = np.maximum(N[:, 6, 6], 1.0)  # the derivative by m is 1; there may be no pixel
     normals, blurs = compute_normals(unknowns[THETA]), unknowns[BLUR]
     # In a sharp image few pixels depend on rho: it stays near that of an isotropic blur.
     weight = squares / count / rho_sigma**2
