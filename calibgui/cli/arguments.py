@@ -59,6 +59,21 @@ def parse_positive(text: str) -> float:
     return value
 
 
+def add_square_option(parser: argparse.ArgumentParser, need: str) -> None:
+    """Add --square, the length that scales the board.
+
+    Args:
+        parser: the parser to add it to.
+        need: what the help says of when the length is needed.
+    """
+    parser.add_argument(
+        "--square",
+        type=parse_length,
+        metavar="MM",
+        help=f"side of a square, or distance of circles, mm, or with a unit as 0.025m; {need}",
+    )
+
+
 def parse_length(text: str) -> float:
     """Read a length of a board, mm, with a unit or without one.
 

@@ -22,7 +22,7 @@ from calibgui.app.fleet import (
     run_batch,
 )
 from calibgui.app.outputs.output_files import check_outputs, check_writable
-from calibgui.cli.arguments import add_corner_method, add_grid_size_option, parse_positive
+from calibgui.cli.arguments import add_corner_method, add_grid_size_option, add_square_option
 from calibgui.cli.boards import add_board_options, is_pattern_open, read_pattern_options
 from calibgui.cli.calibrate import add_settings_options, read_settings
 from calibgui.cli.console import Console
@@ -77,12 +77,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     add_grid_size_option(parser)
     add_corner_method(parser)
     add_board_options(parser)
-    parser.add_argument(
-        "--square",
-        type=parse_positive,
-        metavar="MM",
-        help="side of a square, mm; needed unless the manifest says it of each camera",
-    )
+    add_square_option(parser, "needed unless the manifest says it of each camera")
     parser.set_defaults(roi=None)
     add_settings_options(parser)
 

@@ -11,9 +11,9 @@ from calibgui.app.photographs.paths import describe_unread_folders, describe_unr
 from calibgui.cli.arguments import (
     add_image_paths,
     add_search_options,
+    add_square_option,
     is_corners_file,
     open_input,
-    parse_length,
     require_board,
     search_images,
 )
@@ -36,12 +36,7 @@ def add_corner_options(parser: argparse.ArgumentParser, need: str) -> None:
     add_image_paths(parser)
     add_search_options(parser)
     add_board_options(parser)
-    parser.add_argument(
-        "--square",
-        type=parse_length,
-        metavar="MM",
-        help=f"side of a square, mm, or with a unit as 0.025m; {need}",
-    )
+    add_square_option(parser, need)
     parser.add_argument(
         "--exclude",
         nargs="+",

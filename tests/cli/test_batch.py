@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import argparse
 import csv
 import json
 import shutil
@@ -11,6 +12,7 @@ import pytest
 from pyarrow import parquet
 
 from calibgui.app.fleet import schedulers
+from calibgui.cli import batch
 from calibgui.cli.main import main
 from calibgui.formats.fleet_ledger import open_ledger
 from tests.scenes.fleet import write_fleet
@@ -165,3 +167,12 @@ def test_what_cannot_be_done_is_said_before_any_work(
     command = ["batch", str(fleet), "-o", str(ledger), *BOARD[:4]]
     assert main([*command, "--scheduler", "tcp://x:1"]) == 1
     assert "needs Dask. Give this command" in capsys.readouterr().err
+
+
+def test_the_square_has_a_unit_as_in_every_subcommand() -> None:
+    parser = argparse.ArgumentParser()
+    batch.configure(parser)
+    options = parser.parse_args(["cameras.csv", "-o", "out", "--square", "0.025m"])
+    assert options.square == pytest.approx(25)
+    with pytest.raises(SystemExit):
+        parser.parse_args(["cameras.csv", "-o", "out", "--square", "0.025"])
