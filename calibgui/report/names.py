@@ -28,10 +28,10 @@ def join_words(words: Iterable[str]) -> str:
     return f"{', '.join(first)} and {last}" if first else last
 
 
-def tell_apart(paths: Sequence[str]) -> list[str]:
+def distinguish_paths(paths: Sequence[str]) -> list[str]:
     """Return the ends of paths, of as few folders and names as tell all of them apart.
 
-    >>> tell_apart(["18mm/result.json", "35mm/result.json"])
+    >>> distinguish_paths(["18mm/result.json", "35mm/result.json"])
     ['18mm/result.json', '35mm/result.json']
     """
     parts = [PurePath(path).parts for path in paths]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from calibgui.report.names import join_words, number_names, tell_apart
+from calibgui.report.names import distinguish_paths, join_words, number_names
 
 
 @pytest.mark.parametrize(
@@ -35,7 +35,7 @@ def test_a_number_is_the_names_own_or_its_place(names: list[str], numbers: list[
     ],
 )
 def test_paths_are_as_long_as_tells_them_apart(paths: list[str], ends: list[str]) -> None:
-    assert tell_apart(paths) == ends
+    assert distinguish_paths(paths) == ends
 
 
 def test_words_are_joined_by_commas_and_one_and() -> None:

@@ -1,6 +1,6 @@
 """The variances of a board's deviations by expectation-maximisation, compiled.
 
-The readable reference is ``calibration.board_shape.deviation_variances.settle_stiffness``.
+The readable reference is ``calibration.board_shape.deviation_variances.find_stiffness``.
 """
 
 from __future__ import annotations
@@ -164,7 +164,7 @@ def _mix_last_steps(points: Array, changes: Array, last: int, min_ratio: float, 
 
 
 @compiled
-def _settle_stiffness(
+def _find_stiffness(
     kind: IntArray,
     others: Array,
     beside: Array,
@@ -232,19 +232,19 @@ def _settle_stiffness(
     return sigma2
 
 
-def settle_stiffness(
+def find_stiffness(
     information: Information,
     prior: VariancePrior,
     noise: Noise,
     least: float,
     limits: tuple[int, float, float, float],
 ) -> tuple[Array, float]:
-    """Compute ``calibration.board_shape.deviation_variances.settle_stiffness``."""
+    """Compute ``calibration.board_shape.deviation_variances.find_stiffness``."""
     sigma2 = noise.cost / noise.freedom if noise.freedom > 0 else 0.0
     if not sigma2 > 0:
         sigma2 = noise.otherwise
     x = np.log(np.fmax(sigma2 / prior.expected, least))
-    sigma2 = _settle_stiffness(
+    sigma2 = _find_stiffness(
         information.kind, information.others, information.beside, *information.rough,
         prior.expected, float(prior.freedom),
         (float(noise.cost), float(noise.freedom), float(noise.otherwise)),

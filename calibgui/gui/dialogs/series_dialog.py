@@ -46,7 +46,7 @@ from calibgui.gui.widgets.save_names import ask_for_name
 from calibgui.gui.widgets.tab_bar import TabWidget
 from calibgui.gui.widgets.tables import Column, Table, with_decimals, with_digits
 from calibgui.gui.widgets.wrapped_label import WrappedLabel
-from calibgui.report.names import tell_apart
+from calibgui.report.names import distinguish_paths
 from calibgui.report.series import list_sentences
 
 _STEPS = 100
@@ -405,7 +405,7 @@ class SeriesDialog(QDialog):
 def _name_files(analysed: AnalysedSeries) -> list[str]:
     """Return names of the results of a series, and of those that are left out."""
     files = [str(one.path) for one in analysed.results]
-    return tell_apart([*files, *(one.file for one in analysed.left_out)])
+    return distinguish_paths([*files, *(one.file for one in analysed.left_out)])
 
 
 def _evaluate(series: Series, values: Sequence[float], k: int) -> tuple[np.ndarray, np.ndarray]:

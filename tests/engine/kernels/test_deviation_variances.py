@@ -10,7 +10,7 @@ from calibgui.engine.calibration.board_shape.deviation_variances import (
     _MIN_RATIO,
     Noise,
     VariancePrior,
-    settle_stiffness,
+    find_stiffness,
     tridiagonalise_rough,
 )
 from calibgui.engine.calibration.board_shape.deviations import make_deviations
@@ -34,7 +34,7 @@ def test_compiled_and_readable_settle_alike(corners: int, nu: float, redundancy:
     )
     for steps, tolerance in ((1, 1e-12), (2, 1e-9), (5, 1e-7), (100, 1e-6)):
         limits = (steps, 1e-7, _MAX_MIXING, _MIN_RATIO)
-        compiled, sigma2 = settle_stiffness.kernel(*given, limits)
-        readable, truth = settle_stiffness.reference(*given, limits)
+        compiled, sigma2 = find_stiffness.kernel(*given, limits)
+        readable, truth = find_stiffness.reference(*given, limits)
         np.testing.assert_allclose(compiled, readable, atol=tolerance)
         assert sigma2 == pytest.approx(truth, rel=tolerance)

@@ -83,7 +83,7 @@ def estimate_coefficients(
         noise: what is known of the residuals.
     """
     least = _ROUNDING * float(S.diagonal().max(initial=0.0))
-    logarithms, sigma2 = settle_stiffness(
+    logarithms, sigma2 = find_stiffness(
         tridiagonalise_rough(S, right, kind),
         prior,
         noise,
@@ -128,8 +128,8 @@ class Information(NamedTuple):
     """(m,) entries on the diagonal of the information on the rough ones, (m - 1,) beside it."""
 
 
-@with_kernel("deviation_variances", "settle_stiffness")
-def settle_stiffness(
+@with_kernel("deviation_variances", "find_stiffness")
+def find_stiffness(
     information: Information,
     prior: VariancePrior,
     noise: Noise,
@@ -233,7 +233,7 @@ def _mix_steps(
     Args:
         take_step: a function from a point (m,) to the next one and what it finds.
         x: (m,) the point to start from.
-        max_steps, max_change, max_mixing, min_ratio: see `settle_stiffness`.
+        max_steps, max_change, max_mixing, min_ratio: see `find_stiffness`.
     """
     points: list[Array] = []
     changes: list[Array] = []
