@@ -26,6 +26,13 @@ def test_where_a_finger_crosses_an_edge_is_no_corner(kind: str, seed: int) -> No
     assert count(scene, known=True).wrong == 0
 
 
+def test_a_line_that_leaves_the_image_is_kept() -> None:
+    """Its places outside of the image counted as missing, and its corners as beyond the board."""
+    scene = scenes("off 3 sides", 5)[4]
+    found = count(scene, known=True)
+    assert found.found == found.visible > 0
+
+
 def test_the_count_sees_displaced_and_misplaced_corners() -> None:
     (scene,) = scenes("off 1 side", 1)
     corners = find_corners(scene.photograph(0), scene.conditions.grid_size)

@@ -196,11 +196,22 @@ def drop_stray_lines(lattice: Lattice, image: GreyImage) -> Lattice:
         turned = turn_lattice(lattice, quarters)
         if not len(turned.uv):
             continue
-        if turned.found[0].mean() < limits.min_full_border:
+        if _measure_fullness(turned, image.shape) < limits.min_full_border:
             rest = drop_isolated_and_crop(Lattice(turned.uv[1:], not turned.dark))
             if len(rest) and _does_end_above(rest, image, step, may_be_cut=True):
                 lattice = turn_lattice(rest, -quarters)
     return lattice
+
+
+def _measure_fullness(lattice: Lattice, shape: tuple[int, ...]) -> float:
+    """Measure the share of the first row's places in an image of `shape` (h, w) that are found."""
+    missing = np.argwhere(~lattice.found[:1])
+    if not len(missing):
+        return 1.0
+    uv = grid_map.fit_grid_map(lattice).locate(missing.astype(np.float64))
+    found = int(np.count_nonzero(lattice.found[0]))
+    in_image = found + int(np.count_nonzero(are_in_image(uv, shape)))
+    return found / in_image if in_image else 0.0
 
 
 def _drop_beyond_ends(lattice: Lattice, image: GreyImage) -> Lattice:
