@@ -27,7 +27,7 @@ from calibgui.engine.arrays import Array, BoolArray, GreyImage, GridSize
 from calibgui.engine.boards.board import Board
 from calibgui.engine.calibration.result import Calibration
 from calibgui.engine.camera.distortion import project_points
-from calibgui.engine.detection.checkerboard import verification, x_corner_fit
+from calibgui.engine.detection.checkerboard import board_ends, verification, x_corner_fit
 from calibgui.engine.detection.checkerboard.corner_template import (
     compare_sectors,
     estimate_template,
@@ -218,7 +218,7 @@ def _complete_board(
 def _find_ends(grey: GreyImage, part: Lattice) -> Sides:
     """Find the sides of `part` on which the board is seen to end."""
     dense = drop_isolated_and_crop(part)
-    return verification.find_ends(dense, grey) if dense.shape == part.shape else (False,) * 4
+    return board_ends.find_ends(dense, grey) if dense.shape == part.shape else (False,) * 4
 
 
 def _resect_lattice(
@@ -255,7 +255,7 @@ def _grow_lattice(grey: GreyImage, calibration: Calibration, seed: Lattice) -> L
         spacing = np.fmin(np.linalg.norm(right, axis=2), np.linalg.norm(down, axis=2))
         sigma = np.sqrt(np.trace(spread, axis1=2, axis2=3))
         new = (sigma < _MAX_PREDICTION_SIGMA * spacing) & (spacing > _MIN_SQUARE) & ~tried
-        new &= verification.are_in_image(places, grey.shape)
+        new &= board_ends.are_in_image(places, grey.shape)
         if not new.any():
             break
         tried = tried | new

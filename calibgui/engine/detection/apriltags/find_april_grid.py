@@ -47,7 +47,7 @@ from calibgui.engine.detection.charuco.corners_between_markers import (
     predict_places,
     require_enough_corners,
 )
-from calibgui.engine.detection.checkerboard import saddle, verification, x_corner_fit
+from calibgui.engine.detection.checkerboard import board_ends, saddle, verification, x_corner_fit
 from calibgui.engine.detection.checkerboard.corner_template import (
     OrientedCorners,
     estimate_template_of,
@@ -282,7 +282,7 @@ def _predict_corners(
     around = np.array([(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)])
     on_board = (1 + gap) * squares[:, None, ::-1] + around
     uv, distance = predict_places(places, on_board, corners)
-    seen = (distance < _MAX_PLACING_DISTANCE) & verification.are_in_image(uv, image.shape)
+    seen = (distance < _MAX_PLACING_DISTANCE) & board_ends.are_in_image(uv, image.shape)
     uv[~seen] = np.nan
     uv = uv.reshape(*grid_size, 2)
     for (row, col), quad in zip(squares.tolist(), corners, strict=True):
@@ -304,7 +304,7 @@ def _refine_corners(image: GreyImage, predicted: Lattice, gap: float, border: fl
     if _MIN_MAPPED_CORNERS < np.count_nonzero(good) < len(good):
         good = _find_regular_corners(places, uv, length, good)
         expected = grid_map.fit_cells(places[good][:, ::-1], uv[good]).locate(places[:, ::-1])
-        lost = np.flatnonzero(~good & verification.are_in_image(expected, image.shape))
+        lost = np.flatnonzero(~good & board_ends.are_in_image(expected, image.shape))
         uv[lost], good[lost] = saddle.refine_saddles(
             image,
             expected[lost],

@@ -26,7 +26,7 @@ from calibgui.engine.detection.apriltags.tag_reader import verify_tags
 from calibgui.engine.detection.charuco.assembly import FittedCorners
 from calibgui.engine.detection.charuco.corners_between_markers import predict_places
 from calibgui.engine.detection.charuco.markers import Markers
-from calibgui.engine.detection.checkerboard import verification
+from calibgui.engine.detection.checkerboard import board_ends, verification
 from calibgui.engine.detection.checkerboard.thresholds import THRESHOLDS
 from calibgui.engine.detection.corners import RejectedCorner, find_usable_covariances
 from calibgui.engine.detection.detector_io import list_rejected_corners
@@ -228,7 +228,7 @@ def _list_tags(
     uv, distance = predict_places(wanted.reshape(-1, 2), on_board, tags.corners)
     near = (distance.reshape(-1, 4) < _MAX_PLACING_DISTANCE + gap).all(axis=1)
     quads = uv.reshape(-1, 4, 2)
-    near &= verification.are_in_image(uv, levels.shape).reshape(-1, 4).all(axis=1)
+    near &= board_ends.are_in_image(uv, levels.shape).reshape(-1, 4).all(axis=1)
     numbers, squares, quads = numbers[near], squares[near], quads[near]
     seen = verify_tags(levels, quads, tag_print, numbers)
     return (
@@ -243,7 +243,7 @@ def _are_measurable(quads: Array, image: GreyImage) -> BoolArray:
     along /= np.linalg.norm(along, axis=2, keepdims=True) + 1e-12
     behind = np.roll(along, 1, axis=1)
     sine = behind[..., 0] * along[..., 1] - behind[..., 1] * along[..., 0]
-    whole = verification.are_in_image(quads.reshape(-1, 2), image.shape).reshape(-1, 4)
+    whole = board_ends.are_in_image(quads.reshape(-1, 2), image.shape).reshape(-1, 4)
     return np.asarray(((sine > _MIN_SINE) & whole).all(axis=1))
 
 

@@ -46,7 +46,7 @@ from calibgui.engine.detection.charuco.marker_candidates import draw_markers
 from calibgui.engine.detection.charuco.marker_reader import MarkerReader, ReadBoard
 from calibgui.engine.detection.charuco.markers import Markers
 from calibgui.engine.detection.charuco.thresholds import CHARUCO_THRESHOLDS
-from calibgui.engine.detection.checkerboard import verification
+from calibgui.engine.detection.checkerboard import board_ends
 from calibgui.engine.detection.checkerboard.pyramid_search import (
     Candidate,
     find_candidates,
@@ -254,7 +254,7 @@ def _are_whole_in_image(lattice: Lattice, image: GreyImage) -> BoolArray:
     """Return a mask (rows, cols) of the corners around which half a square is in the image."""
     right, down = lattice.steps()
     around = lattice.uv[..., None, :] + np.stack([right, -right, down, -down], axis=2) / 2
-    return np.asarray(verification.are_in_image(around, image.shape).all(axis=2))
+    return np.asarray(board_ends.are_in_image(around, image.shape).all(axis=2))
 
 
 def _measure_plain_part(markers: Markers[MarkerLayout]) -> float:

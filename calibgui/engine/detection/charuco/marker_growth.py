@@ -19,7 +19,7 @@ from calibgui.engine.arrays import Array, BoolArray, GreyImage, IntArray
 from calibgui.engine.detection.charuco.corners_between_markers import predict_places
 from calibgui.engine.detection.charuco.marker_cells import measure_cells
 from calibgui.engine.detection.charuco.markers import Layout, Markers
-from calibgui.engine.detection.checkerboard import verification
+from calibgui.engine.detection.checkerboard import board_ends
 from calibgui.engine.detection.region_of_interest import are_inside
 
 _MIN_RIGHT_STEPS = 0.85
@@ -175,7 +175,7 @@ def _predict_markers(
     wanted = replace(read, squares=squares, numbers=numbers, corners=corners)
     uv, _ = predict_places(wanted.board_corners.reshape(-1, 2), read.board_corners, read.corners)
     wanted = replace(wanted, corners=uv.reshape(-1, 4, 2))
-    inside = verification.are_in_image(wanted.corners, shape).all(axis=1)
+    inside = board_ends.are_in_image(wanted.corners, shape).all(axis=1)
     if outline is not None:
         inside &= are_inside(outline, wanted.corners.mean(axis=1))
     return wanted.select(np.flatnonzero(inside))

@@ -21,9 +21,9 @@ import numpy as np
 
 from calibgui.engine.arrays import Array, GreyImage, compute_lengths
 from calibgui.engine.detection import grid_map
+from calibgui.engine.detection.checkerboard.board_ends import find_ends
 from calibgui.engine.detection.checkerboard.numbering import turn_lattice
 from calibgui.engine.detection.checkerboard.thresholds import THRESHOLDS
-from calibgui.engine.detection.checkerboard.verification import find_ends
 from calibgui.engine.detection.lattice import (
     MIN_CORNERS,
     MIN_LINES,

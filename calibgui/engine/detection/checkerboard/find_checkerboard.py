@@ -25,7 +25,7 @@ import scipy
 from calibgui.engine.arrays import Array, GreyImage, GridSize
 from calibgui.engine.boards.checkerboard import CHECKERBOARD, Checkerboard, checkerboard_symmetry
 from calibgui.engine.detection import region_of_interest as region
-from calibgui.engine.detection.checkerboard import a_contrario, harris, verification
+from calibgui.engine.detection.checkerboard import a_contrario, board_ends, harris, verification
 from calibgui.engine.detection.checkerboard.board_separation import separate_boards
 from calibgui.engine.detection.checkerboard.numbering import (
     Numbering,
@@ -313,7 +313,7 @@ def _fit_board(
         if good.all():
             noise = estimate_pixel_noise(lattice, grey)
             is_board = verification.has_step_edges(fit, noise=noise) or (
-                verification.stands_alone(lattice, grey)
+                board_ends.stands_alone(lattice, grey)
                 and verification.has_step_edges(fit, is_alone=True, noise=noise)
             )
             if not is_board:
@@ -370,7 +370,7 @@ def _may_have_size(grey: GreyImage, lattice: Lattice, grid_size: GridSize) -> bo
 
     It may be smaller only along an axis at one end of which the board was not seen to end.
     """
-    top, right, bottom, left = verification.find_ends(lattice, grey)
+    top, right, bottom, left = board_ends.find_ends(lattice, grey)
     whole = (top and bottom, left and right)
     return any(
         all(
@@ -390,7 +390,7 @@ def _describe_other_sizes(
     if len(sizes) > 1:
         seen = ", ".join(f"{rows} x {cols}" for rows, cols in sizes)
         return _OtherSizeError(f"The boards here have {seen} inner corners, {stated}.", _STATE_SIZE)
-    least = "" if all(verification.find_ends(boards[0].lattice, grey)) else "at least "
+    least = "" if all(board_ends.find_ends(boards[0].lattice, grey)) else "at least "
     rows, cols = sizes[0]
     return _OtherSizeError(
         f"This board has {least}{rows} x {cols} inner corners, {stated}.", _STATE_SIZE
@@ -434,7 +434,7 @@ def _sort_numberings(
     if grid_size is None or sorted(grid_size) == sorted(lattice.shape):
         numberings = list_numberings(lattice, grid_size)
     else:
-        numberings = list_numberings(lattice, grid_size, verification.find_ends(lattice, grey))
+        numberings = list_numberings(lattice, grid_size, board_ends.find_ends(lattice, grey))
     if outline is not None:
         numberings.sort(key=lambda each: not region.starts_at(each.lattice, outline[0]))
     return numberings
@@ -498,7 +498,7 @@ def _describe_cut(shape: tuple[int, int]) -> str:
 def _describe_continuation(grey: GreyImage, lattice: Lattice) -> str:
     """Return a sentence that says where a lattice taken for all of a board seems to go on, empty if
     it does not."""
-    top, right, bottom, left = verification.find_continuing_sides(lattice, grey)
+    top, right, bottom, left = board_ends.find_continuing_sides(lattice, grey)
     if not (top or right or bottom or left):
         return ""
     rows, cols = lattice.shape

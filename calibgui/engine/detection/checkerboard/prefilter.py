@@ -21,7 +21,7 @@ What these rules expect of edges is a print seen through a good lens. A camera t
 side, beats with a screen's pixels or is far out of focus, and marks in the squares, break them on
 boards whose every corner is sound. So they do not overrule what no texture shows: a rectangle of
 corners, some of which may be hidden, seen to end on all sides that lie in the image
-(`stands_alone` of `verification`). Of that it is only asked that the lines run straight through it,
+(`stands_alone` of `board_ends`). Of that it is only asked that the lines run straight through it,
 not shifted from square to square, and either that its edges are sharp and straight near the
 corners and of one print, or that two edges cross at its corners, as those of discs do not in a grid
 of circles, and are narrower than waves; if the edges bulge, as marks make them seem to, that they
@@ -35,6 +35,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from calibgui.engine.arrays import Array, GreyImage, compute_lengths, compute_median
+from calibgui.engine.detection.checkerboard.board_ends import stands_alone
 from calibgui.engine.detection.checkerboard.corner_template import (
     PLAIN_IF_PRINTED,
     OrientedCorners,
@@ -50,7 +51,6 @@ from calibgui.engine.detection.checkerboard.thresholds import THRESHOLDS
 from calibgui.engine.detection.checkerboard.verification import (
     TOO_BLURRED,
     does_pattern_continue,
-    stands_alone,
 )
 from calibgui.engine.detection.lattice import Lattice, is_scattered
 

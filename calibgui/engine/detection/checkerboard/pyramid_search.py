@@ -26,7 +26,7 @@ import scipy
 
 from calibgui.engine import opencv
 from calibgui.engine.arrays import Array, GreyImage
-from calibgui.engine.detection.checkerboard import a_contrario, prefilter, verification
+from calibgui.engine.detection.checkerboard import a_contrario, board_ends, prefilter
 from calibgui.engine.detection.checkerboard.fit_thresholds import FIT_THRESHOLDS
 from calibgui.engine.detection.checkerboard.lattice_growth import PointIndex, grow_lattice
 from calibgui.engine.detection.checkerboard.neighbour_graph import find_lattices
@@ -302,7 +302,7 @@ def _grow_lattices(
         if lattice is not seed and _refuse(lattice, content):  # the seeds passed that before
             continue
         if is_wanted:
-            lattice = verification.drop_stray_lines(lattice, smooth)
+            lattice = board_ends.drop_stray_lines(lattice, smooth)
         if is_sufficient(lattice):
             others = _count_others(lattice, content.junctions)
             found.append(Candidate(lattice, others, is_other=not is_wanted))

@@ -208,7 +208,7 @@ class SeparationThresholds:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class VerificationThresholds:
-    """Thresholds of a refined board (`verification`, `a_contrario`)."""
+    """Thresholds of a refined board (`verification`, `board_ends`, `a_contrario`)."""
 
     max_false_boards: float = 1 / 16
     """Number of boards that may be expected by chance in an image full of squares at random."""

@@ -11,7 +11,11 @@ from scipy.ndimage import gaussian_filter
 
 from calibgui.engine.boards.board import Board
 from calibgui.engine.boards.circle_grid import Circles
-from calibgui.engine.detection.checkerboard import find_checkerboard, prefilter, verification
+from calibgui.engine.detection.checkerboard import (
+    board_ends,
+    find_checkerboard,
+    prefilter,
+)
 from calibgui.engine.detection.checkerboard.thresholds import THRESHOLDS
 from calibgui.engine.detection.find_corners import find_corners
 from calibgui.engine.detection.lattice import Lattice
@@ -162,7 +166,7 @@ def test_a_grid_of_circles_that_stands_alone_does_not(
     image = gaussian_filter(255 - image if is_inverted else image, blur)
     n, m = np.meshgrid(np.arange(1, 11), np.arange(1, 8))
     uv = np.stack([100.0 + 40 * n, 90.0 + 40 * m], axis=-1)
-    assert verification.stands_alone(Lattice(uv, not is_inverted), image)
+    assert board_ends.stands_alone(Lattice(uv, not is_inverted), image)
     with pytest.raises(NoBoardError):
         find_corners(image.astype(np.uint8))
 

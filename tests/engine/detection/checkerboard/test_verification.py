@@ -1,9 +1,4 @@
-"""Each rule of the verification, broken alone and just kept.
-
-The images are painted square by square, so that any square may have any colour. A square is 20 px
-wide; the corner in row r and column c, between the squares r and r + 1 by c and c + 1, is at
-`MARGIN` + 20 (c + 1), `MARGIN` + 20 (r + 1), less half a pixel.
-"""
+"""Each rule of the verification, broken alone and just kept, by painted squares."""
 
 from __future__ import annotations
 
@@ -13,64 +8,31 @@ from typing import Any
 import numpy as np
 import pytest
 from numpy.typing import NDArray
-from scipy.ndimage import gaussian_filter
 
 from calibgui.engine.detection.checkerboard import verification
 from calibgui.engine.detection.checkerboard.numbering import turn_lattice
 from calibgui.engine.detection.checkerboard.undisturbed_fit import list_cells
 from calibgui.engine.detection.lattice import (
     Lattice,
-    add_border,
     drop_isolated_and_crop,
     estimate_steps,
-    predict_places,
+)
+from tests.engine.detection.checkerboard.painted_squares import (
+    BRIGHT,
+    DARK,
+    MARGIN,
+    SQUARE,
+    Array,
+    Image,
+    alternate,
+    drop,
+    invert,
+    move,
+    paint,
+    place,
 )
 from tests.scenes.checkerboards import draw
 from tests.scenes.conditions import Conditions
-
-Array = NDArray[np.float64]
-Image = NDArray[np.uint8]
-SQUARE, MARGIN = 20, 30
-DARK, BRIGHT = 40.0, 210.0
-
-
-def alternate(rows: int, cols: int) -> Array:
-    """Return the levels (rows + 1, cols + 1) of the squares of a board, the first one dark."""
-    row, col = np.indices((rows + 1, cols + 1))
-    return np.where((row + col) % 2 == 0, DARK, BRIGHT)
-
-
-def invert(levels: Array) -> Array:
-    return DARK + BRIGHT - levels
-
-
-def paint(levels: Array, margin: int = MARGIN) -> Image:
-    """Paint squares, in front of a bright margin."""
-    image = np.kron(levels, np.ones((SQUARE, SQUARE)))
-    image = np.pad(image, margin, constant_values=BRIGHT)
-    return np.rint(gaussian_filter(image, 0.7)).astype(np.uint8)
-
-
-def place(rows: int, cols: int, margin: int = MARGIN) -> Lattice:
-    """Return the corners between painted squares."""
-    row, col = np.indices((rows, cols))
-    uv = margin - 0.5 + SQUARE * np.stack([col + 1.0, row + 1.0], axis=-1)
-    return Lattice(uv, dark=True)
-
-
-def move(lattice: Lattice, cell: tuple[int, int], offset: tuple[float, float]) -> Lattice:
-    """Return the lattice with one corner moved by so many squares."""
-    uv = lattice.uv.copy()
-    uv[cell] += SQUARE * np.array(offset)
-    return Lattice(uv, lattice.dark)
-
-
-def drop(lattice: Lattice, *cells: tuple[int, int]) -> Lattice:
-    """Return the lattice without some of its corners."""
-    found = lattice.found
-    for cell in cells:
-        found[cell] = False
-    return lattice.select(found)
 
 
 def mark_square(image: Image, cell: tuple[int, int]) -> None:
@@ -240,42 +202,6 @@ class TestBrokenLines:
         stray = drop(place(7, 9), *((6, col) for col in range(9) if col not in (3, 4)))
         stray = Lattice(stray.uv + SQUARE, dark=True)
         assert verification.drop_broken_lines(stray, image).shape == (6, 9)
-
-
-class TestStrayLines:
-    @pytest.mark.parametrize("quarters", range(4))
-    @pytest.mark.parametrize(("found", "passes"), [(6, True), (5, False)])
-    def test_a_line_beyond_the_end_of_the_board_is_dropped_unless_full(
-        self, found: int, passes: bool, quarters: int
-    ) -> None:
-        """The line beyond the last row is the border of the board."""
-        image, lattice = paint(alternate(6, 9)), place(7, 9)
-        stray = drop(lattice, *((6, col) for col in range(9) if not 2 <= col < 2 + found))
-        kept = verification.drop_stray_lines(turn_lattice(stray, quarters), image)
-        assert len(kept) == 54 + found * passes
-        assert sorted(kept.shape) == ([7, 9] if passes else [6, 9])
-        board = turn_lattice(kept, -quarters)
-        np.testing.assert_array_equal(board.uv[:6], place(6, 9).uv)
-        assert board.dark
-
-    def test_the_outermost_squares_may_be_cut(self) -> None:
-        """A board that is cut too closely, three tenths of a square off."""
-        image = paint(alternate(6, 9))
-        image[int(MARGIN + 6.7 * SQUARE) :] = BRIGHT
-        stray = drop(place(7, 9), *((6, col) for col in range(9) if col > 1))
-        assert verification.drop_stray_lines(stray, image).shape == (6, 9)
-
-    def test_few_corners_at_the_dark_edge_of_the_image_are_kept(self) -> None:
-        """The next squares are seen, too, at a third of the contrast."""
-        image = paint(alternate(7, 9))
-        dark = image[int(MARGIN + 6.7 * SQUARE) :]
-        dark[:] = DARK + 0.35 * (dark.astype(np.float64) - DARK)
-        few = drop(place(7, 9), *((6, col) for col in range(9) if col > 1))
-        assert verification.drop_stray_lines(few, image) is few
-
-    def test_few_corners_before_the_end_of_the_board_are_kept(self) -> None:
-        lattice = drop(place(6, 9), *((0, col) for col in range(2, 9)))
-        assert verification.drop_stray_lines(lattice, paint(alternate(6, 9))) is lattice
 
 
 def test_few_corners_of_a_border_line_need_one_that_is_described_as_well_as_most() -> None:
@@ -521,117 +447,3 @@ class TestGaps:
         tried = verification.fill_gaps(lattice, (400, 400))
         assert tried.found[0, 3] == filled
         np.testing.assert_allclose(tried.uv[2, 4], lattice.uv[2, 3] + (SQUARE, 0.0))
-
-    @pytest.mark.parametrize(
-        ("uv", "inside"),
-        [
-            ((4.1, 50), True),
-            ((3.9, 50), False),
-            ((50, 4.1), True),
-            ((50, 3.9), False),
-            ((94.9, 50), True),
-            ((95.1, 50), False),
-            ((50, 74.9), True),
-            ((50, 75.1), False),
-            ((np.nan, 50), False),
-        ],
-    )
-    def test_positions_at_the_border_are_not_in_the_image(
-        self, uv: tuple[float, float], inside: bool
-    ) -> None:
-        assert verification.are_in_image(np.array(uv), (80, 100)) == inside
-
-
-class TestEnds:
-    def test_a_board_ends_on_all_sides(self) -> None:
-        image = paint(alternate(6, 9))
-        assert verification.find_ends(place(6, 9), image) == (True, True, True, True)
-
-    @pytest.mark.parametrize("side", range(4))
-    def test_it_does_not_end_where_a_line_was_missed(self, side: int) -> None:
-        """Of the sides top, right, bottom and left."""
-        cells = [np.s_[1:], np.s_[:, :-1], np.s_[:-1], np.s_[:, 1:]]
-        part = Lattice(place(6, 9).uv[cells[side]], dark=side in (1, 2))
-        ends = verification.find_ends(part, paint(alternate(6, 9)))
-        assert ends == tuple(k != side for k in range(4))
-
-    def test_the_end_is_not_seen_at_the_border_of_the_image(self) -> None:
-        image = paint(alternate(6, 9))[MARGIN - 3 :]
-        lattice = Lattice(place(6, 9).uv - [0, MARGIN - 3], dark=True)
-        assert verification.find_ends(lattice, image) == (False, True, True, True)
-
-    @pytest.mark.parametrize(("cols", "ends"), [(3, True), (2, False)])
-    def test_three_places_show_the_end(self, cols: int, ends: bool) -> None:
-        top, right, bottom, left = verification.find_ends(place(6, cols), paint(alternate(6, cols)))
-        assert right
-        assert left
-        assert top == bottom == ends
-
-    @pytest.mark.parametrize(("hidden", "ends"), [(4, True), (5, False)])
-    def test_more_than_six_tenths_of_the_places_show_the_end(self, hidden: int, ends: bool) -> None:
-        """Of ten; a place beside a square that is seen shows it."""
-        levels = alternate(6, 10)
-        levels[0, :hidden] = 125
-        assert verification.find_ends(place(6, 10), paint(levels))[0] == ends
-
-    @pytest.mark.parametrize(("contrast", "ends"), [(0.42, True), (0.38, False)])
-    def test_the_last_squares_are_seen(self, contrast: float, ends: bool) -> None:
-        levels = alternate(6, 9)
-        levels[0] = 125 + contrast * (levels[0] - 125)
-        assert verification.find_ends(place(6, 9), paint(levels))[0] == ends
-
-    @pytest.mark.parametrize(("contrast", "ends"), [(0.38, True), (0.42, False)])
-    def test_no_squares_are_seen_behind_them(self, contrast: float, ends: bool) -> None:
-        levels = alternate(7, 9)
-        levels[0] = 125 + contrast * (levels[0] - 125)
-        part = Lattice(place(7, 9).uv[1:], dark=False)
-        assert verification.find_ends(part, paint(levels))[0] == ends
-
-    def test_squares_that_lie_outside_of_the_image_show_no_end(self) -> None:
-        """Those in its outermost pixels do not stand in for them."""
-        uv = 4 * place(7, 9).uv + 1.5
-        image = np.kron(paint(alternate(7, 9)), np.ones((4, 4), np.uint8))
-        cut = round(uv[0, 0, 1]) + 4
-        nearer = Lattice(uv[1:] - [0, cut - 10], dark=False)  # the line before it seems to be seen
-        assert not verification.find_ends(nearer, image[cut:])[0]
-
-
-class TestStandingAlone:
-    def test_up_to_half_of_it_may_be_hidden(self) -> None:
-        image, lattice = paint(alternate(6, 9)), place(6, 9)
-        row, col = np.indices(lattice.shape)
-        inside = (row > 0) & (row < 5) & (col > 0) & (col < 8)
-        assert verification.stands_alone(lattice, image)
-        assert verification.stands_alone(lattice.select(~inside | (row == 2)), image)
-        assert not verification.stands_alone(lattice.select(~inside), image)
-
-    @pytest.mark.parametrize(("sides", "stands"), [(1, True), (2, True), (3, False)])
-    def test_it_may_leave_the_image_on_two_sides(self, sides: int, stands: bool) -> None:
-        image, lattice = paint(alternate(6, 9)), place(6, 9)
-        top, left, right = (MARGIN * (sides > k) for k in range(3))
-        cut = image[top:, left : image.shape[1] - right]
-        moved = Lattice(lattice.uv - [left, top], dark=True)
-        assert verification.stands_alone(moved, cut) == stands
-
-    @pytest.mark.parametrize("hidden", [False, True])
-    def test_it_does_not_go_on(self, hidden: bool) -> None:
-        """Nor on a side of the lattice whose lines hold no corner."""
-        lattice = place(6, 9).select(np.indices((6, 9))[1] > 0)
-        if not hidden:
-            lattice = drop_isolated_and_crop(lattice)
-        assert not verification.stands_alone(lattice, paint(alternate(6, 9)))
-
-
-def test_what_lies_in_front_of_a_lattice_depends_on_its_first_lines() -> None:
-    """On no more of them than are looked at, whatever is missing."""
-    rng = np.random.default_rng(0)
-    grid = np.stack(np.meshgrid(np.arange(9.0), np.arange(12.0)), axis=-1)
-    count = verification._LINES_THAT_PREDICT
-    for _ in range(50):
-        uv = 20 * grid + rng.uniform(-1, 1, grid.shape)
-        uv[rng.uniform(size=uv.shape[:2]) < 0.6] = np.nan
-        of_all, of_first = (
-            np.stack([each[0] for each in (predict_places(uv), *estimate_steps(uv))])
-            for uv in (add_border(uv, 1), add_border(uv[:count], 1))
-        )
-        np.testing.assert_array_equal(of_first, of_all)
