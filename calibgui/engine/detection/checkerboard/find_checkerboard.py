@@ -406,7 +406,7 @@ def _describe_refusal(refusal: Refusal) -> NoBoardError:
     )
     if refusal.reason in OBJECTIONS_TO_CIRCLES:
         hint = (
-            "For a grid of circles, choose that pattern, and take pictures of all of it. For a"
+            "For a grid of circles, or a board with markers, choose that pattern. For a"
             f" checkerboard, {hint[:1].lower()}{hint[1:]}"
         )
     return NoBoardError(

@@ -218,7 +218,7 @@ def test_who_photographs_a_part_of_a_grid_of_circles_is_told_of_circles_first() 
     image = Scene(board, rvec=(0.3, 0.2, 0.1), distance=160.0).image()
     with pytest.raises(NoBoardError) as caught:
         find_corners(image)
-    assert caught.value.hint.startswith("For a grid of circles, choose that pattern")
+    assert caught.value.hint.startswith("For a grid of circles, or a board")
 
 
 def test_the_message_names_the_test_that_refused(monkeypatch: pytest.MonkeyPatch) -> None:
