@@ -163,6 +163,7 @@ def act(window: MainWindow, film: Film, folder: Path) -> None:
     film.click(bar.comparison.keep)
     film.click(bar.square.confirm)
     wait(lambda: not session.jobs.running)
+    pause(0.5)  # panels are drawn anew a moment later; until then a picture shows them black
     film.move_to(window.page.canvas)
     film.shoot(2 * _STOP_MS)
 
