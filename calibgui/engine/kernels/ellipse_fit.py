@@ -20,7 +20,7 @@ from calibgui.engine.kernels.common import (
 
 _ROOT2, _ROOT_PI = np.sqrt(2.0), np.sqrt(np.pi)
 _ROUNDING = 1e-9
-"""What rounding may add to rho^2."""
+"""Greatest error of rho^2 by rounding."""
 
 
 @compiled_part

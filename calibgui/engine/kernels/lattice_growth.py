@@ -1,4 +1,6 @@
-"""A lattice grown among points, and its borders, compiled: see ``detection.circles``.
+"""A lattice grown among circles, and its borders, compiled.
+
+The readable references are in ``detection.circles``: ``lattice_growth`` and ``grid_labelling``.
 
 The lattice is a square table of points, in which a place is one number. If the lattice comes near
 its end, all is done again in a larger one.
@@ -9,18 +11,14 @@ from __future__ import annotations
 import numpy as np
 
 from calibgui.engine.arrays import Array, IntArray
-from calibgui.engine.kernels.common import (
-    compiled,
-    compiled_part,
-    make_contiguous,
-)
+from calibgui.engine.kernels.common import compiled, compiled_part, make_contiguous
 
 _REACH = 4
 """Number of places that the table has beyond the lattice: three of them predict a fourth."""
 _ROOM = 24
 """Number of places beyond the first ones that the table has."""
 _FREE, _LISTED = -1, -2
-"""What the table holds where no point is: in general, and where one may be."""
+"""Values of the table where no point is: in general, and where one may be."""
 _MOST = 10
 """Number of predictions that a place may have."""
 

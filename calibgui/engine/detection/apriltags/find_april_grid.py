@@ -16,14 +16,7 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
-from calibgui.engine.arrays import (
-    Array,
-    BoolArray,
-    GreyImage,
-    GridSize,
-    IntArray,
-    compute_median,
-)
+from calibgui.engine.arrays import Array, BoolArray, GreyImage, GridSize, IntArray, compute_median
 from calibgui.engine.boards.april_grid import MAX_GAP_BETWEEN_SQUARES, AprilGrid
 from calibgui.engine.detection import grid_map
 from calibgui.engine.detection import region_of_interest as region
@@ -206,7 +199,7 @@ def _estimate_pull_across_gaps(
     `gap` between tags.
 
     Raises:
-        NoBoardError: the tags are blurred into each other.
+        UnknownPartError: the tags are blurred into each other.
     """
     steps, _ = NearPriors(_locate_places(lattice, gap), gap).estimate_geometry(fit.uv)
     blurs = fit.blur / np.sqrt(np.abs(np.linalg.det(steps)))

@@ -1,4 +1,4 @@
-"""Where does the image show that a board ends?
+"""The ends of a board: where the image shows that its squares stop.
 
 In front of the line beyond a lattice's last row the squares alternate; behind it they do not, as
 they would if corners had been missed. What the image shows there tells
@@ -34,8 +34,8 @@ from calibgui.engine.detection.lattice import (
 from calibgui.engine.images.sampling import sample_image
 
 _INSIDE_SQUARES = np.array([[0.5, 0.3], [0.5, 0.7], [0.3, 0.5], [0.7, 0.5]])
-"""Where whole squares beside a corner are sampled, apart from their edges, which blur, or what lies
-on the corner, may hide: steps along and across."""
+"""Places at which whole squares beside a corner are sampled, apart from their edges, which blur, or
+what lies on the corner, may hide: steps along and across."""
 _LINES_THAT_PREDICT = MAX_GAP + 2
 """Number of lines of a lattice, the first, on which places and steps in front of it depend."""
 _MIN_ENDS = 2

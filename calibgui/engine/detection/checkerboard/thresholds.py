@@ -226,8 +226,9 @@ class VerificationThresholds:
     min_border_corners: float = 1 / 3
     """Share of a border line's places below which its corners are doubted."""
     min_full_border: float = 2 / 3
-    """The same where the image shows that the board ends before it. Fixed by "no margin" of
-    `tests.benchmarks.corner_troubles`: a patterned ground had 3 corners of 5, by chance."""
+    """Share of a border line's places in the image below which the line is dropped, where the image
+    shows that the board ends before it. Fixed by "no margin" of `tests.benchmarks.corner_troubles`:
+    a patterned ground had 3 corners of 5, by chance."""
     max_alternating_places: float = 1 / 3
     """Share of the places around a lattice that alternate, beyond which the pattern goes on."""
 

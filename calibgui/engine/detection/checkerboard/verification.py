@@ -324,7 +324,7 @@ def limit_fit_shift(spacing: Array) -> Array:
 def has_step_edges(fit: XCornerFit, is_alone: bool = False, noise: float = 0.0) -> bool:
     """Return whether the squares are flat inside and step at their edges: waves cross likewise,
     only wider, and are not described by steps; `noise`, grey levels, is left out of account. A
-    lattice that `is_alone`, see `stands_alone`, may have edges that are less like steps, and wider,
+    lattice that `is_alone`, see `board_ends`, may have edges that are less like steps, and wider,
     unless its squares overlap or part by much: that may be discs."""
     limits = THRESHOLDS.verification
     blur = _measure_blur(fit)
