@@ -10,7 +10,11 @@ import pytest
 
 from calibgui.engine import kernels
 from calibgui.engine.detection.checkerboard import x_corner_step
-from calibgui.engine.detection.checkerboard.x_corner_model import EdgeSupport
+from calibgui.engine.detection.checkerboard.x_corner_model import (
+    EdgeSupport,
+    XCornerModel,
+    accumulate_normal_equations,
+)
 from calibgui.engine.detection.find_corners import find_corners
 from tests.engine.kernels.conftest import make_callable
 from tests.scenes.checkerboards import draw
@@ -71,6 +75,34 @@ def test_the_same_step_of_the_unknowns() -> None:
         assert np.isfinite(mine[0]).all()
         for one, other in zip(mine, its, strict=True):
             np.testing.assert_allclose(one[1:], other[1:], rtol=1e-6, atol=1e-12)
+
+
+@pytest.mark.parametrize(("arm", "thinned"), [(60.0, 1), (250.0, 4), (1000.0, 16)])
+def test_the_same_pairs_of_pixels_tell_the_noise(arm: float, thinned: int) -> None:
+    rng = np.random.default_rng(0)
+    n = 3
+    unknowns = np.tile([1050.0, 1050.0, 0.2, np.pi / 2, 2.0, 2.0, 100.0, 50.0, 0.0], (n, 1))
+    unknowns[:, :2] += rng.uniform(-3, 3, (n, 2))
+    model = XCornerModel(
+        unknowns=unknowns,
+        sign=np.ones(n),
+        square_height=np.full((n, 2), 2 * arm),
+        arm=np.full((n, 2), arm),
+        plain_width=np.full((n, 2), arm),
+        curvature=np.zeros((n, 2)),
+        ink_spread=np.zeros(n),
+        level_gradient=np.zeros((n, 2)),
+        contrast_gradient=np.zeros((n, 2)),
+        blur_gradient=np.zeros((n, 2, 2)),
+        height_gradient=np.zeros((n, 2, 2)),
+    )
+    image = rng.integers(0, 256, (2100, 2100), dtype=np.uint8)
+    arguments = image, model, model, True
+    products, compiled = accumulate_normal_equations.kernel(*arguments)
+    _, readable = accumulate_normal_equations.reference(*arguments)
+    np.testing.assert_allclose(compiled[:, 0], readable[:, 0], rtol=5e-3)  # pixels at the borders
+    np.testing.assert_allclose(compiled[:, 1], readable[:, 1], rtol=5e-3)
+    np.testing.assert_allclose(compiled[:, 1], products[:, 6, 6] / 2 / thinned, rtol=0.02)
 
 
 @pytest.mark.parametrize("bent", [0.0, 0.002, 0.02])

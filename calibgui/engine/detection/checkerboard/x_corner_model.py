@@ -51,6 +51,8 @@ _MAX_SHARP_BLUR = 0.6
 """Median blur below which the pixel's own shape matters, px."""
 _BAND_BLURS, _BAND_MARGIN = 2.3, 0.7
 """Half width of an edge's band: blurs, and px in addition."""
+_ENOUGH_PIXELS = 4096
+"""Number of pixels that tell a corner's noise to 2 %."""
 C, THETA, BLUR = np.s_[:, 0:2], np.s_[:, 2:4], np.s_[:, 4:6]
 M, A, RHO = np.s_[:, 6], np.s_[:, 7], np.s_[:, 8]
 """Columns of the unknowns."""
@@ -269,7 +271,7 @@ def _divide_corners(read: XCornerModel) -> list[IntArray]:
     order = np.argsort(read.arm.sum(axis=1), kind="stable")
     largest = read.select(order[-1:]).find_support()
     total = len(order) * (largest.count_pixels(0) + largest.count_pixels(1))
-    return np.array_split(order, max(total // _MAX_PIXELS_AT_ONCE, 1))
+    return np.array_split(order, np.clip(total // _MAX_PIXELS_AT_ONCE, 1, len(order)))
 
 
 def _compute_columns(model: XCornerModel, window: _Window) -> Floats:
@@ -312,14 +314,20 @@ def _compute_light_columns(model: XCornerModel, window: _Window, columns: Floats
 
 def _measure_odd_part(centre: Array, window: _Window, residual: Floats) -> Array:
     """Measure the odd part of the residual: (k, 2) the sum of (r(q) - r(-q))^2 / 2 over the pairs
-    of pixels that lie opposite each other to the nearest half pixel, and their number."""
+    of pixels that lie opposite each other to the nearest half pixel, and their number. Of more
+    pixels than tell the noise well, those on each 2nd, 4th, 8th... diagonal are compared."""
     k, side = len(centre), int(np.ptp(window.pixels, axis=1).max()) + 1
     row, counts = np.arange(k)[:, None], window.counts > 0
     corner = window.pixels.min(axis=1)[:, None]
     u, v = np.moveaxis(window.pixels - corner, 2, 0)
     square = np.full((k, side, side), np.nan)
+    twice = np.rint(2 * centre).astype(np.int64)[:, None]
+    excess = np.maximum(counts.sum(axis=1) / _ENOUGH_PIXELS, 1)
+    every = 2 ** np.ceil(np.log2(excess)).astype(np.int64)
+    diagonal = abs((2 * window.pixels - twice).sum(axis=2)) // 2  # the same for opposite ones
+    counts &= diagonal % every[:, None] == 0
     square[np.broadcast_to(row, counts.shape)[counts], v[counts], u[counts]] = residual[counts]
-    mirror = np.rint(2 * centre).astype(np.int64)[:, None] - window.pixels
+    mirror = twice - window.pixels
     far = ((mirror < corner) | (mirror >= corner + side)).any(axis=2)
     mu, mv = np.moveaxis(np.clip(mirror - corner, 0, side - 1), 2, 0)
     difference = residual - square[row, mv, mu]
