@@ -319,6 +319,29 @@ def laser(seed: int) -> Photograph:
     return Photograph(image, (scene.uv,), near)
 
 
+def drops(seed: int) -> Photograph:
+    """Drops on the lens or on a pane before it, in each of which a part of the picture is seen
+    small and upside down."""
+    rng = np.random.default_rng([seed, 97])
+    scene = draw(vary(seed), seed)
+    v, u = np.mgrid[:480, :640].astype(np.float32)
+    seen, near = np.stack([u, v]), np.zeros((480, 640), np.bool_)
+    for _ in range(rng.integers(3, 12)):
+        x, y = rng.uniform(0, 1, 2) * (640, 480)
+        radius, shrunk = rng.uniform(6, 25), rng.uniform(2, 4)
+        r = np.hypot(u - x, v - y)
+        small = np.stack([x - (u - x) * shrunk, y - (v - y) * shrunk])
+        seen = np.where(r < radius, small, seen)
+        near |= r < radius + 0.45 * scene.conditions.square
+    at_u, at_v = seen.astype(np.float32)
+    levels = cv2.remap(
+        scene.clean, at_u, at_v, cv2.INTER_LINEAR, borderMode=cv2.BORDER_REFLECT
+    ).astype(np.float64)
+    at = np.clip(np.rint(scene.uv), 0, (639, 479)).astype(int)
+    image = as_bytes(add_noise(levels, scene.conditions.noise, seed))
+    return Photograph(image, (scene.uv,), near[at[..., 1], at[..., 0]])
+
+
 PLACES: dict[str, Trouble] = {
     "coarse JPEG": coarse_jpeg,
     "arc": arc,
@@ -337,5 +360,6 @@ PLACES: dict[str, Trouble] = {
     "overlay": overlay,
     "ghost": ghost,
     "laser": laser,
+    "drops": drops,
 }
 """What happens to boards in labs, cells and studios, by name."""

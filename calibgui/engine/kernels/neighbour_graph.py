@@ -196,8 +196,54 @@ def choose_neighbours(
 
 
 @compiled
+def _fill_closing_edges(ends: Int32Array, closing: BoolArray) -> None:
+    """Fill closing (n, 4) with the result of `find_closing_edges`."""
+    for i in range(ends.shape[0]):
+        for k in range(4):
+            for side in (1, 3):
+                j, slot, steps = i, k, 0
+                while steps < 4 and ends[j, slot] >= 0:
+                    j, slot = ends[j, slot] // 4, (ends[j, slot] + side) % 4
+                    steps += 1
+                closing[i, k] |= steps == 4 and j == i and slot == k
+
+
+def find_closing_edges(ends: Int32Array) -> BoolArray:
+    """Compute ``detection.checkerboard.neighbour_graph._find_closing_edges``."""
+    closing = np.zeros(ends.shape, dtype=np.bool_)
+    _fill_closing_edges(ends, closing)
+    return closing
+
+
+@compiled
+def _fill_blocks(ends: Int32Array, closing: BoolArray, member: IntArray, size: IntArray) -> None:
+    """Fill size (n,), of zeros, with the result of `measure_blocks`; member (n,) is overwritten."""
+    for seed in range(ends.shape[0]):
+        if size[seed]:
+            continue
+        member[0], size[seed], head, count = seed, 1, 0, 1
+        while head < count:
+            i = member[head]
+            head += 1
+            for k in range(4):
+                j = ends[i, k] // 4
+                if closing[i, k] and not size[j]:
+                    member[count], size[j] = j, 1
+                    count += 1
+        size[member[:count]] = count
+
+
+def measure_blocks(ends: Int32Array, closing: BoolArray) -> IntArray:
+    """Compute ``detection.checkerboard.neighbour_graph._measure_blocks``."""
+    size = np.zeros(len(ends), dtype=np.int64)
+    _fill_blocks(ends, closing, np.empty_like(size), size)
+    return size
+
+
+@compiled
 def _walk_graph(
     ends: Int32Array,
+    closing: BoolArray,
     seeds: IntArray,
     directions: IntArray,
     nodes: Int32Array,
@@ -206,38 +252,49 @@ def _walk_graph(
 ) -> int:
     """Fill nodes, origin and placed with the results of `walk_graph`; return their number."""
     seen = np.zeros(ends.shape[0], dtype=np.bool_)
+    waiting = np.empty((ends.size, 2), dtype=np.int32)  # edges: where they leave, and their slots
     count = 0
     for seed in seeds:
         if seen[seed]:
             continue
         seen[seed] = True
-        head = count
+        head, first, last = count, 0, 0
         nodes[count], origin[count], placed[count] = seed, seed, 0
         count += 1
-        while head < count:
-            i, turn = nodes[head], placed[head, 2]
-            for k in range(4):
+        while head < count or first < last:
+            is_waiting = head == count
+            if is_waiting:
+                here, begin, end = waiting[first, 0], waiting[first, 1], waiting[first, 1] + 1
+                first += 1
+            else:
+                here, begin, end = head, 0, 4
+                head += 1
+            i, turn = nodes[here], placed[here, 2]
+            for k in range(begin, end):
                 j, back = ends[i, k] // 4, ends[i, k] % 4
                 if j < 0 or seen[j]:
+                    continue
+                if not (closing[i, k] or is_waiting):
+                    waiting[last] = here, k
+                    last += 1
                     continue
                 seen[j] = True
                 direction = (k + turn) % 4
                 nodes[count], origin[count] = j, seed
-                placed[count, 0] = placed[head, 0] + directions[direction, 0]
-                placed[count, 1] = placed[head, 1] + directions[direction, 1]
+                placed[count, 0] = placed[here, 0] + directions[direction, 0]
+                placed[count, 1] = placed[here, 1] + directions[direction, 1]
                 placed[count, 2] = (direction + 2 - back) % 4
                 count += 1
-            head += 1
     return count
 
 
 def walk_graph(
-    ends: Int32Array, seeds: IntArray, directions: IntArray
+    ends: Int32Array, closing: BoolArray, seeds: IntArray, directions: IntArray
 ) -> tuple[Int32Array, Int32Array, Int32Array]:
     """Compute ``detection.checkerboard.neighbour_graph._walk_graph``."""
     n = len(ends)
     nodes, origin, placed = np.empty(n, np.int32), np.empty(n, np.int32), np.empty((n, 3), np.int32)
-    count = _walk_graph(ends, seeds, directions, nodes, origin, placed)
+    count = _walk_graph(ends, closing, seeds, directions, nodes, origin, placed)
     return nodes[:count], origin[:count], placed[:count]
 
 

@@ -92,9 +92,11 @@ def test_the_same_walks(monkeypatch: pytest.MonkeyPatch) -> None:
     one, other = rng.permutation(800)[:400].reshape(2, -1)
     ends[one], ends[other] = other, one
     ends = ends.reshape(-1, 4)
-    compiled = list(neighbour_graph._split_components(ends))
+    closing = neighbour_graph._find_closing_edges(ends)
+    compiled = list(neighbour_graph._split_components(ends, closing))
     monkeypatch.setattr(kernels, "COMPILED", False)
-    readable = list(neighbour_graph._split_components(ends))
+    np.testing.assert_array_equal(neighbour_graph._find_closing_edges(ends), closing)
+    readable = list(neighbour_graph._split_components(ends, closing))
     assert len(readable) == len(compiled) > 0
     assert 0 < sum(len(nodes) for nodes, _ in readable) < 200
     for a, b in zip(compiled, readable, strict=True):

@@ -12,7 +12,9 @@ Number the directions on the board 0 (columns grow), 1 (rows grow), 2, 3 alike. 
 placed by its cell and its turn rho: slot k points in the board's direction k + rho (mod 4). The
 neighbour then has turn rho' with k' + rho' = k + rho + 2 (mod 4). A walk along the edges thus
 numbers everything that hangs together, right-handed in the image and whatever the distortion,
-because only neighbours are ever compared.
+because only neighbours are ever compared. It goes first where the edges close cells of four, as
+all over a board: an edge that closes none may lead astray, into what is seen in a drop on the lens
+or a reflection, and from there back to another line of the board.
 
 An array `ends` (n, 4) holds the graph: ``ends[i, k] = 4 j + k'`` where slot k of junction i leads
 to slot k' of junction j, and -1 where it leads to none.
@@ -75,7 +77,10 @@ def find_lattices(
         return []
     places = _EDGE_SAMPLES if plain >= 0.5 else _EDGE_SAMPLES_BESIDE_MARKS
     ends = _link_neighbours(saddles.smooth, junctions, tolerance, places)
-    arranged = (_arrange_lattices(junctions.uv, *part) for part in _split_components(ends))
+    closing = _find_closing_edges(ends)
+    _drop_uneven_edges(ends, closing, junctions.uv)
+    parts = _split_components(ends, closing)
+    arranged = (_arrange_lattices(junctions.uv, *part) for part in parts)
     lattices = islice((lattice for lattices in arranged for lattice in lattices), max_count)
     return sorted(lattices, key=len, reverse=True)
 
@@ -174,23 +179,35 @@ def _choose_neighbours(
     return ends
 
 
-def _split_components(ends: Int32Array) -> Iterator[tuple[Int32Array, Int32Array]]:
+def _drop_uneven_edges(ends: Int32Array, closing: BoolArray, uv: Array) -> None:
+    """Drop from a graph's `ends` (n, 4) the edges that close no cell and differ much in length from
+    the edge on the other side of a junction."""
+    limit = THRESHOLDS.graph.max_uneven_edge
+    length = np.where(ends < 0, np.nan, compute_lengths(uv[ends // 4] - uv[:, None]))
+    ratio = length / np.roll(length, 2, axis=1)
+    i, k = np.nonzero(~closing & ((ratio > limit) | (ratio * limit < 1)))
+    ends.ravel()[ends[i, k]] = -1
+    ends[i, k] = -1
+
+
+def _split_components(ends: Int32Array, closing: BoolArray) -> Iterator[tuple[Int32Array, Int32Array]]:
     """Yield the graph's connected components that hold a full cell, largest first.
 
     Junctions that their edges contradict more often than not are left out.
 
     Args:
         ends: (n, 4) graph.
+        closing: (n, 4) its edges that close cells.
 
     Yields:
         Junctions (m,), and their rows, columns and turns (m, 3).
     """
-    degree = np.sum(ends >= 0, axis=1)
-    order = np.argsort(-degree, kind="stable")
-    seeds = order[degree[order] > 0]
+    size = _measure_blocks(ends, closing)
+    seeds = np.flatnonzero(np.any(ends >= 0, axis=1))
     if not len(seeds):
         return
-    nodes, seed, placed = _walk_graph(ends, seeds, DIRECTIONS)
+    seeds = seeds[np.argsort(-size[seeds], kind="stable")]
+    nodes, seed, placed = _walk_graph(ends, closing, seeds, DIRECTIONS)
     agree = _check_agreement(ends, nodes, placed, DIRECTIONS)
     begin = np.flatnonzero(np.diff(seed, prepend=-1))
     size = np.diff(begin, append=len(seed))
@@ -217,12 +234,15 @@ def _find_components_with_cell(size: IntArray, placed: Int32Array, agree: BoolAr
 
 @kernels.with_kernel("neighbour_graph", "walk_graph")
 def _walk_graph(
-    ends: Int32Array, seeds: IntArray, directions: IntArray
+    ends: Int32Array, closing: BoolArray, seeds: IntArray, directions: IntArray
 ) -> tuple[Int32Array, Int32Array, Int32Array]:
     """Walk along the graph from each of the seeds that was not reached before, breadth first.
 
+    An edge that closes no cell is followed only once no other is left.
+
     Args:
         ends: (n, 4) graph.
+        closing: (n, 4) its edges that close cells.
         seeds: (k,) junctions to start from.
         directions: (4, 2) steps in row and column of the board's directions.
 
@@ -230,27 +250,63 @@ def _walk_graph(
         Junctions (m,) in the order of the walks, the seed (m,) of each, and their rows, columns and
         turns (m, 3).
     """
-    leads = ends.tolist()
+    leads, closes = ends.tolist(), closing.tolist()
     place: dict[int, tuple[int, int, int]] = {}
     origin: list[int] = []
+
+    def follow(i: int, k: int) -> None:
+        j, back = divmod(leads[i][k], 4)
+        if j >= 0 and j not in place:
+            row, col, turn = place[i]
+            direction = (k + turn) % 4
+            dr, dc = directions[direction].tolist()
+            place[j] = (row + dr, col + dc, (direction + 2 - back) % 4)
+            queue.append(j)
+
     for seed in seeds.tolist():
         if seed in place:
             continue
         place[seed] = (0, 0, 0)
-        queue = deque([seed])
-        while queue:
+        queue, loose = deque([seed]), deque[tuple[int, int]]()
+        while queue or loose:
+            if not queue:
+                follow(*loose.popleft())
+                continue
             i = queue.popleft()
             origin.append(seed)
-            row, col, turn = place[i]
-            for k, end in enumerate(leads[i]):
-                j, back = divmod(end, 4)
-                if j >= 0 and j not in place:
-                    direction = (k + turn) % 4
-                    dr, dc = directions[direction].tolist()
-                    place[j] = (row + dr, col + dc, (direction + 2 - back) % 4)
-                    queue.append(j)
+            for k in range(4):
+                if closes[i][k]:
+                    follow(i, k)
+                else:
+                    loose.append((i, k))
     nodes, placed = list(place), list(place.values())
     return np.array(nodes, np.int32), np.array(origin, np.int32), np.array(placed, np.int32)
+
+
+@kernels.with_kernel("neighbour_graph", "find_closing_edges")
+def _find_closing_edges(ends: Int32Array) -> BoolArray:
+    """Find the edges of a graph that close a cell: those (n, 4) from whose slot four of them, each
+    the next one to the same side, lead back to it."""
+    slots = np.arange(ends.size).reshape(ends.shape)
+    leads = np.append(ends, -1)  # from nowhere to nowhere
+    closing = np.zeros(ends.shape, np.bool_)
+    for side in (1, 3):
+        at = slots
+        for _ in range(4):
+            end = leads[at]
+            at = np.where(end < 0, -1, end - end % 4 + (end + side) % 4)
+        closing |= at == slots
+    return closing
+
+
+@kernels.with_kernel("neighbour_graph", "measure_blocks")
+def _measure_blocks(ends: Int32Array, closing: BoolArray) -> IntArray:
+    """Count the junctions (n,) that each of them hangs together with by edges that close cells."""
+    n = len(ends)
+    i, k = np.nonzero(closing)
+    links = scipy.sparse.coo_array((np.ones(len(i)), (i, ends[i, k] // 4)), shape=(n, n))
+    _, block = scipy.sparse.csgraph.connected_components(links, directed=False)
+    return np.asarray(np.bincount(block)[block])
 
 
 @kernels.with_kernel("neighbour_graph", "check_agreement")

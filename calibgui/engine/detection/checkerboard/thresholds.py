@@ -112,6 +112,9 @@ class GraphThresholds:
     """Number of junctions around one, the nearest, that its edges may lead to."""
     min_edge_step: float = 0.25
     """Least step across the edge between two neighbours, over the weaker one's contrast."""
+    max_uneven_edge: float = 2.0
+    """Greatest length of an edge that closes no cell over that of the edge on the other side of a
+    junction, or the other way round."""
     max_cells_per_junction: int = 3
     """Greatest number of a lattice's cells per junction, beyond `max_spare_cells` ..."""
     max_spare_cells: int = 256
