@@ -190,7 +190,9 @@ def _drop_uneven_edges(ends: Int32Array, closing: BoolArray, uv: Array) -> None:
     ends[i, k] = -1
 
 
-def _split_components(ends: Int32Array, closing: BoolArray) -> Iterator[tuple[Int32Array, Int32Array]]:
+def _split_components(
+    ends: Int32Array, closing: BoolArray
+) -> Iterator[tuple[Int32Array, Int32Array]]:
     """Yield the graph's connected components that hold a full cell, largest first.
 
     Junctions that their edges contradict more often than not are left out.

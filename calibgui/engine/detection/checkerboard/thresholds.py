@@ -227,10 +227,11 @@ class VerificationThresholds:
     max_broken_places_alone: float = 1 / 6
     """... and of a lattice that stands alone, over a part of which something may lie."""
     min_border_corners: float = 1 / 3
-    """Share of a border line's places below which its corners are doubted."""
+    """Share of a line's places below which corners that are alike only near by are left out."""
     min_full_border: float = 2 / 3
     """Share of a border line's places in the image below which the line is dropped, where the image
-    shows that the board ends before it. Fixed by "no margin" of `tests.benchmarks.corner_troubles`:
+    shows that the board ends before it, or where all of its corners are worse described than most.
+    Fixed by "no margin" of `tests.benchmarks.corner_troubles`:
     a patterned ground had 3 corners of 5, by chance."""
     max_alternating_places: float = 1 / 3
     """Share of the places around a lattice that alternate, beyond which the pattern goes on."""

@@ -252,15 +252,15 @@ def find_described_corners(
 
 
 def find_doubtful_lines(lattice: Lattice, residual: Array) -> BoolArray:
-    """Find the corners (n,) of the border lines of a lattice that hold few corners, all of which
-    the edge model describes worse than most, by its `residual` (n,): such are the rims of things
-    that lie on the board's end."""
+    """Find the corners (n,) of the border lines of a lattice that are not full and all of whose
+    corners the edge model describes worse than most, by its `residual` (n,): such are the rims of
+    things that lie on the board's end, and what meets its squares there by chance."""
     clear = lattice.found
     clear[clear] = ~find_suspect_corners(residual)
     doubtful = np.zeros(lattice.shape, np.bool_)
     for line in (np.s_[0], np.s_[-1], np.s_[:, 0], np.s_[:, -1]):
-        is_sparse = lattice.found[line].mean() < THRESHOLDS.verification.min_border_corners
-        doubtful[line] |= is_sparse and not clear[line].any()
+        is_partial = lattice.found[line].mean() < THRESHOLDS.verification.min_full_border
+        doubtful[line] |= is_partial and not clear[line].any()
     return np.asarray(doubtful[lattice.found])
 
 

@@ -68,10 +68,16 @@ def test_what_only_reflections_hold_together_is_not_joined() -> None:
     assert find("glare", 3014).whole == 1
 
 
-@pytest.mark.parametrize("seed", [91010, 91018, 91051])
+@pytest.mark.parametrize("seed", [22, 91010, 91018, 91051])
 def test_a_patterned_ground_adds_no_line_to_the_board(seed: int) -> None:
     """Up to 3 of 5 corners of a line lay where squares at the board's end meet what lies beyond."""
     assert find("no margin", seed).whole == 1
+
+
+@pytest.mark.parametrize("seed", [15, 22, 24])
+def test_what_is_seen_in_a_drop_is_not_joined_to_the_board(seed: int) -> None:
+    """The squares in the drop led from one line of the board to another in more steps, or fewer."""
+    assert find("drops", seed).whole == 1
 
 
 @pytest.mark.parametrize("seed", [91021, 91035, 91046])
