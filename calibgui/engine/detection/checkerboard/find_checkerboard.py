@@ -92,9 +92,11 @@ class RefinedBoard:
         return len(self.lattice)
 
     @property
-    def edge_length(self) -> float:
-        """Length of the edges at its corners, px: a measure of what its image tells."""
-        return float(np.nansum(self.lattice.spacing()[self.lattice.found]))
+    def edge_strength(self) -> float:
+        """Length of the edges at its corners times, if the edge model was fitted, their contrast: a
+        measure of what its image tells. A reflection of a board, as large, is fainter."""
+        contrast = 1.0 if self.fit is None else self.fit.contrast
+        return float(np.nansum(self.lattice.spacing()[self.lattice.found] * contrast))
 
 
 def find_checkerboard(
@@ -157,7 +159,7 @@ def find_checkerboard(
 def _find_wanted_board(
     grey: GreyImage, grid_size: GridSize | None, outline: Array | None, method: str
 ) -> tuple[RefinedBoard, list[RefinedBoard]]:
-    """Find the board of the longest edges among those that may be of the stated size.
+    """Find the board of the strongest edges among those that may be of the stated size.
 
     Returns:
         The board and all others.
@@ -178,7 +180,7 @@ def _find_wanted_board(
                 )
         results = (result for candidate in candidates for result in tried[candidate])
         boards = [board for board in results if isinstance(board, RefinedBoard)]
-        boards.sort(key=lambda board: board.edge_length, reverse=True)
+        boards.sort(key=lambda board: board.edge_strength, reverse=True)
         for wanted in boards:
             if grid_size is None or _may_have_size(grey, wanted.lattice, grid_size):
                 return wanted, [board for board in boards if board is not wanted]

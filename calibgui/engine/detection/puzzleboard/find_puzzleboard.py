@@ -94,7 +94,7 @@ def find_puzzleboard(
     readable = [each for each in placed if is_certain(each.place) and not each.is_mirrored]
     if not readable:
         raise _explain_missing_board(grey, placed, bare)
-    wanted = max(readable, key=lambda each: each.board.edge_length)
+    wanted = max(readable, key=lambda each: each.board.edge_strength)
     others = [each.board for each in placed if each is not wanted]
     return _number_corners(grey, wanted, pattern, grid_size, outline, others)
 

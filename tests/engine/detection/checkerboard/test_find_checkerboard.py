@@ -174,6 +174,15 @@ def test_the_stated_board_is_chosen_else_the_largest_and_the_others_are_told(dra
         find_corners(image, (8, 9))
 
 
+def test_a_reflection_is_not_preferred_to_the_board(draw: Any) -> None:
+    """As in a polished floor: upside down, fainter, and a little larger here."""
+    board = draw((5, 7), (400, 300), step=30.0).image
+    reflection = draw((5, 7), (400, 300), step=31.0, levels=(50.0, 110.0)).image[::-1]
+    for above, below in ((board, reflection), (reflection, board)):
+        (other,) = find_corners(np.vstack([above, below])).others
+        assert (other.outline.mean(axis=0)[1] > 300) == (below is reflection)
+
+
 @pytest.mark.parametrize("step", [32.0, 40.0, 48.0, 60.0])
 def test_the_stated_board_is_found_on_a_chequered_cloth(draw: Any, step: float) -> None:
     grid_size = draw((6, 9), step=30.0, turn=0.0)
