@@ -274,6 +274,39 @@ def second_board(seed: int) -> Photograph:
     return Photograph(scene.photograph(seed), (scene.uv, other))
 
 
+def pile(seed: int) -> Photograph:
+    """A smaller board lies over a part of the other."""
+    rng = np.random.default_rng([seed, 69])
+    rows, cols = int(rng.integers(4, 7)), int(rng.integers(5, 8))
+    below = draw(vary(seed), seed)
+    conditions = vary(
+        seed,
+        grid_size=(rows, cols),
+        square=rng.uniform(14, 20),
+        tilt=rng.uniform(0, 30),
+        centre=(float(rng.uniform(-120, 120)), float(rng.uniform(-90, 90))),
+        shift=5.0,
+        quiet=0.5,
+    )
+    sheet = np.empty(0)
+
+    def cut_out(paper: Array, x: Array, y: Array) -> Array:
+        nonlocal sheet
+        inside = (abs(2 * x - cols + 1) < cols + 2) & (abs(2 * y - rows + 1) < rows + 2)
+        sheet = inside.astype(np.float64)
+        return paper
+
+    above = draw(conditions, seed, cut_out)
+    cover = cv2.resize(sheet, (640, 480), interpolation=cv2.INTER_AREA)
+    cover = cv2.GaussianBlur(cover, (0, 0), conditions.blur)
+    levels = add_noise(cover * above.clean + (1 - cover) * below.clean, conditions.noise, seed)
+    reach = int(0.7 * below.conditions.square) | 1
+    near = cv2.dilate(cover, np.ones((reach, reach)))
+    at = np.clip(np.rint(below.uv), 0, (639, 479)).astype(int)
+    hidden = near[at[..., 1], at[..., 0]] > 0.01
+    return Photograph(as_bytes(levels), (below.uv, above.uv), hidden)
+
+
 def curled(seed: int) -> Photograph:
     """Paper that is curled or wavy: up to a sixth of a square from flat, from one corner to the
     fourth after it."""
@@ -366,6 +399,7 @@ BOARDS: dict[str, Trouble] = {
     "colours": coloured,
     "tablet": tablet,
     "second board": second_board,
+    "pile": pile,
     "curled": curled,
     "many squares": _settings(_choose_many),
     "few squares": _settings(_choose_few),

@@ -83,9 +83,7 @@ def trim_lattice(lattice: Lattice) -> Lattice | None:
     """Drop the corners off their neighbours' prediction, those that are isolated and empty border
     lines; return None if no full cell is left."""
     lattice = lattice.select(~_find_strays(lattice))
-    found = lattice.found
-    cell = found[:-1, :-1] & found[1:, :-1] & found[:-1, 1:] & found[1:, 1:]
-    return drop_isolated_and_crop(lattice) if cell.any() else None
+    return drop_isolated_and_crop(lattice) if find_closed_corners(lattice).any() else None
 
 
 def _find_strays(lattice: Lattice) -> BoolArray:
@@ -95,6 +93,17 @@ def _find_strays(lattice: Lattice) -> BoolArray:
     right, down = (step[found] for step in lattice.steps())
     found[found] = measure_in_steps(offset, right, down) > MAX_DEVIATION
     return found
+
+
+def find_closed_corners(lattice: Lattice) -> BoolArray:
+    """Return a mask (rows, cols) of the corners that close a cell with three others."""
+    found = lattice.found
+    cell = found[:-1, :-1] & found[1:, :-1] & found[:-1, 1:] & found[1:, 1:]
+    closed = np.zeros_like(found)
+    for row in (np.s_[:-1], np.s_[1:]):
+        for col in (np.s_[:-1], np.s_[1:]):
+            closed[row, col] |= cell
+    return closed
 
 
 def is_large_enough(lattice: Lattice) -> bool:

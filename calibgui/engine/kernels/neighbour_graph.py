@@ -244,6 +244,7 @@ def measure_blocks(ends: Int32Array, closing: BoolArray) -> IntArray:
 def _walk_graph(
     ends: Int32Array,
     closing: BoolArray,
+    is_apart: BoolArray,
     seeds: IntArray,
     directions: IntArray,
     nodes: Int32Array,
@@ -272,7 +273,7 @@ def _walk_graph(
             i, turn = nodes[here], placed[here, 2]
             for k in range(begin, end):
                 j, back = ends[i, k] // 4, ends[i, k] % 4
-                if j < 0 or seen[j]:
+                if j < 0 or seen[j] or (is_apart[j] and not closing[i, k]):
                     continue
                 if not (closing[i, k] or is_waiting):
                     waiting[last] = here, k
@@ -289,12 +290,16 @@ def _walk_graph(
 
 
 def walk_graph(
-    ends: Int32Array, closing: BoolArray, seeds: IntArray, directions: IntArray
+    ends: Int32Array,
+    closing: BoolArray,
+    is_apart: BoolArray,
+    seeds: IntArray,
+    directions: IntArray,
 ) -> tuple[Int32Array, Int32Array, Int32Array]:
     """Compute ``detection.checkerboard.neighbour_graph._walk_graph``."""
     n = len(ends)
     nodes, origin, placed = np.empty(n, np.int32), np.empty(n, np.int32), np.empty((n, 3), np.int32)
-    count = _walk_graph(ends, closing, seeds, directions, nodes, origin, placed)
+    count = _walk_graph(ends, closing, is_apart, seeds, directions, nodes, origin, placed)
     return nodes[:count], origin[:count], placed[:count]
 
 

@@ -296,7 +296,7 @@ def test_a_board_cut_at_a_crease_is_pointed_out(tmp_path: Path) -> None:
     path = tmp_path / "corner.png"
     write_image(path, TROUBLES["crease"](1).image)
     view = search_view(View(str(path)))
-    assert "cut at what looks like a crease" in view.note
+    assert "cut where two boards seem to meet" in view.note
     assert search_view(view).note == view.note
 
 

@@ -1,12 +1,13 @@
 """Take apart what the search has joined: boards on two walls, and a board and what surrounds it.
 
 Neighbours hang together wherever edges lead from one to the next: over the crease between two walls
-of a room with a board on each, and from a board into a pattern around it. But only the corners of
-one flat board lie on one smooth grid map. A lattice that does not is cut where two maps follow its
-parts many times better than one follows all: between two lines, or along a line of what looks like
-corners where the squares of both boards meet. These two maps are rigid, a homography under a lens:
-walls are flat, while a board that is curled, or that a shaken camera shows in waves, would else be
-cut, since a map that bends as well follows any few lines.
+of a room with a board on each, from a board into another that lies over a part of it, and into a
+pattern around it. But only the corners of one flat board lie on one smooth grid map. A lattice that
+does not is cut where two maps follow its parts many times better than one follows all: between two
+lines, along a line of what looks like corners where the squares of both boards meet, or around what
+one of the maps expects. These two maps are rigid, a homography under a lens: walls are flat, while
+a board that is curled, or that a shaken camera shows in waves, would else be cut, since a map that
+bends as well follows any few lines.
 
 What a board has grown into shows otherwise. From the largest rectangle without a gap on, line by
 line, those corners are taken that lie where the map of the others expects them. What this leaves
@@ -53,16 +54,17 @@ def separate_boards(lattice: Lattice, image: GreyImage) -> list[Lattice]:
     if misfit <= limits.max_joint_misfit:
         return [lattice]
     core = _find_core(lattice)
+    board = _drop_ragged_lines(core)
     is_board = (
-        is_large_enough(core)
-        and _measure_misfit([core]) <= limits.max_joint_misfit
-        and all(find_ends(core, image))
+        is_large_enough(board)
+        and _measure_misfit([board]) <= limits.max_joint_misfit
+        and all(find_ends(board, image))
     )
-    if is_board and len(lattice) - len(core) < MIN_CORNERS:
-        return [core]
-    if min(lattice.shape) <= limits.max_lines and (parts := _cut_at_crease(lattice, misfit)):
+    if is_board and len(lattice) - len(board) < MIN_CORNERS:
+        return [board]
+    if min(lattice.shape) <= limits.max_lines and (parts := _cut_at_crease(lattice, core, misfit)):
         return [piece for part in parts for piece in separate_boards(part, image)]
-    return [core if is_board else lattice]
+    return [board if is_board else lattice]
 
 
 def _measure_misfit(parts: list[Lattice], fit_map: MapFit = grid_map.fit_cells) -> float:
@@ -81,16 +83,19 @@ def _measure_offsets(lattice: Lattice, fit_map: MapFit) -> Array:
     return np.asarray(off / Lattice(uv, lattice.dark).spacing()[found])
 
 
-def _cut_at_crease(lattice: Lattice, misfit: float) -> tuple[Lattice, Lattice] | None:
-    """Cut a lattice where two rigid maps follow its parts best; None if they do not follow them
-    many times better than one smooth map, by which its corners are `misfit` steps off.
+def _cut_at_crease(
+    lattice: Lattice, core: Lattice, misfit: float
+) -> tuple[Lattice, Lattice] | None:
+    """Cut a lattice, or its `core` out of it, where two rigid maps follow the parts best; None if
+    they do not follow them many times better than one smooth map, by which its corners are `misfit`
+    steps off.
 
     Of cuts that are about as good the one that leaves out the fewest corners is taken.
     """
     limits = THRESHOLDS.separation
     cuts = [
         (_measure_misfit(list(parts), grid_map.fit_radial_homography), parts)
-        for parts in _list_cuts(lattice)
+        for parts in _list_cuts(lattice, core)
     ]
     least = min((off for off, _ in cuts), default=np.inf)
     if least > limits.max_misfit_ratio * misfit:
@@ -100,9 +105,15 @@ def _cut_at_crease(lattice: Lattice, misfit: float) -> tuple[Lattice, Lattice] |
     return max(good, key=lambda parts: len(parts[0]) + len(parts[1]))
 
 
-def _list_cuts(lattice: Lattice) -> Iterator[tuple[Lattice, Lattice]]:
+def _list_cuts(lattice: Lattice, core: Lattice) -> Iterator[tuple[Lattice, Lattice]]:
     """List the pairs of lattices, large enough for boards, on both sides of a cut between two lines
-    or along one, which is then left out."""
+    or along one, which is then left out, and the core and that of what is around it."""
+    is_around = ~np.isin(lattice.uv[..., 0], core.uv[..., 0])
+    around = drop_isolated_and_crop(lattice.select(is_around))
+    if is_large_enough(core) and is_large_enough(around):
+        other = _find_core(around)
+        if is_large_enough(other):
+            yield core, other
     for quarters in (0, 1):
         turned = turn_lattice(lattice, quarters)
         rows = turned.shape[0]
@@ -121,7 +132,7 @@ def _list_cuts(lattice: Lattice) -> Iterator[tuple[Lattice, Lattice]]:
 
 def _find_core(lattice: Lattice) -> Lattice:
     """Find the corners that lie where the map of those of the largest rectangle without a gap, and
-    then of all found so far, expects them, line by line; without ragged lines."""
+    then of all found so far, expects them, line by line."""
     found, spacing = lattice.found, lattice.spacing()
     row, col, rows, cols = max(list_full_rectangles(found), key=lambda each: each[2] * each[3])
     core = np.zeros(lattice.shape, dtype=np.bool_)
@@ -141,7 +152,7 @@ def _find_core(lattice: Lattice) -> Lattice:
         core = near
         if not core.any():
             break
-    return _drop_ragged_lines(crop_lattice(lattice.select(core)))
+    return crop_lattice(lattice.select(core))
 
 
 def _drop_ragged_lines(lattice: Lattice) -> Lattice:

@@ -309,7 +309,7 @@ def _fit_board(
         if verification.are_edges_too_wide(fit):
             return Refusal(lattice.shape, verification.TOO_BLURRED)
         described = verification.find_described_corners(fit, lattice, None, displacement)
-        described &= ~verification.find_doubtful_lines(lattice, fit.residual)
+        described &= ~verification.find_doubtful_lines(lattice, fit.residual, displacement)
         near = verification.find_tolerable_displacements(displacement, lattice)
         good = described & near
         if good.all():
@@ -491,9 +491,8 @@ def _describe_cut(shape: tuple[int, int]) -> str:
     """Return a sentence that says of which lattice a board is a part."""
     rows, cols = sorted(shape)
     return (
-        f"{rows} x {cols} corners hang together here and were cut at what looks like a crease"
-        " between two boards; if they are one, flatten it, or mark its outermost corners and state"
-        " its size."
+        f"{rows} x {cols} corners hang together here and were cut where two boards seem to meet; if"
+        " they are one, flatten it, or mark its outermost corners and state its size."
     )
 
 

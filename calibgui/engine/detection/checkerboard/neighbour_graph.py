@@ -14,7 +14,9 @@ neighbour then has turn rho' with k' + rho' = k + rho + 2 (mod 4). A walk along 
 numbers everything that hangs together, right-handed in the image and whatever the distortion,
 because only neighbours are ever compared. It goes first where the edges close cells of four, as
 all over a board: an edge that closes none may lead astray, into what is seen in a drop on the lens
-or a reflection, and from there back to another line of the board.
+or in a reflection, and from there back to another line of the board, or into another board behind
+it. So it is followed last, and not to where many cells hang together: what belongs together there
+is joined when the lattices grow (`lattice_growth`).
 
 An array `ends` (n, 4) holds the graph: ``ends[i, k] = 4 j + k'`` where slot k of junction i leads
 to slot k' of junction j, and -1 where it leads to none.
@@ -209,7 +211,9 @@ def _split_components(
     if not len(seeds):
         return
     seeds = seeds[np.argsort(-size[seeds], kind="stable")]
-    nodes, seed, placed = _walk_graph(ends, closing, seeds, DIRECTIONS)
+    nodes, seed, placed = _walk_graph(
+        ends, closing, size > THRESHOLDS.graph.max_joined_block, seeds, DIRECTIONS
+    )
     agree = _check_agreement(ends, nodes, placed, DIRECTIONS)
     begin = np.flatnonzero(np.diff(seed, prepend=-1))
     size = np.diff(begin, append=len(seed))
@@ -236,15 +240,20 @@ def _find_components_with_cell(size: IntArray, placed: Int32Array, agree: BoolAr
 
 @kernels.with_kernel("neighbour_graph", "walk_graph")
 def _walk_graph(
-    ends: Int32Array, closing: BoolArray, seeds: IntArray, directions: IntArray
+    ends: Int32Array,
+    closing: BoolArray,
+    is_apart: BoolArray,
+    seeds: IntArray,
+    directions: IntArray,
 ) -> tuple[Int32Array, Int32Array, Int32Array]:
     """Walk along the graph from each of the seeds that was not reached before, breadth first.
 
-    An edge that closes no cell is followed only once no other is left.
+    An edge that closes no cell is followed only once no other is left, and not to every junction.
 
     Args:
         ends: (n, 4) graph.
         closing: (n, 4) its edges that close cells.
+        is_apart: (n,) the junctions to which others do not lead.
         seeds: (k,) junctions to start from.
         directions: (4, 2) steps in row and column of the board's directions.
 
@@ -258,7 +267,7 @@ def _walk_graph(
 
     def follow(i: int, k: int) -> None:
         j, back = divmod(leads[i][k], 4)
-        if j >= 0 and j not in place:
+        if j >= 0 and j not in place and (closes[i][k] or not is_apart[j]):
             row, col, turn = place[i]
             direction = (k + turn) % 4
             dr, dc = directions[direction].tolist()

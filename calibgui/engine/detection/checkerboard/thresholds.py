@@ -115,6 +115,9 @@ class GraphThresholds:
     max_uneven_edge: float = 2.0
     """Greatest length of an edge that closes no cell over that of the edge on the other side of a
     junction, or the other way round."""
+    max_joined_block: int = 8
+    """Greatest number of junctions that hang together by edges that close cells to which one that
+    closes none may lead."""
     max_cells_per_junction: int = 3
     """Greatest number of a lattice's cells per junction, beyond `max_spare_cells` ..."""
     max_spare_cells: int = 256

@@ -21,7 +21,7 @@ from calibgui.engine.detection.checkerboard.x_corner_fit import (
     fit_x_corners,
     replace_fits,
 )
-from calibgui.engine.detection.lattice import Lattice
+from calibgui.engine.detection.lattice import Lattice, find_closed_corners
 
 _NEAR = 0.25
 """Distance from suspect corners beyond which nothing is looked at, squares."""
@@ -56,12 +56,13 @@ def fit_undisturbed(
         The fit, and how far (n,) px corners are drawn aside; 0 for most.
     """
     fit, suspect = fit_corners(lattice)
+    cells, is_alone = locate(lattice), ~find_closed_corners(lattice)[lattice.found]
+    suspect = suspect | verification.find_displaced_corners(fit, cells, is_alone & ~suspect)
     if not suspect.any():
         return fit, np.zeros(len(lattice))
     undisturbed = lattice.found
     if verification.is_credible(int(np.count_nonzero(suspect)), len(lattice)):
         undisturbed[undisturbed] = ~suspect
-    cells = locate(lattice)
     for _ in range(_MAX_ROUNDS):
         rest = lattice.select(undisturbed)
         part, in_part = fit_corners(rest)
@@ -75,7 +76,7 @@ def fit_undisturbed(
     # What the model describes near a corner is the corner, however paper or shutter bend the lines,
     # if its edges run along them: those of a finger do not.
     poor = verification.find_suspect_corners(fit.residual)
-    is_corner = ~(poor | verification.find_askew_corners(fit, lattice, lattice.found))
+    is_corner = ~(poor | is_alone | verification.find_askew_corners(fit, lattice, lattice.found))
     farthest = verification.limit_fit_shift(lattice.spacing()[lattice.found])
     off = np.where(is_corner, np.minimum(off, farthest), off)
     return fit, np.where(kept & ~poor, 0.0, off)

@@ -251,12 +251,13 @@ def find_described_corners(
     )
 
 
-def find_doubtful_lines(lattice: Lattice, residual: Array) -> BoolArray:
+def find_doubtful_lines(lattice: Lattice, residual: Array, displacement: Array) -> BoolArray:
     """Find the corners (n,) of the border lines of a lattice that are not full and all of whose
-    corners the edge model describes worse than most, by its `residual` (n,): such are the rims of
-    things that lie on the board's end, and what meets its squares there by chance."""
+    corners the edge model describes worse than most, by its `residual` (n,), or are drawn aside by
+    a `displacement` (n,) px: such are the rims of things that lie on the board's end, and what
+    meets its squares there by chance."""
     clear = lattice.found
-    clear[clear] = ~find_suspect_corners(residual)
+    clear[clear] = ~find_suspect_corners(residual) & (displacement == 0)
     doubtful = np.zeros(lattice.shape, np.bool_)
     for line in (np.s_[0], np.s_[-1], np.s_[:, 0], np.s_[:, -1]):
         is_partial = lattice.found[line].mean() < THRESHOLDS.verification.min_full_border
@@ -275,7 +276,8 @@ def find_displaced_corners(fit: XCornerFit, cells: Array, suspect: BoolArray) ->
     """Find the suspect corners that the edge model puts where the others do not expect them.
 
     Where the edge of a shadow or of a reflection runs through a corner there are two crossing
-    edges, and something that draws them aside by much more than noise would.
+    edges, and something that draws them aside by much more than noise would. If all are suspect
+    nothing tells.
 
     Args:
         fit: edge model at n corners.
@@ -285,8 +287,8 @@ def find_displaced_corners(fit: XCornerFit, cells: Array, suspect: BoolArray) ->
     Returns:
         A mask (n,).
     """
-    if not suspect.any():
-        return suspect
+    if not suspect.any() or suspect.all():
+        return np.zeros_like(suspect)
     limits = THRESHOLDS.verification
     off = measure_displacements(fit.uv, cells, ~suspect)
     usual = np.sqrt(np.mean(off[~suspect] ** 2))

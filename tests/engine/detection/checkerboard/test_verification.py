@@ -204,16 +204,17 @@ class TestBrokenLines:
         assert verification.drop_broken_lines(stray, image).shape == (6, 9)
 
 
-def test_few_corners_of_a_border_line_need_one_that_is_described_as_well_as_most() -> None:
-    lattice = drop(place(4, 7), *((0, col) for col in range(2, 7)))
-    residual = np.ones(len(lattice))
-    residual[:2] = 3.0
-    assert not verification.find_doubtful_lines(lattice, np.ones(len(lattice))).any()
-    doubtful = verification.find_doubtful_lines(lattice, residual)
-    assert doubtful[:2].all()
-    assert not doubtful[2:].any()
-    residual[1] = 2.0
-    assert not verification.find_doubtful_lines(lattice, residual).any()
+def test_a_border_line_in_part_needs_a_corner_that_is_as_good_as_most() -> None:
+    lattice = drop(place(4, 7), *((0, col) for col in range(3, 7)))
+    even, off = np.ones(len(lattice)), np.zeros(len(lattice))
+    residual, displacement = even.copy(), off.copy()
+    residual[:2], displacement[2] = 3.0, 1.5
+    assert not verification.find_doubtful_lines(lattice, even, off).any()
+    doubtful = verification.find_doubtful_lines(lattice, residual, displacement)
+    assert doubtful[:3].all()
+    assert not doubtful[3:].any()
+    assert not verification.find_doubtful_lines(lattice, residual, off).any()
+    assert not verification.find_doubtful_lines(lattice, even, displacement).any()
 
 
 def test_a_full_border_line_may_be_described_worse_than_the_others() -> None:
@@ -221,7 +222,7 @@ def test_a_full_border_line_may_be_described_worse_than_the_others() -> None:
     lattice = place(4, 7)
     residual = np.ones(len(lattice))
     residual[:7] = 3.0
-    assert not verification.find_doubtful_lines(lattice, residual).any()
+    assert not verification.find_doubtful_lines(lattice, residual, np.zeros(len(lattice))).any()
 
 
 class TestContinuation:
