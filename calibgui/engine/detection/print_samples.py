@@ -53,7 +53,8 @@ longer than to find a board: brickwork has 600 to 2000, a board of 300 marks no 
 
 
 class QuadSearch:
-    """A search of an image for dark quadrilaterals; how many there are is counted once."""
+    """A search of an image for dark quadrilaterals; how many there are is counted once, and small
+    ones are looked for once where there are hundreds."""
 
     def __init__(self, image: GreyImage) -> None:
         """
@@ -63,19 +64,19 @@ class QuadSearch:
         self._image = image
 
     @cached_property
-    def _sample(self) -> PrintSample | None:
-        """The tiles in which small quadrilaterals are looked for, None if that is everywhere."""
+    def _sampled(self) -> Array | None:
+        """The quadrilaterals of a sample, None if small ones are looked for everywhere."""
         halved = opencv.halve_image(self._image)
         count = opencv.count_quads(halved, _COUNTING_WINDOW, _MIN_PERIMETER, _MAX_COUNT)
-        return None if count < _MAX_COUNT else PrintSample(halved)
+        return None if count < _MAX_COUNT else PrintSample(halved).detect_dark_quads(self._image)
 
     def detect_dark_quads(self, is_quick: bool = False) -> Array:
         """Return corners (n, 4, 2) px of the dark quadrilaterals, quickly or not. Where there are
         hundreds the small ones are looked for in a sample."""
-        if self._sample is None:
+        if self._sampled is None:
             return opencv.detect_dark_quads(self._image, is_quick)
         large = opencv.detect_dark_quads(self._image, is_quick, least_side=_MARGIN)
-        return np.concatenate([large, self._sample.detect_dark_quads(self._image)])
+        return np.concatenate([large, self._sampled])
 
 
 class PrintSample:

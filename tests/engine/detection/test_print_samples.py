@@ -15,6 +15,7 @@ from calibgui.engine.boards.board import Board
 from calibgui.engine.boards.charuco import Charuco
 from calibgui.engine.boards.pattern import Pattern
 from calibgui.engine.detection.find_corners import find_corners
+from calibgui.engine.detection.print_samples import QuadSearch
 from calibgui.engine.errors import NoBoardError
 from tests.scenes.perspective import photograph_pattern
 from tests.scenes.without_board import draw_foliage, draw_without_board
@@ -85,6 +86,23 @@ def test_of_thousands_of_parts_some_are_searched(
     with pytest.raises(NoBoardError):
         find_corners(draw_without_board(seed, (750, 1000), 0.625), pattern=_ASKED[kind])
     assert max(found) < 1000
+
+
+def test_small_parts_are_looked_for_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A search of bricks in full looks for large ones more thoroughly; of small ones it knows."""
+    searched: list[tuple[int, ...]] = []
+    search = opencv.detect_dark_quads
+
+    def count(image: GreyImage, *how: Any, **more: Any) -> Array:
+        searched.append(image.shape)
+        return search(image, *how, **more)
+
+    monkeypatch.setattr(opencv, "detect_dark_quads", count)
+    wall = QuadSearch(draw_without_board(12, (750, 1000), 0.625))
+    quick, full = wall.detect_dark_quads(is_quick=True), wall.detect_dark_quads()
+    assert searched.count((750, 1000)) == 2
+    assert len(searched) <= 2 + 4
+    assert min(len(quick), len(full)) > 500
 
 
 @pytest.mark.parametrize(("size", "at"), [((400, 330), (300, 500)), ((900, 700), (30, 60))])
