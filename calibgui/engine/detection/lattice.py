@@ -172,6 +172,16 @@ def crop_lattice(lattice: Lattice) -> Lattice:
     return Lattice(lattice.uv[r : rows[-1] + 1, c : cols[-1] + 1], dark)
 
 
+def cut_middle(lattice: Lattice, most: int) -> Lattice:
+    """Cut the middle out of a lattice, `most` rows and columns at most, less isolated corners."""
+    (top, left), (bottom, right) = (
+        [max((lines - most) // 2, 0) for lines in lattice.shape],
+        [min((lines + most) // 2, lines) for lines in lattice.shape],
+    )
+    dark = lattice.dark ^ bool((top + left) % 2)
+    return drop_isolated_and_crop(Lattice(lattice.uv[top:bottom, left:right], dark))
+
+
 @kernels.with_kernel("lattice", "predict_places")
 def predict_places(uv: Array) -> Array:
     """Predict where its neighbours expect each place of a lattice, found or not.

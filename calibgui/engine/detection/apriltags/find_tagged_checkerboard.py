@@ -10,8 +10,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import replace
+from functools import cache
 from itertools import product
 from typing import NamedTuple
 
@@ -43,14 +44,20 @@ from calibgui.engine.detection.checkerboard.pyramid_search import (
     find_candidates,
     find_same,
 )
+from calibgui.engine.detection.checkerboard.saddle import refine_lattice
+from calibgui.engine.detection.checkerboard.thresholds import THRESHOLDS
 from calibgui.engine.detection.corners import Corners
 from calibgui.engine.detection.detector_io import check_grey_levels, invert_levels
-from calibgui.engine.detection.lattice import Lattice
+from calibgui.engine.detection.lattice import Lattice, compute_filled_share, cut_middle
 from calibgui.engine.errors import NoBoardError
 
 _PLAIN = 1 / 8
 """How far from the corners nothing is printed, squares: the narrowest border of a tag, one of the
 eight cells of t36h11."""
+_MAX_LOOKED_AT, _MIN_SEEN_SHARE = 256, 0.5
+"""Number of corners, in the middle of a lattice of hundreds, between which tags are looked for
+before it grows, and the least share of them that are not hidden: a texture's has none, and to grow,
+refine and read all of it would take longer than all else."""
 
 
 def find_tagged_checkerboard(
@@ -65,12 +72,25 @@ def find_tagged_checkerboard(
     outline = None if roi is None else region.check_outline(roi)
     searched = None if outline is None else region.enlarge_outline(outline)
     tried: list[Candidate] = []
-    for candidates in find_candidates(grey, searched, plain=_PLAIN):
+    make_negative = cache(lambda: invert_levels(grey))  # for the candidates that are asked for it
+    # Tags of a stated board need not be read one by one, and those of a lattice that grows were.
+    may_show_tags = None not in (grid_size, pattern.family, pattern.step)
+
+    def is_other(lattice: Lattice, _: int) -> bool:
+        nonlocal may_show_tags
+        if may_show_tags or len(lattice) < THRESHOLDS.search.min_judged_corners:
+            return False
+        may_show_tags = _may_show_tags(grey, make_negative, lattice, pattern)
+        return not may_show_tags
+
+    for candidates in find_candidates(grey, searched, plain=_PLAIN, is_other=is_other):
         for candidate in candidates:
             if find_same(candidate, tried):
                 continue
             tried.append(candidate)
-            board = _identify_board(grey, candidate.lattice, pattern, grid_size)
+            if candidate.is_other:
+                continue
+            board = _identify_board(grey, make_negative, candidate.lattice, pattern, grid_size)
             if board is not None:
                 return _locate_corners(grey, *board, outline, method)
     if tried:
@@ -85,22 +105,47 @@ def find_tagged_checkerboard(
     )
 
 
+def _may_show_tags(
+    grey: GreyImage,
+    make_negative: Callable[[], GreyImage],
+    lattice: Lattice,
+    pattern: TaggedCheckerboard,
+) -> bool:
+    """Return whether tags are read in the middle of a lattice, or too much is hidden there to tell;
+    the arguments are those of `_identify_board`."""
+    middle = cut_middle(lattice, int(np.sqrt(_MAX_LOOKED_AT / compute_filled_share(lattice))))
+    if len(middle) < _MIN_SEEN_SHARE * _MAX_LOOKED_AT:
+        return True
+    part, _ = refine_lattice(grey, middle, plain=_PLAIN)
+    prints = list_prints(pattern.family, pattern.border)
+    return any(
+        len(reader.read(tag_print).which)
+        for _, reader in _list_readers(grey, make_negative, part)
+        for tag_print in prints
+    )
+
+
 def _identify_board(
     grey: GreyImage,
+    make_negative: Callable[[], GreyImage],
     lattice: Lattice,
     pattern: TaggedCheckerboard,
     grid_size: GridSize | None,
 ) -> tuple[Lattice, TaggedCheckerboard] | None:
     """Identify a lattice by the tags in its dark squares, or in its bright ones, printed inversely.
 
+    Args:
+        grey: (h, w) grey levels.
+        make_negative: makes its negative, once.
+        lattice: corners.
+        pattern: what is stated of the board.
+        grid_size: rows and columns of corners, if stated.
+
     Returns:
         The lattice as the whole board, its first corner in row and column 0, and the pattern;
         None if it does not show such a board.
     """
-    for image, seen in ((grey, lattice), (invert_levels(grey), _exchange_colours(lattice))):
-        squares, quads = _list_dark_squares(seen)
-        may_be_tags = np.isfinite(rate_borders(image, quads))  # most are evenly dark
-        squares, reader = squares[may_be_tags], TagReader(image, quads[may_be_tags])
+    for squares, reader in _list_readers(grey, make_negative, lattice):
         boards = [
             board
             for tag_print in list_prints(pattern.family, pattern.border)
@@ -111,6 +156,18 @@ def _identify_board(
             best = max(boards, key=lambda board: board.rating)
             return best.lattice, best.pattern
     return _place_by_all_tags(grey, lattice, pattern, grid_size)
+
+
+def _list_readers(
+    grey: GreyImage, make_negative: Callable[[], GreyImage], lattice: Lattice
+) -> Iterator[tuple[IntArray, TagReader]]:
+    """List the squares (n, 2) of a lattice that may be tags with their reader, the dark ones and
+    then the bright ones in the negative; most are filled evenly."""
+    for is_inverted in (False, True):
+        image = make_negative() if is_inverted else grey
+        squares, quads = _list_dark_squares(_exchange_colours(lattice) if is_inverted else lattice)
+        may_be_tags = np.isfinite(rate_borders(image, quads))
+        yield squares[may_be_tags], TagReader(image, quads[may_be_tags])
 
 
 def _place_by_all_tags(

@@ -37,7 +37,7 @@ from calibgui.engine.detection.detector_io import check_grey_levels
 from calibgui.engine.detection.lattice import (
     Lattice,
     compute_filled_share,
-    drop_isolated_and_crop,
+    cut_middle,
     is_large_enough,
     is_scattered,
 )
@@ -155,7 +155,7 @@ def _lacks_dots(lattice: Lattice, grey: GreyImage, depth: int) -> bool:
 def _may_show_dots(lattice: Lattice, grey: GreyImage) -> bool:
     """Return whether there may be dots between the corners of a lattice: those in its middle, if
     they are not mostly hidden, since all may be thousands."""
-    middle = _cut_middle(lattice, int(np.sqrt(_MAX_COMPARED / compute_filled_share(lattice))))
+    middle = cut_middle(lattice, int(np.sqrt(_MAX_COMPARED / compute_filled_share(lattice))))
     part = middle if len(middle) >= _MIN_SEEN_SHARE * _MAX_COMPARED else lattice
     return may_be_dots(measure_dots(grey, refine_lattice(grey, part, plain=PLAIN)[0]))
 
@@ -195,7 +195,7 @@ def _explain_missing_board(
     seen = [each.board.lattice for each in placed if not is_scattered(each.board.lattice, least)]
     if not seen and bare:
         largest = max((each.lattice for each in bare), key=_measure_edges)
-        part = _cut_middle(largest, _MAX_SHOWN_LINES)  # may be hidden
+        part = cut_middle(largest, _MAX_SHOWN_LINES)  # may be hidden
         is_seen = is_large_enough(part) and compute_filled_share(part) >= least
         if is_seen and not isinstance(refine_board(grey, part, METHODS[0], PLAIN), Refusal):
             seen = [largest]
@@ -215,16 +215,6 @@ def _explain_missing_board(
 def _measure_edges(lattice: Lattice) -> float:
     """Measure the length of the edges at a lattice's corners, px."""
     return float(np.nansum(lattice.spacing()[lattice.found]))
-
-
-def _cut_middle(lattice: Lattice, most: int) -> Lattice:
-    """Cut the middle out of a lattice, `most` rows and columns at most, less isolated corners."""
-    (top, left), (bottom, right) = (
-        [max((lines - most) // 2, 0) for lines in lattice.shape],
-        [min((lines + most) // 2, lines) for lines in lattice.shape],
-    )
-    dark = lattice.dark ^ bool((top + left) % 2)
-    return drop_isolated_and_crop(Lattice(lattice.uv[top:bottom, left:right], dark))
 
 
 def _number_corners(

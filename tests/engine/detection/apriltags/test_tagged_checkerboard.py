@@ -14,11 +14,14 @@ from numpy.typing import NDArray
 from calibgui.engine.boards.board import Board
 from calibgui.engine.boards.tagged_checkerboard import TaggedCheckerboard
 from calibgui.engine.camera.distortion import project_points
+from calibgui.engine.detection.apriltags import find_tagged_checkerboard
+from calibgui.engine.detection.checkerboard import pyramid_search
 from calibgui.engine.detection.find_corners import find_corners
 from calibgui.engine.errors import NoBoardError
 from calibgui.engine.images.reading import read_image
 from tests.engine.detection.apriltags.test_april_grid import CAMERA, FISHEYE, assert_at_bound
 from tests.engine.detection.conftest import Scene
+from tests.scenes.perspective import photograph_board, photograph_pattern
 
 BOARD = Scene(
     Board(10, 14, 16.0, TaggedCheckerboard("t25h7", 2, 4, False)), camera=CAMERA, distance=300.0
@@ -194,3 +197,46 @@ def test_photographs_of_a_fisheye(data_dir: Path) -> None:
     assert located > 0.995 * stored_count
     assert near > 0.95 * compared
     assert nearer > 0.97 * differing
+
+
+@pytest.mark.parametrize("step", [2, 6])
+@pytest.mark.parametrize("is_inverted", [False, True])
+def test_a_board_of_hundreds_of_corners(step: int, is_inverted: bool) -> None:
+    """Tags in its middle show that it is one; half of that is hidden."""
+    board = Board(21, 23, 20.0, TaggedCheckerboard("t36h11", 1, step, True))
+    image = photograph_pattern((1200, 1100), board, 0.9, 0.7)
+    image[550:700, 400:800] = 205
+    corners = find_corners(255 - image if is_inverted else image, pattern=TaggedCheckerboard())
+    assert len(corners) > 400
+    assert corners.pattern == board.pattern
+
+
+def test_a_large_lattice_without_tags_is_neither_grown_nor_read(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """In the "stripes" of 12 megapixels one of 2100 corners took five times as long as a board."""
+    image = photograph_board((640, 480), (21, 29), 14.0, 0.8)
+    monkeypatch.setattr(pyramid_search, "grow_lattice", lambda *_: pytest.fail("it was grown"))
+    monkeypatch.setattr(
+        find_tagged_checkerboard, "_identify_board", lambda *_: pytest.fail("it was read")
+    )
+    with pytest.raises(NoBoardError, match="no tags"):
+        find_corners(image, pattern=TaggedCheckerboard())
+
+
+def test_the_negative_is_made_once_and_for_boards_without_dark_tags(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    made: list[int] = []
+    invert = find_tagged_checkerboard.invert_levels
+    monkeypatch.setattr(
+        find_tagged_checkerboard, "invert_levels", lambda grey: made.append(1) or invert(grey)
+    )
+    find_corners(FROM_TOP.image(), pattern=TaggedCheckerboard())
+    assert not made
+    two = np.full((480, 1280), 205, np.uint8)
+    two[:, :640] = photograph_board((640, 480), (7, 9), 30.0, 0.8)
+    two[:, 640:] = photograph_board((640, 480), (5, 6), 40.0, 0.8)
+    with pytest.raises(NoBoardError):
+        find_corners(two, pattern=TaggedCheckerboard())
+    assert len(made) == 1
