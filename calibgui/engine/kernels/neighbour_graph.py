@@ -124,18 +124,26 @@ def _compute_cosine(along: Array, k: int, other: Array, k_other: int) -> float:
 
 
 @compiled_part
-def _measure_edge_step(
-    g: GreyImage, here: Array, du: float, dv: float, distance: float, places: Array, sign: float
-) -> float:
-    """Return the least step of the given sign across the line from `here` along (du, dv)."""
+def _shows_edge(
+    g: GreyImage,
+    here: Array,
+    du: float,
+    dv: float,
+    distance: float,
+    places: Array,
+    sign: float,
+    least: float,
+) -> bool:
+    """Return whether the step across the line from `here` along (du, dv) has the given sign and is
+    more than `least` at all places; between points of a texture it mostly fails at the first."""
     aside = max(_SIDE_OFFSET * distance, _MIN_SIDE_OFFSET)
-    least = np.inf
     for s in places:
         u, v = here[0] + s * distance * du, here[1] + s * distance * dv
         step = bilinear(g, u - aside * dv, v + aside * du)
         step -= bilinear(g, u + aside * dv, v - aside * du)
-        least = min(least, sign * step)
-    return least
+        if not sign * step > least:
+            return False
+    return True
 
 
 @compiled
@@ -174,8 +182,8 @@ def _choose_neighbours(
             if _compute_cosine(mine, (k + 1) % 4, other, (k_back + 3) % 4) <= min_parallel:
                 continue
             sign = 1.0 if k % 2 == 1 else -1.0
-            step = _measure_edge_step(g, here, du, dv, distance, places, sign)
-            if step > min_edge_step * min(contrast[i], contrast[j]):
+            least = min_edge_step * min(contrast[i], contrast[j])
+            if _shows_edge(g, here, du, dv, distance, places, sign, least):
                 ends[i, k] = 4 * j + k_back
 
 

@@ -150,6 +150,8 @@ def _fill_places(
     offset = points.uv[index] - predicted[r, c]
     near = measure_in_steps(offset, right[r, c], down[r, c]) < max_deviation
     index, r, c = index[near], r[near], c[near]
+    if not len(index):
+        return None
     free = _are_free(points.uv[index], right[r, c], down[r, c], lattice)
     index, r, c = index[free], r[free], c[free]
     if not len(index):

@@ -226,6 +226,7 @@ def _split_components(
 def _find_components_with_cell(size: IntArray, placed: Int32Array, agree: BoolArray) -> IntArray:
     """Find the components of `size` (k,) junctions that hold a full cell of those that agree (m,);
     placed (m, 3) are the rows, columns and turns of all, one component after the other."""
+    agree = agree & np.repeat(size >= _MIN_JUNCTIONS, size)  # most of a texture's are smaller
     component = np.repeat(np.arange(len(size)), size)[agree]
     place = placed[agree, :2] - placed[:, :2].min(axis=0)
     rows, cols = (int(end) + 2 for end in place.max(axis=0, initial=0))

@@ -25,7 +25,7 @@ import numpy as np
 import scipy
 
 from calibgui.engine import opencv
-from calibgui.engine.arrays import Array, GreyImage
+from calibgui.engine.arrays import Array, GreyImage, compute_median
 from calibgui.engine.detection.checkerboard import a_contrario, board_ends, prefilter
 from calibgui.engine.detection.checkerboard.fit_thresholds import FIT_THRESHOLDS
 from calibgui.engine.detection.checkerboard.lattice_growth import PointIndex, grow_lattice
@@ -251,7 +251,9 @@ def _is_chance(lattice: Lattice, junctions: Junctions) -> bool:
     bound = a_contrario.bound_log_others(lattice.found)
     if math.log2(max(len(junctions) - len(lattice), 1)) < bound:
         return False
-    own = np.isin(junctions.uv[:, 0], lattice.uv[..., 0])
+    # Thousands of junctions are looked up among few corners: `np.isin` would sort all of them.
+    corners, u = np.sort(lattice.uv[lattice.found, 0]), junctions.uv[:, 0]
+    own = corners[np.searchsorted(corners[:-1], u)] == u
     if not own.any():
         return False
     least = _find_least_contrast(junctions.contrast[own])
@@ -299,6 +301,8 @@ def _grow_lattices(
         grown.append(lattice)
         if compute_filled_share(lattice) < limits.min_filled_in_texture:
             sparse.append(lattice)
+        if not is_sufficient(lattice):
+            continue
         if lattice is not seed and _refuse(lattice, content):  # the seeds passed that before
             continue
         if is_wanted:
@@ -324,7 +328,7 @@ def _count_others(lattice: Lattice, junctions: Junctions) -> int:
 def _find_least_contrast(contrast: Array) -> float:
     """Return the contrast below which a junction is too faint to be a corner of the same board as
     those of the contrasts (n,)."""
-    return float(FIT_THRESHOLDS.template.min_relative_contrast * np.median(contrast))
+    return float(FIT_THRESHOLDS.template.min_relative_contrast * compute_median(contrast))
 
 
 def _select_new(content: _LevelContent, junctions: int, shown: list[Array]) -> list[Lattice]:

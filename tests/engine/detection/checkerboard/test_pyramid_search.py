@@ -7,11 +7,12 @@ from typing import Any
 import numpy as np
 import pytest
 
-from calibgui.engine.detection.checkerboard import neighbour_graph, pyramid_search
+from calibgui.engine.arrays import GreyImage
+from calibgui.engine.detection.checkerboard import board_ends, neighbour_graph, pyramid_search
 from calibgui.engine.detection.checkerboard.lattice_growth import grow_lattice
 from calibgui.engine.detection.checkerboard.pyramid_search import Candidate
 from calibgui.engine.detection.checkerboard.x_junctions import Junctions
-from calibgui.engine.detection.lattice import Lattice, compute_filled_share
+from calibgui.engine.detection.lattice import Lattice, compute_filled_share, is_large_enough
 from tests.engine.detection.checkerboard.conftest import Draw
 from tests.scenes.perspective import photograph_board
 from tests.scenes.without_board import draw_without_board
@@ -71,6 +72,26 @@ def test_a_lattice_that_waits_for_finer_levels_is_judged_once(
 def test_lattices_that_chance_explains_are_not_grown(monkeypatch: pytest.MonkeyPatch) -> None:
     """One level of these waves has four, all of them ragged."""
     assert count_sparse(monkeypatch, 47, plain=0.26) == 0
+
+
+def test_no_ends_are_looked_for_around_lattices_too_small_for_a_board(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """These waves have twelve of few crossings, and to drop some makes none larger."""
+    grown: list[Lattice] = []
+
+    def grow(*args: Any) -> Lattice:
+        grown.append(grow_lattice(*args))
+        return grown[-1]
+
+    def drop(lattice: Lattice, _: GreyImage) -> Lattice:
+        assert is_large_enough(lattice)
+        return lattice
+
+    monkeypatch.setattr(pyramid_search, "grow_lattice", grow)
+    monkeypatch.setattr(board_ends, "drop_stray_lines", drop)
+    list(pyramid_search.find_candidates(draw_without_board(38), plain=0.26))
+    assert sum(not is_large_enough(lattice) for lattice in grown) == 12
 
 
 def test_faint_crossings_beside_a_lattice_do_not_count() -> None:
