@@ -52,7 +52,11 @@ def add_blurred_cells(change: Array, at: Array, areas: Array, height: Array, blu
 
 def subtract_change(image: GreyImage, change: Array) -> GreyImage:
     """Return an image (h, w) less `change` (h, w), of the same type."""
-    cleaned = image - change
+    changed = np.flatnonzero(change.any(axis=1))
+    rows = slice(changed[0], changed[-1] + 1) if len(changed) else slice(0)
+    part = image[rows] - change[rows]
     if image.dtype in (np.uint8, np.uint16):
-        cleaned = np.clip(np.rint(cleaned), 0, np.iinfo(image.dtype).max)
-    return cleaned.astype(image.dtype)
+        np.rint(part, out=part).clip(0, np.iinfo(image.dtype).max, out=part)
+    cleaned = image.copy()
+    cleaned[rows] = part
+    return cleaned

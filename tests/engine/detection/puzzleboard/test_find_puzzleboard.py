@@ -15,10 +15,11 @@ from calibgui.engine.boards.pattern import Symmetry
 from calibgui.engine.boards.puzzleboard import PuzzleBoard
 from calibgui.engine.camera.camera import Camera
 from calibgui.engine.camera.distortion import project_points
+from calibgui.engine.detection import grid_map
 from calibgui.engine.detection.corners import Corners
 from calibgui.engine.detection.find_corners import find_corners
 from calibgui.engine.detection.lattice import Lattice
-from calibgui.engine.detection.puzzleboard import find_puzzleboard
+from calibgui.engine.detection.puzzleboard import dot_removal, find_puzzleboard
 from calibgui.engine.detection.puzzleboard.dot_removal import remove_blurred_dots
 from calibgui.engine.errors import NoBoardError
 from tests.engine.detection.conftest import Scene
@@ -155,6 +156,34 @@ def test_only_what_may_be_dots_is_removed() -> None:
     waves = 127 + 80 * np.sin(np.pi * (u - 60) / 30) * np.sin(np.pi * (v - 60) / 30)
     crossings = 60.0 + 30 * np.stack(np.meshgrid(np.arange(10), np.arange(8)), axis=-1)
     assert remove_blurred_dots(waves, Lattice(crossings, dark=True)) is waves
+
+
+def test_blurred_dots_are_placed_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Contrast and blur are measured again without them, but the corners stay."""
+    fitted: list[Lattice] = []
+    fit = grid_map.fit_grid_map
+
+    def count(lattice: Lattice) -> grid_map.GridMap:
+        fitted.append(lattice)
+        return fit(lattice)
+
+    monkeypatch.setattr(grid_map, "fit_grid_map", count)
+    uv = project_points(_BOARD.points(), _CAMERA, _SCENE.pose).reshape(8, 10, 2)
+    remove_blurred_dots(_SCENE.image(2.0), Lattice(uv, dark=False))
+    assert len(fitted) == 1
+
+
+def test_half_discs_are_divided_finely_enough(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Finer cells change no grey level by more than 0.5 % of what is taken out."""
+    uv = project_points(_BOARD.points(), _CAMERA, _SCENE.pose).reshape(8, 10, 2)
+    image = _SCENE.image(1.0, noise=0.0).astype(np.float32)
+    cleaned = remove_blurred_dots(image, Lattice(uv, dark=False))
+    monkeypatch.setattr(dot_removal, "_RINGS", 20)
+    points, areas = dot_removal._divide_half_disc()
+    monkeypatch.setattr(dot_removal, "_POINTS", points)
+    monkeypatch.setattr(dot_removal, "_AREAS", areas)
+    finer = remove_blurred_dots(image, Lattice(uv, dark=False))
+    assert abs(cleaned - finer).max() < 0.005 * abs(cleaned - image).max()
 
 
 def test_a_wrong_statement_is_told() -> None:
