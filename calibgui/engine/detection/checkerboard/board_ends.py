@@ -106,7 +106,7 @@ def drop_stray_lines(lattice: Lattice, image: GreyImage) -> Lattice:
         turned = turn_lattice(lattice, quarters)
         if not len(turned.uv):
             continue
-        if _measure_fullness(turned, image.shape) < limits.min_full_border:
+        if _is_first_row_sparse(turned, image.shape):
             rest = drop_isolated_and_crop(Lattice(turned.uv[1:], not turned.dark))
             if len(rest) and _does_end_above(rest, image, step, may_be_cut=True):
                 lattice = turn_lattice(rest, -quarters)
@@ -129,15 +129,17 @@ def _drop_beyond_ends(lattice: Lattice, image: GreyImage) -> Lattice:
     return lattice
 
 
-def _measure_fullness(lattice: Lattice, shape: tuple[int, ...]) -> float:
-    """Measure the share of the first row's places in an image of `shape` (h, w) that are found."""
-    missing = np.argwhere(~lattice.found[:1])
-    if not len(missing):
-        return 1.0
-    uv = grid_map.fit_grid_map(lattice).locate(missing.astype(np.float64))
-    found = int(np.count_nonzero(lattice.found[0]))
+def _is_first_row_sparse(lattice: Lattice, shape: tuple[int, ...]) -> bool:
+    """Return whether so few of the first row's places in an image of `shape` (h, w) are found as
+    in no full border. Where enough of all places are, it need not be known where the others lie."""
+    least, first = THRESHOLDS.verification.min_full_border, lattice.found[0]
+    found = int(np.count_nonzero(first))
+    if found / len(first) >= least:
+        return False
+    missing = np.argwhere(~lattice.found[:1]).astype(np.float64)
+    uv = grid_map.fit_grid_map(lattice).locate(missing)
     in_image = found + int(np.count_nonzero(are_in_image(uv, shape)))
-    return found / in_image if in_image else 0.0
+    return not in_image or found / in_image < least
 
 
 def _does_alternate_above(lattice: Lattice, image: GreyImage, min_difference: float) -> bool:

@@ -135,6 +135,19 @@ class TestStrayLines:
         lattice = drop(place(6, 9), *((0, col) for col in range(2, 9)))
         assert board_ends.drop_stray_lines(lattice, paint(alternate(6, 9))) is lattice
 
+    def test_lines_that_are_full_enough_are_not_looked_for_in_the_image(
+        self, monkeypatch: pytest.MonkeyPatch
+    ) -> None:
+        """The first and the last column lack one of nine corners, the first row seven."""
+        mapped: list[Lattice] = []
+        fit = board_ends.grid_map.fit_grid_map
+        monkeypatch.setattr(
+            board_ends.grid_map, "fit_grid_map", lambda each: mapped.append(each) or fit(each)
+        )
+        lattice = drop(place(9, 9), *((0, col) for col in (0, *range(3, 9))), (4, 0), (5, 8))
+        board_ends.drop_stray_lines(lattice, paint(alternate(9, 9)))
+        assert len(mapped) == 1
+
 
 class TestStandingAlone:
     def test_up_to_half_of_it_may_be_hidden(self) -> None:
