@@ -48,9 +48,10 @@ _ENOUGH_PIXELS = 4096
 
 
 class _Support(Protocol):
-    """The method of ``EdgeSupport`` that is used here."""
+    """The methods of ``EdgeSupport`` that are used here."""
 
     def pack(self) -> Array: ...
+    def bound_reach(self) -> int: ...
 
 
 class _Model(Protocol):
@@ -322,6 +323,33 @@ def _add_products(w: _Floats, m: int, out: Array) -> None:
 
 
 @compiled_part
+def _add_scores(
+    w: _Floats,
+    offset: _Ints,
+    u: _Floats,
+    v: _Floats,
+    t: _Floats,
+    swing: _Floats,
+    sign: _Single,
+    mu: int,
+    mv: int,
+    m: int,
+    scores: Array,
+) -> None:
+    """Add to scores (2, 2, k) what m pixels say, as ``accumulate_scores``; the offsets of pixels
+    are mirrored to (mu, mv) less them."""
+    for edge in range(2):
+        flat = abs(t[2 * edge]) >= abs(t[2 * edge + 1])
+        x, mirror = (offset[0], mu) if flat else (offset[1], mv)
+        by_distance = w[_G + (1 + edge) * BLOCK :]
+        for p in range(m):
+            line = abs(2 * x[p] - mirror) // 2
+            slope = sign * (swing[0] + swing[1] * u[p] + swing[2] * v[p]) * by_distance[p]
+            scores[edge, 0, line] += slope * w[_J + 9 * BLOCK + p]
+            scores[edge, 1, line] += slope * slope
+
+
+@compiled_part
 def _add_corner(
     offset: _Ints,
     grey: _Floats,
@@ -332,9 +360,11 @@ def _add_corner(
     u: _Floats,
     v: _Floats,
     out: Array,
+    scores: Array,
 ) -> None:
-    """Add to out (columns, columns) the products of one corner's pixels, and leave in grey the
-    residuals; near (33,) is laid out as `_pack_model` says."""
+    """Add to out (columns, columns) the products of one corner's pixels, or to scores (2, 2, k) if
+    that is not empty, and leave in grey the residuals; near (33,) is laid out as `_pack_model`
+    says."""
     t, n, kappa = near[0:4], near[4:8], near[8:10]
     blur, size, level, swing = near[10:16], near[16:22], near[22:25], near[25:28]
     rho, sign, growth, box = near[28], near[29], near[30], near[31:33]
@@ -351,6 +381,9 @@ def _add_corner(
         if out.shape[0] > _COLUMNS:
             _fill_light_columns(w, u, v, m)
         _add_products(w, m, out)
+        if scores.shape[2]:
+            mu, mv = int(np.rint(-2 * du)), int(np.rint(-2 * dv))
+            _add_scores(w, offset[:, begin:], u, v, t, swing, sign, mu, mv, m, scores)
         for p in range(m):
             grey[begin + p] = w[_J + 9 * BLOCK + p]
     for a in range(out.shape[0]):
@@ -411,8 +444,10 @@ def _accumulate(
     square: _Floats,
     out: Array,
     odd: Array,
+    scores: Array,
 ) -> None:
-    """Fill out (n, columns, columns) and, unless it is empty, odd (n, 2)."""
+    """Fill out (n, columns, columns) and, unless they are empty, odd (n, 2) and scores
+    (n, 2, 2, k)."""
     offset, grey = np.empty((2, room), dtype=np.int32), np.empty(room, dtype=_F)
     w = np.empty(_ROWS * BLOCK, dtype=_F)
     u, v = np.empty(BLOCK, dtype=_F), np.empty(BLOCK, dtype=_F)
@@ -420,7 +455,7 @@ def _accumulate(
         count = _read(image, uv[i], bands[i], offset, grey)
         du, dv = np.rint(uv[i, 0]) - centre[i, 0], np.rint(uv[i, 1]) - centre[i, 1]
         pixels = offset[:, :count], grey[:count]
-        _add_corner(*pixels, _F(du), _F(dv), near[i], w, u, v, out[i])
+        _add_corner(*pixels, _F(du), _F(dv), near[i], w, u, v, out[i], scores[i])
         if odd.shape[0]:
             _measure_odd_part(*pixels, int(np.rint(-2 * du)), int(np.rint(-2 * dv)), square, odd[i])
 
@@ -438,8 +473,21 @@ def accumulate_normal_equations(
     square = np.full((side, side), np.nan, dtype=_F)
     room = _bound_pixels(bands)
     image = make_read_only(image)
-    _accumulate(image, uv, bands, room, centre, near.astype(_F), square, out, odd_part)
+    scores = np.empty((n, 2, 2, 0))
+    _accumulate(image, uv, bands, room, centre, near.astype(_F), square, out, odd_part, scores)
     return out, odd_part
+
+
+def accumulate_scores(image: GreyImage, model: _Model) -> Array:
+    """Compute ``accumulate_scores`` of the reference."""
+    n = len(model.unknowns)
+    uv, support = np.ascontiguousarray(model.unknowns[:, 0:2]), model.find_support()
+    bands, near = support.pack(), _pack_model(model).astype(_F)
+    out, odd_part, square = np.empty((n, 0, 0)), np.empty((0, 2)), np.empty((0, 0), dtype=_F)
+    scores = np.zeros((n, 2, 2, support.bound_reach() + 1))
+    room, image = _bound_pixels(bands), make_read_only(image)
+    _accumulate(image, uv, bands, room, uv, near, square, out, odd_part, scores)
+    return scores
 
 
 def _pack_model(model: _Model) -> Array:

@@ -9,11 +9,12 @@ import numpy as np
 import pytest
 
 from calibgui.engine import kernels
-from calibgui.engine.detection.checkerboard import x_corner_step
+from calibgui.engine.detection.checkerboard import corner_noise, x_corner_step
 from calibgui.engine.detection.checkerboard.x_corner_model import (
     EdgeSupport,
     XCornerModel,
     accumulate_normal_equations,
+    accumulate_scores,
 )
 from calibgui.engine.detection.find_corners import find_corners
 from tests.engine.kernels.conftest import make_callable
@@ -53,6 +54,24 @@ def test_compiled_and_readable_find_the_same(
     for quantity in ("residual", "blur", "contrast"):
         pair = getattr(compiled, quantity), getattr(readable, quantity)
         np.testing.assert_allclose(*pair, rtol=1e-3)
+
+
+@pytest.mark.parametrize(
+    "scene", [{}, {"ink": 0.05}, {"square": 60.0, "size": (480, 360), "grid_size": (3, 4)}], ids=str
+)
+def test_the_same_scores_of_lines(scene: dict[str, Any], monkeypatch: pytest.MonkeyPatch) -> None:
+    seen = []
+    monkeypatch.setattr(
+        corner_noise,
+        "accumulate_scores",
+        lambda *args: seen.append(args) or accumulate_scores(*args),
+    )
+    usual = {"size": (320, 240), "square": 20.0, "shift": 5.0, "grid_size": (5, 6), "parts": 2}
+    find_corners(draw(Conditions(**{**usual, **scene}), 3).photograph(0))
+    mine, its = accumulate_scores.kernel(*seen[0]), accumulate_scores.reference(*seen[0])
+    for i in range(2):
+        scale = abs(its[:, :, i]).max()
+        np.testing.assert_allclose(mine[:, :, i] / scale, its[:, :, i] / scale, atol=1e-4)
 
 
 def test_the_same_step_of_the_unknowns() -> None:

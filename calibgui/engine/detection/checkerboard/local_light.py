@@ -71,7 +71,7 @@ def find_uneven_light(
     gain = free * square - (free - _GRADIENTS) * lit_square
     is_clear = gain > _THRESHOLDS.min_gain * _GRADIENTS * np.maximum(lit_square, least_noise)
     # A model of as many unknowns as pixels describes anything.
-    is_clear &= free - _GRADIENTS >= FIT_THRESHOLDS.edges.min_noise_freedom
+    is_clear &= free - _GRADIENTS >= FIT_THRESHOLDS.noise.min_freedom
     if not is_clear.any():
         return np.asarray(is_clear)
     share = compute_median(gain / np.maximum(free * square, least_noise))

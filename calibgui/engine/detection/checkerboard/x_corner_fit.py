@@ -9,10 +9,8 @@ would be if the rest were known, the Cramer-Rao bound
 
 For the same reason only the odd part of what the model leaves unexplained says how well c is
 known: a blur that is not Gaussian leaves an even one. So noise^2 is half the mean square
-difference of opposite pixels, unless that is more than the mean square itself: in a sharp image
-no two pixels are quite opposite. It is at least that of rounded grey levels: a drawn or saturated
-image has no other. The covariance does not contain what the model gets wrong in the same way at
-every corner.
+difference of opposite pixels, times what neighbouring pixels have in common (`corner_noise`). The
+covariance does not contain what the model gets wrong in the same way at every corner.
 
 What is odd too and would not decouple - curvature and the light's gradients gm, ga - comes from
 the whole board (`board_priors`), as does the spread w of the ink.
@@ -56,6 +54,11 @@ from calibgui.engine.arrays import (
 )
 from calibgui.engine.detection.checkerboard import edge_profiles
 from calibgui.engine.detection.checkerboard.board_priors import BoardPriors, PredictedBoardPriors
+from calibgui.engine.detection.checkerboard.corner_noise import (
+    estimate_growth,
+    estimate_noise,
+    pool_noise,
+)
 from calibgui.engine.detection.checkerboard.edge_bend import ReadEdges, clip_arms
 from calibgui.engine.detection.checkerboard.edge_map import EdgeGeometry
 from calibgui.engine.detection.checkerboard.edge_profiles import EdgeProfiles
@@ -189,7 +192,7 @@ def fit_x_corners(
     is_plain = priors is None and min(plain, bare_edge) == 0.5
     uneven = find_uneven_light(before, products, square, least_noise, is_plain, is_bare)
     freedom = products[M][M] - UNKNOWNS  # the derivative by m is 1
-    noise = _pool_noise(_estimate_noise(square, odd_part), freedom)
+    noise = pool_noise(estimate_noise(square, odd_part), freedom)
     noise = np.maximum(noise, least_noise)
     covariance = noise[:, None, None] * inverse
     by_bend = np.zeros_like(covariance)
@@ -205,8 +208,8 @@ def fit_x_corners(
         if is_plain:
             told = products + _weigh_gradients(before, better, lights, noise, products)
             model, opened, _ = take_lit_step(before, told)
-            growth = np.trace(opened, axis1=1, axis2=2) / np.trace(inverse, axis1=1, axis2=2)
-            at = np.flatnonzero(growth > 1 + _THRESHOLDS.max_open_light)
+            opening = np.trace(opened, axis1=1, axis2=2) / np.trace(inverse, axis1=1, axis2=2)
+            at = np.flatnonzero(opening > 1 + _THRESHOLDS.max_open_light)
             if len(at):
                 told[at] += read_flat_squares(image, before.select(at), noise[at])
                 model, opened, _ = take_lit_step(before, told)
@@ -217,6 +220,8 @@ def fit_x_corners(
             model = _correct_for_bend(model, better, edges, bend)
             covariance = covariance + _compute_light_covariance(model, inverse, edges, lights[0])
         by_bend = _compute_bend_covariance(model, followed.variance)
+    growth = estimate_growth(image, model, noise, ~uneven)
+    covariance = growth * covariance
     residual = np.sqrt(square)
     fit = XCornerFit(_correct_for_light(model), covariance + by_bend, residual, residual)
     if not uneven.any():
@@ -226,7 +231,7 @@ def fit_x_corners(
     )
     other = XCornerFit(
         _correct_for_light(lit),
-        covariance + by_bend[uneven],
+        growth * covariance + by_bend[uneven],
         np.sqrt(lit_square),
         residual[uneven],
     )
@@ -473,26 +478,3 @@ def _correct_for_light(model: XCornerModel) -> XCornerModel:
     variance = np.mean(unknowns[BLUR] ** 2, axis=1)
     unknowns[C] += (variance / unknowns[A])[:, None] * model.contrast_gradient
     return replace(model, unknowns=unknowns)
-
-
-def _estimate_noise(square: Array, odd_part: Array) -> Array:
-    """Estimate noise^2 (n,) from the mean square (n,) of the residual and from its odd part
-    (n, 2)."""
-    total, pairs = odd_part.T
-    enough = pairs > _THRESHOLDS.min_opposite_pixels
-    noise = np.where(enough, total / np.maximum(pairs - 2, 1), square)
-    return square if compute_median(noise) > compute_median(square) else noise
-
-
-def _pool_noise(noise: Array, freedom: Array) -> Array:
-    """Return noise^2 (n,) that those corners take from the board which hardly tell it: a model of
-    as many unknowns as pixels leaves nothing unexplained.
-
-    Args:
-        noise: (n,) as each corner tells it, grey levels^2.
-        freedom: (n,) number of pixels that were read beyond the number of unknowns.
-    """
-    known = np.maximum(freedom, 0.0)
-    share = np.minimum(known / _THRESHOLDS.min_noise_freedom, 1.0)
-    pooled = np.sum(known * noise) / max(float(known.sum()), 1.0)
-    return np.asarray(share * noise + (1 - share) * pooled)

@@ -137,6 +137,11 @@ class EdgeSupport:
         )
         return uv.reshape(len(main), -1, 2).astype(np.int64)
 
+    def bound_reach(self) -> int:
+        """Bound the distance of pixels from their corner, px."""
+        sagitta = abs(self.curvature) / 2 * self.arm**2
+        return int(np.ceil((self.arm + self.width + sagitta).max())) + 1
+
     def _measure_extent(self, edge: int) -> tuple[int, int]:
         """Measure the number of lines along, and of pixels across, the largest band of an edge."""
         slant = np.max(abs(self.tangent[:, edge]), axis=1)
@@ -264,6 +269,41 @@ def accumulate_normal_equations(
             J = np.concatenate([J, _compute_light_columns(portion, window, J)], axis=1)
         N[index] = J @ J.transpose(0, 2, 1)
     return N, differences
+
+
+@kernels.with_kernel("x_corner_model", "accumulate_scores")
+def accumulate_scores(image: GreyImage, model: XCornerModel) -> Array:
+    """Accumulate what the lines of pixels across each edge say of its place.
+
+    Each pixel pulls at edge i by its score, the residual times the derivative dI/dd_i. Lines of
+    pixels run along u or v, whichever is more across the edge, and those that lie opposite each
+    other about the corner, to the nearest half pixel, are taken together: what is even under
+    point reflection, as a wrong shape of the blur, cancels.
+
+    Args:
+        image: (h, w) grey levels.
+        model: the model at n corners, whose own support is read.
+
+    Returns:
+        (n, 2, 2, k) by edge: the sums of the scores, grey levels^2 per px, and those of the squares
+        of dI/dd_i, which are their variances over that of independent noise; the lines in their
+        order from the corner.
+    """
+    sums = np.zeros((len(model.unknowns), 2, 2, model.find_support().bound_reach() + 1))
+    for index in _divide_corners(model):
+        portion = model.select(index)
+        window = _Window(*portion.find_support().read(image))
+        J = _compute_columns(portion, window)
+        normals, tangents = portion.normals(), portion.tangents()
+        slopes = np.linalg.solve(normals.transpose(0, 2, 1), -J[:, C[1]])
+        axis = np.argmax(abs(tangents), axis=2)
+        middle = np.rint(2 * portion.unknowns[C]).astype(np.int64)
+        line = abs(2 * window.pixels - middle[:, None]) // 2 * (window.counts > 0)[..., None]
+        for i, edge in np.ndindex(len(index), 2):
+            at, slope = line[i, :, axis[i, edge]], slopes[i, edge]
+            np.add.at(sums[index[i], edge, 0], at, slope * J[i, UNKNOWNS])
+            np.add.at(sums[index[i], edge, 1], at, slope**2)
+    return sums
 
 
 def _divide_corners(read: XCornerModel) -> list[IntArray]:
