@@ -51,7 +51,8 @@ def estimate_noise(square: Array, odd_part: Array) -> Array:
 
 def pool_noise(noise: Array, freedom: Array) -> Array:
     """Return noise^2 (n,) that those corners take from the board which hardly tell it: a model of
-    as many unknowns as pixels leaves nothing unexplained.
+    as many unknowns as pixels leaves nothing unexplained, and where pixels have two levels only, or
+    are repeated, those opposite each other may happen to be equal all around a corner.
 
     Args:
         noise: (n,) as each corner tells it, grey levels^2.
@@ -60,7 +61,8 @@ def pool_noise(noise: Array, freedom: Array) -> Array:
     known = np.maximum(freedom, 0.0)
     share = np.minimum(known / _THRESHOLDS.min_freedom, 1.0)
     pooled = np.sum(known * noise) / max(float(known.sum()), 1.0)
-    return np.asarray(share * noise + (1 - share) * pooled)
+    noise = share * noise + (1 - share) * pooled
+    return np.maximum(noise, _THRESHOLDS.min_relative_noise * compute_median(noise))
 
 
 def estimate_growth(

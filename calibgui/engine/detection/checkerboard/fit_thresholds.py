@@ -142,6 +142,10 @@ class NoiseThresholds:
     """Number of pairs of opposite pixels from which on their differences give the noise."""
     min_freedom: int = 20
     """Number of pixels beyond that of unknowns from which on a corner tells the noise by itself."""
+    min_relative_noise: float = 0.25
+    """Least square of a corner's noise, over the board's median. 30 pairs of pixels tell less
+    by chance at one of 100,000 corners. Without it corners of the troubles "two levels" and
+    "repeated pixels" claimed to be 100 times surer than their neighbours, and were no better."""
     correlation_reach: int = 8
     """Greatest distance of lines of pixels whose errors may be in common, px. With 5 chi2 of
     corners was 1.1 to 1.2 in images enlarged by 3 or smoothed by 1 px."""

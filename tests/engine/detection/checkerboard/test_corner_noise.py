@@ -10,10 +10,15 @@ import numpy as np
 import pytest
 
 from calibgui.engine.detection.checkerboard import x_corner_fit
-from calibgui.engine.detection.checkerboard.corner_noise import compute_growth, estimate_growth
+from calibgui.engine.detection.checkerboard.corner_noise import (
+    compute_growth,
+    estimate_growth,
+    pool_noise,
+)
 from calibgui.engine.detection.find_corners import find_corners
 from tests.scenes.checkerboards import Scene, draw
 from tests.scenes.conditions import Conditions
+from tests.scenes.troubles import TROUBLES
 
 Photograph = Callable[[Scene, int], tuple[np.ndarray[Any, Any], float]]
 """A function from a scene and a seed to an image and its scale."""
@@ -92,3 +97,19 @@ def test_independent_noise_leaves_covariances_as_they_are(monkeypatch: pytest.Mo
     for seed in range(3):
         find_corners(draw(Conditions(noise=float(4**seed), parts=2), seed).photograph(seed))
     assert growths == [1.0, 1.0, 1.0]
+
+
+def test_no_corner_has_far_less_noise_than_the_others() -> None:
+    noise, many = np.array([4.0, 5.0, 3.0, 4.0, 0.0]), np.full(5, 100.0)
+    np.testing.assert_allclose(pool_noise(noise, many), [4.0, 5.0, 3.0, 4.0, 1.0])
+
+
+@pytest.mark.parametrize("trouble", ["two levels", "repeated pixels"])
+def test_corners_whose_opposite_pixels_are_equal_are_no_surer_for_it(trouble: str) -> None:
+    photograph = TROUBLES[trouble](704)
+    corners = find_corners(photograph.image)
+    truth = photograph.boards[0].reshape(-1, 2)
+    error = np.linalg.norm(corners.uv[:, None] - truth, axis=2).min(axis=1)
+    assert corners.cov is not None
+    sigma = np.sqrt(np.trace(corners.cov, axis1=1, axis2=2))
+    assert (error / sigma).max() < 8.0
