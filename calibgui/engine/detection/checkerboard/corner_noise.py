@@ -34,8 +34,13 @@ from __future__ import annotations
 import numpy as np
 
 from calibgui.engine.arrays import Array, BoolArray, GreyImage, compute_median
+from calibgui.engine.detection.checkerboard.edge_bend import clip_arms
 from calibgui.engine.detection.checkerboard.fit_thresholds import FIT_THRESHOLDS
-from calibgui.engine.detection.checkerboard.x_corner_model import XCornerModel, accumulate_scores
+from calibgui.engine.detection.checkerboard.x_corner_model import (
+    C,
+    XCornerModel,
+    accumulate_scores,
+)
 
 _THRESHOLDS = FIT_THRESHOLDS.noise
 
@@ -74,31 +79,39 @@ def estimate_growth(
         image: (h, w) grey levels.
         model: at the n corners of a board.
         noise: (n,) square of the noise pixel by pixel, grey levels^2.
-        usable: (n,) corners that are described by the model up to noise; some of them, all over
-            the board, are looked at.
+        usable: (n,) corners that are described by the model up to noise. Some of them, all over
+            the board, are looked at, but none whose edges the image cuts: what is even about such a
+            corner would not cancel.
 
     Returns:
         The growth; 1 where it is not clearly more.
     """
-    at = np.flatnonzero(usable)
+    off_middle, _ = clip_arms(model.unknowns[C], model.tangents(), model.arm, image.shape[::-1])
+    at = np.flatnonzero(usable & ~off_middle.any(axis=1))
     if len(at) < _THRESHOLDS.min_corners:
         return 1.0
     enough = int(_THRESHOLDS.read_length / model.arm[at].sum(axis=1).mean())
     count = min(max(enough, _THRESHOLDS.min_read_corners), len(at))
     at = at[np.linspace(0, len(at) - 1, count).astype(np.int64)]
-    return compute_growth(accumulate_scores(image, model.select(at)), noise[at])
+    reach = max(
+        _THRESHOLDS.min_correlation_reach,
+        _THRESHOLDS.correlation_reach * float(model.arm[at].mean()),
+    )
+    return compute_growth(accumulate_scores(image, model.select(at)), noise[at], reach)
 
 
-def compute_growth(scores: Array, noise: Array) -> float:
-    """Compute the growth of the covariances from the scores (n, 2, 2, k) of lines of pixels at n
-    corners, see `accumulate_scores`, and the square of their noise (n,), grey levels^2.
+def compute_growth(scores: Array, noise: Array, reach: float) -> float:
+    """Compute the growth of the covariances; 1 where it is not clearly more. Chance makes it 0.9 to
+    1.1 on a board of 54 corners with independent noise.
 
-    It is 1 where it is not clearly more: chance makes it 0.9 to 1.1 on a board of 54 corners with
-    independent noise.
+    Args:
+        scores: (n, 2, 2, k) of lines of pixels at n corners, see `accumulate_scores`.
+        noise: (n,) square of their noise pixel by pixel, grey levels^2.
+        reach: greatest distance of lines whose errors may be in common, px.
     """
     lines = np.arange(scores.shape[3])
     apart = abs(lines[:, None] - lines)
-    window = _compute_window(apart / (_THRESHOLDS.correlation_reach + 1))
+    window = _compute_window(apart / (reach + 1))
     F, h = scores[:, :, 0], scores[:, :, 1]
     total = np.maximum(h.sum(axis=2), 1e-300)
     growth, sigma = _pool_ratios(F @ window * F, total, h @ window * h, noise)

@@ -146,9 +146,12 @@ class NoiseThresholds:
     """Least square of a corner's noise, over the board's median. 30 pairs of pixels tell less
     by chance at one of 100,000 corners. Without it corners of the troubles "two levels" and
     "repeated pixels" claimed to be 100 times surer than their neighbours, and were no better."""
-    correlation_reach: int = 8
-    """Greatest distance of lines of pixels whose errors may be in common, px. With 5 chi2 of
-    corners was 1.1 to 1.2 in images enlarged by 3 or smoothed by 1 px."""
+    min_correlation_reach: float = 8.0
+    """Distance of lines of pixels up to which their errors may be in common at least, px. With 5
+    chi2 of corners was 1.1 to 1.2 in images enlarged by 3 or smoothed by 1 px ..."""
+    correlation_reach: float = 1 / 3
+    """... and over the arms: many pixels of an edge tell what few have in common at distances that
+    images enlarged by 5 and phones have. With 8 px chi2 was 1.5 and 2.3 there, not 1.2 and 1.4."""
     min_corners: int = 6
     """Number of corners from which on a board tells what neighbouring pixels have in common."""
     read_length: float = 1600.0

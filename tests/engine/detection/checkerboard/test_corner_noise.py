@@ -9,7 +9,7 @@ import cv2
 import numpy as np
 import pytest
 
-from calibgui.engine.detection.checkerboard import x_corner_fit
+from calibgui.engine.detection.checkerboard import corner_noise, x_corner_fit
 from calibgui.engine.detection.checkerboard.corner_noise import (
     compute_growth,
     estimate_growth,
@@ -39,18 +39,31 @@ def _draw_scores(corners: int, lines: int, in_common: int, seed: int) -> np.ndar
     return np.stack([2.0 * slopes * noise, slopes**2], axis=2)
 
 
-@pytest.mark.parametrize(("in_common", "growth"), [(2, 2.0), (3, 3.0)])
-def test_errors_in_common_grow_the_covariance(in_common: int, growth: float) -> None:
-    scores = _draw_scores(200, 40, in_common, 0)
-    assert compute_growth(scores, np.full(200, 4.0)) == pytest.approx(growth, rel=0.2)
-    beside = scores.copy()
-    beside[:5, :, 0] = 50.0 * np.sqrt(beside[:5, :, 1])  # a stain, which all lines see
-    assert compute_growth(beside, np.full(200, 4.0)) == pytest.approx(growth, rel=0.2)
+@pytest.mark.parametrize(
+    ("lines", "in_common", "reach"), [(40, 2, 8.0), (40, 3, 8.0), (120, 9, 40.0)]
+)
+def test_errors_in_common_grow_the_covariance(lines: int, in_common: int, reach: float) -> None:
+    """The mean of k independent errors at every line grows the variance by k."""
+    scores, noise = _draw_scores(200, lines, in_common, 0), np.full(200, 4.0)
+    assert compute_growth(scores, noise, reach) == pytest.approx(in_common, rel=0.2)
+    scores[:5, :, 0] = 50.0 * np.sqrt(scores[:5, :, 1])  # a stain, which all lines see
+    assert compute_growth(scores, noise, reach) == pytest.approx(in_common, rel=0.2)
+
+
+@pytest.mark.parametrize(("square", "reach"), [(20.0, 8.0), (60.0, 10.0)])
+def test_errors_are_in_common_as_far_as_edges_tell(
+    square: float, reach: float, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    seen = []
+    monkeypatch.setattr(corner_noise, "compute_growth", lambda *args: seen.append(args[2]) or 1.0)
+    conditions = Conditions(square=square, grid_size=(4, 5), tilt=5.0, parts=2)
+    find_corners(draw(conditions, 0).photograph(0))
+    assert seen == [pytest.approx(reach, rel=0.05)]
 
 
 def test_chance_does_not() -> None:
     for seed in range(30):
-        assert compute_growth(_draw_scores(54, 15, 1, seed), np.full(54, 4.0)) == 1.0
+        assert compute_growth(_draw_scores(54, 15, 1, seed), np.full(54, 4.0), 8.0) == 1.0
 
 
 def _photograph(scene: Scene, seed: int) -> tuple[np.ndarray[Any, Any], float]:
