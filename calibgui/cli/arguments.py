@@ -20,12 +20,12 @@ from calibgui.app.photographs.detection import (
 )
 from calibgui.app.photographs.paths import find_images
 from calibgui.app.photographs.regions import read_regions
+from calibgui.app.system.kernel_preparation import estimate_preparation
 from calibgui.cli.console import Console
 from calibgui.engine.arrays import GridSize
 from calibgui.engine.boards import CHECKERBOARD, Pattern
 from calibgui.engine.detection import METHODS, MIN_LINES
 from calibgui.engine.errors import CalibrationError
-from calibgui.engine.kernels import FINDER_SECONDS
 from calibgui.formats import EXPORTERS, find_exporter
 from calibgui.report.tables import list_unused_views
 
@@ -217,12 +217,15 @@ def search_images(
                 method=corners,
                 pattern=pattern,
                 preparing=lambda: console.print_problem(
-                    "Preparing the corner finder for its first use "
-                    f"(once, about {FINDER_SECONDS} s)…"
+                    "Preparing the search for its first use "
+                    f"(once, about {estimate_preparation(pattern)} s)…"
                 ),
             )
 
-    return find_any_board(search, grid_size) if pattern is None else search(pattern, grid_size)
+    if pattern is not None:
+        return search(pattern, grid_size)
+    preparing = "Preparing the search for other boards for its first use (once, about 10 s)…"
+    return find_any_board(search, grid_size, lambda: console.print_problem(preparing))
 
 
 def require_board(

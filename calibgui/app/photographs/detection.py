@@ -20,7 +20,7 @@ from threading import Event
 from typing import Protocol
 
 from calibgui.app.photographs.sensor_frame import list_other_frames, share_frame
-from calibgui.app.system.kernel_preparation import prepare_finder
+from calibgui.app.system.kernel_preparation import choose_preparation
 from calibgui.app.system.workers import Crashed, map_in_processes
 from calibgui.dataset import DEFAULT_SQUARE, CornerSet, View, ViewStatus
 from calibgui.engine import detection
@@ -111,8 +111,8 @@ def find_views(
         orientation: EXIF orientation by which the images are turned; the most frequent one if None.
         method: of locating corners, one of ``detection.METHODS``.
         pattern: of the board; its unknown properties are inferred from the whole set.
-        preparing: called if the corner finder has to be compiled for its first use, which takes
-            about ``kernels.FINDER_SECONDS``.
+        preparing: called if the detector has to be compiled for its first use, which takes about
+            ``estimate_preparation(pattern)`` seconds.
         search_image: does what `search_view` does, as one that remembers; `search_view` if None.
 
     Raises:
@@ -137,7 +137,7 @@ def find_views(
             items,
             stop,
             preparing,
-            prepare_finder,
+            choose_preparation(pattern),
         )
         for i, view in results:
             searches += 1

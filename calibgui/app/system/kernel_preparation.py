@@ -1,16 +1,18 @@
 """Kernels made ready before they are needed, so that nothing is compiled twice.
 
 A kernel is compiled at its first call for each type of image. If that is in several processes at
-once, each of them compiles it. Set-up scripts compile the corner finder's for images of 8 and of 16
-bits by ``python -m calibgui.app.system.kernel_preparation``.
+once, each of them compiles it. Set-up scripts compile those of all detectors, for images of 8 and
+of 16 bits, by ``python -m calibgui.app.system.kernel_preparation``.
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 import numpy.typing as npt
 
-from calibgui.engine import detection
+from calibgui.engine import boards, camera, detection, geometry, images
 
 _SQUARE_PX = 20
 """Side of the squares of the drawn board, px."""
@@ -21,6 +23,9 @@ _BARREL = 0.4
 _SHADE = 0.3
 """Part of the light that is lost at the darkest places: as much as it takes for the light of single
 corners to be fitted."""
+_TILT = 0.1
+"""Turn of the rendered boards about both axes, rad: as much as it takes for no line to be straight
+along the pixels."""
 
 
 def prepare_finder(depth: npt.DTypeLike = np.uint8) -> None:
@@ -42,6 +47,60 @@ def prepare_finder(depth: npt.DTypeLike = np.uint8) -> None:
     detection.find_corners((levels * (np.iinfo(depth).max // 255)).astype(depth))
 
 
+def prepare_circle_finder(depth: npt.DTypeLike = np.uint8) -> None:
+    """Find the circles of a small grid; otherwise as `prepare_finder`."""
+    _find_rendered(boards.Board(5, 6, 1.0, boards.Circles(diameter=0.5)), depth)
+
+
+def prepare_tag_finder(depth: npt.DTypeLike = np.uint8) -> None:
+    """Find the corners of small AprilGrids with and without dark squares between their tags;
+    otherwise as `prepare_finder`."""
+    prepare_finder(depth)
+    for corner_squares in (True, False):
+        pattern = boards.AprilGrid("t36h11", 0.3, 2, False, corner_squares)
+        _find_rendered(boards.Board(6, 6, 1.0, pattern), depth)
+
+
+def prepare_every_finder(depth: npt.DTypeLike = np.uint8) -> None:
+    """Prepare the detectors of all kinds of boards."""
+    prepare_tag_finder(depth)
+    prepare_circle_finder(depth)
+
+
+def _find_rendered(board: boards.Board, depth: npt.DTypeLike) -> None:
+    """Find the points of a `board` rendered through a lens, with a margin of a pitch."""
+    points = board.points()
+    span = float(np.ptp(points, axis=0).max()) + 2 * board.square
+    side = round(span / board.square * _SQUARE_PX)
+    params = [side, side, side / 2, side / 2, _BARREL, *[0.0] * 5]
+    lens = camera.Camera((side, side), np.array(params))
+    middle = (points.min(axis=0) + points.max(axis=0)) / 2
+    pose = geometry.Pose(np.array([_TILT, _TILT, 0.0]), np.array([*-middle, span]))
+    levels = images.render_view(lens, pose, board, blur=0.5)
+    levels = levels.astype(depth) * (np.iinfo(depth).max // 255)
+    detection.find_corners(levels, pattern=board.pattern)
+
+
+_PREPARATIONS = {
+    "circles": prepare_circle_finder,
+    "asymmetric-circles": prepare_circle_finder,
+    "aprilgrid": prepare_tag_finder,
+}
+"""What prepares the detectors that need more than that of checkerboards, or other kernels."""
+_SECONDS = {prepare_finder: 25, prepare_circle_finder: 5, prepare_tag_finder: 30}
+"""Rough times, s, that compiling takes, once after an installation."""
+
+
+def choose_preparation(pattern: boards.Pattern) -> Callable[..., None]:
+    """Return the function that prepares the detector of boards of a `pattern`."""
+    return _PREPARATIONS.get(pattern.kind, prepare_finder)
+
+
+def estimate_preparation(pattern: boards.Pattern) -> int:
+    """Estimate the time that preparing this detector takes if it has to be compiled, s."""
+    return _SECONDS[choose_preparation(pattern)]
+
+
 if __name__ == "__main__":
-    prepare_finder()
-    prepare_finder(np.uint16)
+    prepare_every_finder()
+    prepare_every_finder(np.uint16)

@@ -24,9 +24,8 @@ from typing import Any, Generic, ParamSpec, TypeVar
 
 COMPILED = find_spec("numba") is not None
 """True if numba is installed, and was not found to be unusable."""
-FINDER_SECONDS, SOLVER_SECONDS = 25, 15
-"""Rough times, s, that compiling the kernels of the detection and of the calibration takes, once
-after an installation."""
+SOLVER_SECONDS = 15
+"""Rough time, s, of compiling the kernels of the calibration, once after an installation."""
 
 POLYNOMIAL_LENSES = {
     "lucchese": (0, 1, 2, 3, 4, 5, 6, 7, 8, 9),

@@ -10,10 +10,10 @@ from PySide6.QtCore import QObject, Signal
 
 from calibgui.app.photographs.detection import Detection, find_views, infer_grid_size, infer_pattern
 from calibgui.app.projects.project import Project, change_views, remove_digests
+from calibgui.app.system.kernel_preparation import estimate_preparation
 from calibgui.dataset import View, ViewStatus, find_orientation
 from calibgui.engine.arrays import Array
 from calibgui.engine.detection import Corners
-from calibgui.engine.kernels import FINDER_SECONDS
 from calibgui.gui.jobs.job import Job
 from calibgui.gui.session.session import Session
 
@@ -82,7 +82,9 @@ class Detector(QObject):
         rois = {Path(image): roi for image, roi in self._batch.items() if roi is not None}
 
         searching = self.tr("Finding corners")
-        preparing = self.tr("Preparing the search (once, about {0} s)…").format(FINDER_SECONDS)
+        preparing = self.tr("Preparing the search (once, about {0} s)…").format(
+            estimate_preparation(pattern)
+        )
 
         def work(job: Job) -> Detection:
             def progress(done: int, total: int, view: View) -> None:

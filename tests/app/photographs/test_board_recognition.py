@@ -16,6 +16,7 @@ from calibgui.app.photographs.board_recognition import (
     recognise_pattern,
 )
 from calibgui.app.photographs.detection import Detection, find_views, search_view
+from calibgui.app.system.kernel_preparation import prepare_every_finder
 from calibgui.dataset import View, ViewStatus
 from calibgui.engine.arrays import GridSize
 from calibgui.engine.boards import KINDS
@@ -64,6 +65,23 @@ def test_a_plain_checkerboard_is_told_by_a_look(
     assert views[0].corners is not None
     monkeypatch.delattr(board_recognition, "search_view")
     assert recognise_pattern(views) is None
+
+
+def test_other_detectors_are_prepared_once_and_said(monkeypatch: pytest.MonkeyPatch) -> None:
+    asked = []
+
+    def search(*arguments: object) -> list[tuple[int, object]]:
+        asked.append(arguments[-2:])
+        return []
+
+    def tell() -> None:
+        pass
+
+    monkeypatch.setattr(board_recognition, "map_in_processes", search)
+    blank = View("blank.png", ViewStatus.NO_BOARD)
+    plain = Detection((blank,), (640, 480), None, CHECKERBOARD, "")
+    find_any_board(lambda *_: plain, None, tell)
+    assert set(asked) == {(tell, prepare_every_finder)}
 
 
 @pytest.mark.parametrize(
