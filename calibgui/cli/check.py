@@ -98,7 +98,7 @@ def run(options: argparse.Namespace, console: Console) -> int:
             _read_overdispersion(options.calibration, stored),
         )
     console.print_json(_encode_check(check, names))
-    console.print_text(describe_check(check, names), otherwise=unused)
+    console.print_text(describe_check(check, names, corner_set.board), otherwise=unused)
     if unused:
         console.print_text(unused)
     console.print_line(describe_verdict(check))

@@ -74,7 +74,7 @@ def run(options: argparse.Namespace, console: Console) -> None:
     ):
         comparison = compare_methods(corner_set, poses, advance)
     answer = _encode_comparison(comparison)
-    text = tabulate_methods(comparison)
+    text = tabulate_methods(comparison, corner_set.board)
     if options.output:
         write_json(options.output, {"origin": make_mark(METHOD_COMPARISON), **answer})
         text += f"\n\nWrote {options.output}."

@@ -42,7 +42,7 @@ def run(options: argparse.Namespace, console: Console) -> None:
     console.print_json(encode_corners(corner_set))
     console.print_line(tables.count_boards(corner_set.views))
     console.print_text(
-        tables.tabulate_detection(corner_set.views),
+        tables.tabulate_detection(corner_set.views, corner_set.board),
         otherwise=tables.list_unused_views(corner_set.views),
     )
     for remark in remarks:

@@ -50,7 +50,7 @@ def run(options: argparse.Namespace, console: Console) -> None:
     ):
         choice = compare_lenses(corner_set, advance)
     answer = _encode_choice(choice)
-    text = tabulate_lens_choice(choice)
+    text = tabulate_lens_choice(choice, corner_set.board)
     if options.output:
         write_json(options.output, {"origin": make_mark(LENS_COMPARISON), **answer})
         text += f"\n\nWrote {options.output}."

@@ -62,7 +62,7 @@ def run(options: argparse.Namespace, console: Console) -> None:
         explanation = find_explanation(findings)
         sections = [
             quality.tabulate_projection_uncertainty(found, options.limit, result.condition),
-            quality.tabulate_noise_report(report, explanation),
+            quality.tabulate_noise_report(report, explanation, result.board),
         ]
         if options.validate:
             sections += _validate(result)

@@ -7,6 +7,8 @@ from collections.abc import Sequence
 import numpy as np
 
 from calibgui.engine.assessment import CONFIDENCE, CalibrationCheck, CheckVerdict, Weakness
+from calibgui.engine.boards import Board
+from calibgui.report.boards import name_point
 from calibgui.report.numbers import format_with_sigma
 from calibgui.report.tables import align_columns, format_bullet
 
@@ -24,19 +26,23 @@ _LARGE_NOISE_PX = 1.0
 """Residual of the whole fit, px along each axis, from which something else must be wrong."""
 
 
-def describe_check(check: CalibrationCheck, names: Sequence[str]) -> str:
+def describe_check(
+    check: CalibrationCheck, names: Sequence[str], board: Board | None = None
+) -> str:
     """Describe a check: its numbers, the verdict, and what else the pictures tell.
 
     Args:
         check: the check.
         names: names of the pictures.
+        board: in the pictures; a checkerboard if None.
     """
+    points = f"{name_point(board)}s"
     rows = [
         [name, str(view.used), str(view.left_out), f"{view.rms:.3f}" if view.used else ""]
         for name, view in zip(names, check.views, strict=True)
     ]
     rows.append(["all", str(check.count), "", f"{check.rms:.3f}"])
-    table = align_columns([["picture", "corners", "left out", "rms, px"], *rows], left=(0,))
+    table = align_columns([["picture", points, "left out", "rms, px"], *rows], left=(0,))
     left_out = [
         f"{name} is left out: {view.reason}."
         for name, view in zip(names, check.views, strict=True)
@@ -49,7 +55,7 @@ def describe_check(check: CalibrationCheck, names: Sequence[str]) -> str:
                 "  standard deviations along u and v, px",
                 f"{check.sigma_x:.3f}, {check.sigma_y:.3f}",
             ],
-            ["change of the camera, px rms at the corners", _format_change(check)],
+            [f"change of the camera, px rms at the {points}", _format_change(check)],
             ["  with the rotation that new poses hide, px rms", f"{check.whole_change:.3f}"],
             ["change of the image's scale, %", _format_percent(check)],
             ["what change and board leave, px along each axis", f"{check.noise:.3f}"],

@@ -20,7 +20,9 @@ from calibgui.engine.assessment import (
     LensTrial,
     summarise_residuals,
 )
+from calibgui.engine.boards import Board
 from calibgui.engine.calibration import Status
+from calibgui.report.boards import name_point
 from calibgui.report.lens_models import get_short_lens_title
 from calibgui.report.numbers import format_count
 from calibgui.report.tables import align_columns, format_bullet
@@ -32,8 +34,8 @@ _LEGEND = (
     "views. Unseen: RMS, median and 95 % of the residuals of views that were left out of the "
     "calibration in turn, with only their poses fitted.",
     "BIC: Bayesian information criterion less the least one. H, V, D: horizontal, vertical and "
-    "diagonal field of view. Corners: largest angle off the axis at which one was seen. Differs: "
-    "largest distance from the recommended model's map where corners were seen. Valid: part of the "
+    "diagonal field of view. Off axis: largest angle at which the board was seen. Differs: largest "
+    "distance from the recommended model's map where corners were seen. Valid: part of the "
     "image on which the map is one-to-one.",
 )
 """What the columns of the tables mean."""
@@ -213,11 +215,16 @@ def _describe_rivals(choice: LensChoice) -> str:
     )
 
 
-def tabulate_lens_choice(choice: LensChoice) -> str:
-    """Tabulate all candidates, and state the recommendation and the remarks in words."""
+def tabulate_lens_choice(choice: LensChoice, board: Board | None = None) -> str:
+    """Tabulate all candidates, and state the recommendation and the remarks in words.
+
+    Args:
+        choice: among them.
+        board: in the photographs; a checkerboard if None.
+    """
     rows = list_lens_rows(choice)
     views = format_count(len(choice.chosen.calibration.poses), "view")
-    corners = format_count(rows[0].corners, "corner")
+    points = format_count(rows[0].corners, name_point(board))
     notes = [
         describe_lens_choice(choice),
         f"To calibrate with it: {format_lens_options(choice)}",
@@ -227,7 +234,7 @@ def tabulate_lens_choice(choice: LensChoice) -> str:
     ]
     return "\n".join(
         [
-            f"Lens models on {corners} in {views} (* recommended)",
+            f"Lens models on {points} in {views} (* recommended)",
             _tabulate_errors(rows, choice.model),
             "",
             "Lens models over the image",
@@ -258,7 +265,7 @@ def _tabulate_errors(rows: Sequence[LensRow], recommended: str) -> str:
 
 def _tabulate_image(rows: Sequence[LensRow], recommended: str) -> str:
     """Tabulate what the candidates say of the image."""
-    head = ["", "model", "BIC", "H", "V", "D", "corners", "differs", "valid"]
+    head = ["", "model", "BIC", "H", "V", "D", "off axis", "differs", "valid"]
     units = ["", "", "", "deg", "deg", "deg", "deg", "px", ""]
     cells = [
         [

@@ -21,7 +21,9 @@ from calibgui.engine.assessment import (
     MethodComparison,
     MethodTrial,
 )
+from calibgui.engine.boards import Board
 from calibgui.engine.calibration import Calibration
+from calibgui.report.boards import name_point
 from calibgui.report.names import join_words
 from calibgui.report.numbers import format_count, format_with_sigma
 from calibgui.report.tables import align_columns, format_bullet
@@ -322,13 +324,19 @@ def _describe_lines(lines: Sequence[MethodRow]) -> str:
     )
 
 
-def tabulate_methods(comparison: MethodComparison) -> str:
-    """Tabulate all methods, and state what the tables support and the remarks in words."""
+def tabulate_methods(comparison: MethodComparison, board: Board | None = None) -> str:
+    """Tabulate all methods, and state what the tables support and the remarks in words.
+
+    Args:
+        comparison: of them.
+        board: in the photographs; a checkerboard if None.
+    """
     rows = list_method_rows(comparison)
     tried = [row for row in rows if row.kind != "refused"]
     calibration = next(iter(comparison.trials.values())).calibration
     views = format_count(len(calibration.poses), "view")
-    corners = format_count(sum(len(view.image) for view in calibration.residuals), "corner")
+    count = sum(len(view.image) for view in calibration.residuals)
+    points = format_count(count, name_point(board))
     notes = [
         describe_method_comparison(comparison),
         *(_describe_row(row, comparison) for row in rows),
@@ -336,7 +344,7 @@ def tabulate_methods(comparison: MethodComparison) -> str:
     ]
     return "\n".join(
         [
-            f"Methods of calibration on {corners} in {views} (* without lengths)",
+            f"Methods of calibration on {points} in {views} (* without lengths)",
             _tabulate_values(tried),
             "",
             f"Errors, time, and difference from the chosen camera{_name_chosen(comparison)}",

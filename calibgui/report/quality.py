@@ -17,9 +17,11 @@ from calibgui.engine.assessment import (
     Finding,
     NoiseReport,
 )
+from calibgui.engine.boards import Board
 from calibgui.engine.calibration import Calibration
 from calibgui.engine.numbers import format_two_digits
 from calibgui.engine.uncertainty import QUANTITIES, NextView, ProjectionUncertainty, ViewCountStudy
+from calibgui.report.boards import name_point
 from calibgui.report.numbers import format_count
 from calibgui.report.tables import align_columns, format_bullet
 
@@ -83,8 +85,16 @@ def tabulate_projection_uncertainty(
     return f"{title}\n{align_columns([head, *rows], left=(0,))}\n{format_bullet(inside)}"
 
 
-def tabulate_noise_report(report: NoiseReport, explanation: Finding | None) -> str:
-    """Tabulate the tests of the residuals for noise, with the `explanation` where one fails."""
+def tabulate_noise_report(
+    report: NoiseReport, explanation: Finding | None, board: Board | None = None
+) -> str:
+    """Tabulate the tests of the residuals for noise, with the `explanation` where one fails.
+
+    Args:
+        report: the tests.
+        explanation: what is wrong; None if it is not known.
+        board: in the photographs; a checkerboard if None.
+    """
     rows = [
         [check.name, "as noise" if check.passed else "NOT noise", check.finding]
         for check in report.checks
@@ -94,8 +104,9 @@ def tabulate_noise_report(report: NoiseReport, explanation: Finding | None) -> s
     if report.passed:
         remark = "Nothing speaks against the standard deviations."
         if report.far_corners:
+            points = format_count(report.far_corners, name_point(board))
             remark += (
-                f" Beyond {FAR_OFF:g} sigma: {format_count(report.far_corners, 'corner')} in "
+                f" Beyond {FAR_OFF:g} sigma: {points} in "
                 f"{format_count(report.far_views, 'view')}, each within its own uncertainty."
             )
     elif explanation is None:

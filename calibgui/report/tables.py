@@ -16,7 +16,7 @@ import numpy as np
 from calibgui.dataset import Result, View, ViewStatus
 from calibgui.dataset.judging import judge_result
 from calibgui.engine.assessment import Cause, Finding, Verdict, summarise_residuals
-from calibgui.engine.boards import Symmetry
+from calibgui.engine.boards import Board, Symmetry
 from calibgui.engine.calibration import Calibration, Cost, make_paper_table
 from calibgui.engine.camera import Lucchese, find_model
 from calibgui.engine.geometry import PAPER_NAMES
@@ -235,13 +235,23 @@ def tabulate_camera(calibration: Calibration) -> str:
         lens = [["", f"and {len(lens)} parameters of the lens model {camera.model}", ""]]
     columns = zip_longest(rows[:4], lens, fillvalue=["", "", ""])
     chosen = calibration.settings.get("model_reason")
+    options = _format_model_options(calibration)
     return "\n".join(
         [
             _make_camera_title(calibration),
             align_columns([[*a, " ", *b] for a, b in columns], left=range(7)),
-            *([format_bullet(str(chosen))] if chosen else []),
+            *([format_bullet(f"{chosen} That is {options}.")] if chosen else []),
         ]
     )
+
+
+def _format_model_options(calibration: Calibration) -> str:
+    """Format the options of `calibgui calibrate` that take a lens model without comparing."""
+    camera = calibration.camera
+    usual = find_model(camera.model).held
+    values = dict(zip(camera.names, camera.params, strict=True))
+    fixed = [f"{name}={values[name]:g}" for name in calibration.fixed if name not in usual]
+    return f"--model {camera.model}" + (f" --fix {','.join(fixed)}" if fixed else "")
 
 
 def tabulate_intrinsics(calibration: Calibration) -> str:
@@ -347,8 +357,8 @@ def tabulate_errors(calibration: Calibration, truth: Mapping[str, float]) -> str
     return "Camera against the truth\n" + align_columns([head, *rows], left=(0, 2))
 
 
-def tabulate_detection(all_views: Sequence[View]) -> str:
-    """Tabulate the outcome of the search in each image."""
+def tabulate_detection(all_views: Sequence[View], board: Board | None = None) -> str:
+    """Tabulate the outcome of the search in each image for a `board`, a checkerboard if None."""
     rows = [
         [
             str(number),
@@ -359,7 +369,7 @@ def tabulate_detection(all_views: Sequence[View]) -> str:
         ]
         for number, view in enumerate(all_views, start=1)
     ]
-    head = ["view", "image", "status", "corners", "board"]
+    head = ["view", "image", "status", f"{name_point(board)}s", "board"]
     parts = ["Images\n" + align_columns([head, *rows], left=(1, 2)), list_unused_views(all_views)]
     remarks = [count_boards(all_views)]
     remarks += [f"{view.name}: {view.note}" for view in all_views if view.note]

@@ -91,7 +91,7 @@ def test_calibrate_chooses_the_lens_model(
     settings = read_result(file).calibration.settings
     assert settings["model"] == "lucchese"
     assert settings["model_reason"].startswith("The paper's model (Lucchese) is kept")
-    assert settings["model_reason"] in printed
+    assert f"{settings['model_reason']} That is --model lucchese." in printed
     assert read_result(file).calibration.warnings[0] == settings["model_reason"]
 
 

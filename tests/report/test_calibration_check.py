@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from calibgui.engine.assessment import CalibrationCheck, CheckedView, CheckVerdict, Weakness
+from calibgui.engine.boards import Board, Circles
 from calibgui.report.calibration_check import describe_check, describe_verdict
 
 GOOD = CalibrationCheck(
@@ -76,6 +77,12 @@ def test_a_good_check_has_no_remarks_but_on_views_left_out() -> None:
     assert max(map(len, text.splitlines())) <= 80
     assert text.count("\n- ") == 2
     assert "b.png is left out: too many do not fit." in text
+
+
+def test_circles_are_called_circles() -> None:
+    text = describe_check(GOOD, NAMES, Board(4, 5, 20.0, Circles()))
+    assert "picture  circles" in text and "px rms at the circles" in text
+    assert "corner" not in text
 
 
 def test_remarks() -> None:

@@ -10,6 +10,7 @@ from scipy.optimize import brentq
 
 from calibgui.engine.assessment.choices.lens_choice import LensChoice, choose_lens
 from calibgui.engine.assessment.choices.lens_trial import LensTrial
+from calibgui.engine.boards import Board, Circles
 from calibgui.engine.calibration.observations import Observation
 from calibgui.engine.camera.camera import Camera
 from calibgui.engine.camera.models import MODELS
@@ -110,6 +111,7 @@ def test_tables_fit_a_terminal_and_mark_the_recommended(
         marked = [line.split()[1] for line in text.splitlines() if line.startswith("  * ")]
         assert marked == [choice.model] * 2
         assert "corners in 6 views" in text
+        assert "circles in 6 views" in tabulate_lens_choice(choice, Board(4, 5, 20.0, Circles()))
     unknown = replace(fisheye, refused={"mei": "The corners do not fit."})
     assert "- mei: cannot be calibrated. The corners do not fit." in tabulate_lens_choice(unknown)
 

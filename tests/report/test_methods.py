@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from calibgui.engine.assessment.choices.method_comparison import MethodComparison
+from calibgui.engine.boards import Board, Circles
 from calibgui.report.methods import (
     QUANTITIES,
     MethodRow,
@@ -85,7 +86,8 @@ def test_what_a_method_does_not_estimate_is_missing(comparison: MethodComparison
     for name in comparison.lines:
         assert rows[name].values.keys() <= {"cx", "cy"}
         assert "px^-2" in rows[name].coefficients
-    text = tabulate_methods(comparison)
+    text = tabulate_methods(comparison, Board(4, 5, 20.0, Circles()))
+    assert " circles in " in text.splitlines()[0]
     skew = next(line for line in text.splitlines() if line.split()[:1] == ["bouguet"]).split()[5]
     assert skew == "-"
 

@@ -236,6 +236,22 @@ def test_detection_lists_every_image(result: Result) -> None:
     assert max(map(len, table.splitlines())) <= tables.WIDTH_CHARACTERS
 
 
+def test_a_search_for_circles_counts_circles(result: Result) -> None:
+    table = tables.tabulate_detection(result.views, Board(8, 11, 20.0, Circles()))
+    assert "circles" in table and "corners" not in table
+
+
+def test_a_chosen_lens_model_is_named_as_options(result: Result) -> None:
+    calibration = replace(
+        result.calibration,
+        settings={**result.calibration.settings, "model_reason": "It is wanted."},
+        fixed=(*result.calibration.fixed, "k3"),
+    )
+    text = " ".join(tables.tabulate_camera(calibration).split())
+    value = calibration.camera.params[calibration.camera.names.index("k3")]
+    assert f"It is wanted. That is --model lucchese --fix k3={value:g}." in text
+
+
 def test_detection_tells_further_boards() -> None:
     outline = np.array([[100.0, 50], [180, 50], [180, 110], [100, 110]])
     uv = np.zeros((2, 2))
