@@ -81,7 +81,13 @@ def parse_length(text: str) -> float:
     is refused: told nothing, a user would get poses a thousand times too small.
     """
     unit = next((unit for unit in _UNITS_MM if text.rstrip().endswith(unit)), "")
-    length = parse_positive(text.rstrip().removesuffix(unit)) * _UNITS_MM.get(unit, 1.0)
+    try:
+        length = parse_positive(text.rstrip().removesuffix(unit)) * _UNITS_MM.get(unit, 1.0)
+    except argparse.ArgumentTypeError as error:
+        raise argparse.ArgumentTypeError(
+            f"{text!r} is not a length above 0, as 25, 25mm or 0.025m; the units are "
+            f"{', '.join(_UNITS_MM)}"
+        ) from error
     if not unit and length < _MIN_LENGTH_MM:
         raise argparse.ArgumentTypeError(
             f"{text} would be millimetres: say {text}m if it is metres, {text}mm if it is not"

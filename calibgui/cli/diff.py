@@ -34,7 +34,7 @@ from calibgui.engine.uncertainty import estimate_projection_uncertainty
 from calibgui.formats import EXPORTERS
 from calibgui.report import quality
 from calibgui.report.series import describe_drift, has_drifted
-from calibgui.report.tables import format_bullet
+from calibgui.report.tables import fill_lines, format_bullet
 
 _MEDIAN_LENGTH = math.sqrt(2 * math.log(2))
 """Median length of a vector whose two components are independent and of unit variance."""
@@ -85,7 +85,9 @@ def run(options: argparse.Namespace, console: Console) -> int:
     found = compare_cameras(a.camera, b.camera, options.distance, covered)
     expected = _estimate_expected_difference([r for r in results if r is not None], found)
     drift = _measure_drift([r for r in results if r is not None])
-    text = quality.tabulate_camera_difference(found, expected)
+    a_name, b_name = _name_apart(options.a, options.b)
+    text = fill_lines(f"A is {a_name}, B is {b_name}.", "", "  ") + "\n"
+    text += quality.tabulate_camera_difference(found, expected)
     if drift is not None:
         text += f"\n{format_bullet(describe_drift(drift, options.limit))}"
     if options.output:
@@ -113,6 +115,11 @@ def run(options: argparse.Namespace, console: Console) -> int:
         return 0
     beyond = found.worst > options.limit if drift is None else has_drifted(drift, options.limit)
     return _HAS_DRIFTED if beyond else 0
+
+
+def _name_apart(a: Path, b: Path) -> tuple[str, str]:
+    """Return the names of two files, with their folders if they are alike."""
+    return (str(a), str(b)) if a.name == b.name else (a.name, b.name)
 
 
 def _measure_drift(results: Sequence[Result]) -> Drift | None:

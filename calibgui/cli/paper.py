@@ -97,6 +97,8 @@ def _search(folder: Path, method: str, console: Console) -> CornerSet:
         CalibrationError: if one is missing, is there twice, or shows no board that is found.
     """
     console.print_notice(f"Corners located by {LOCATED_BY[method]}:")
+    if not folder.is_dir():
+        raise CalibrationError(f"There is no folder {folder}.", "Check its spelling.")
     images = [str(path) for path in sorted(folder.glob("Image[0-9]*"))]
     if not images:
         raise CalibrationError(

@@ -6,11 +6,13 @@ import argparse
 from pathlib import Path
 
 from calibgui.app.outputs.resampling import rectify_files
-from calibgui.app.photographs.paths import find_images
+from calibgui.app.photographs.paths import find_images, find_photograph
 from calibgui.cli.arguments import add_image_paths, parse_positive
 from calibgui.cli.console import Console
 from calibgui.cli.resampled import add_output_folder, report_written
 from calibgui.cli.result import read_result_and_warn
+from calibgui.dataset import Result
+from calibgui.engine.errors import CalibrationError
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
@@ -28,10 +30,10 @@ def configure(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def run(options: argparse.Namespace, console: Console) -> None:
-    """Read, rectify and write."""
+def run(options: argparse.Namespace, console: Console) -> int:
+    """Read, rectify and write; return the exit code."""
     result = read_result_and_warn(options.result, console)
-    images = find_images(options.paths or [view.image for view in result.used])
+    images = find_images(options.paths or _find_photographs(options.result, result))
     with console.show_progress("rectifying") as advance:
         written = rectify_files(
             result,
@@ -41,4 +43,20 @@ def run(options: argparse.Namespace, console: Console) -> None:
             progress=lambda done, total, _: advance(done, total),
             overwrite=options.overwrite,
         )
-    report_written(written, options.output, console)
+    return report_written(written, options.output, console)
+
+
+def _find_photographs(path: Path, result: Result) -> list[str]:
+    """Find the photographs of the used views of a result, read from `path`.
+
+    Raises:
+        CalibrationError: if one is not where it was, nor beside the result.
+    """
+    found = [find_photograph(path, view.image) for view in result.used]
+    for view, photograph in zip(result.used, found, strict=True):
+        if photograph is None:
+            raise CalibrationError(
+                f"{view.image}, a photograph of {path}, is not to be found from here.",
+                f"Name the photographs or their folder after {path}.",
+            )
+    return [str(photograph) for photograph in found]

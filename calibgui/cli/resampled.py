@@ -12,6 +12,7 @@ from calibgui.cli.outputs import add_overwrite_option
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.images import FORMATS
 from calibgui.report.numbers import format_count
+from calibgui.report.tables import fill_lines
 
 
 def add_output_folder(parser: argparse.ArgumentParser) -> None:
@@ -39,8 +40,9 @@ def _parse_folder(text: str) -> Path:
 
 def report_written(
     written: Sequence[WrittenImage], folder: Path, console: Console, shown: str = ""
-) -> None:
-    """Print which images were written and which were not, and what they show of the lens's view.
+) -> int:
+    """Print which images were written and which were not, and what they show of the lens's view;
+    return the exit code, 1 if an image was not written.
 
     The JSON object names one new image by its path, and the faces of a cube by an object.
 
@@ -49,7 +51,9 @@ def report_written(
     """
     failed = [image for image in written if not image.paths]
     for image in failed:
-        console.print_problem(f"calibgui: skipped {image.source}: {image.reason}")
+        named = image.reason.startswith(str(image.source))  # as errors of reading do
+        reason = image.reason if named else f"{image.source}: {image.reason}"
+        console.print_problem(f"calibgui: skipped: {reason}")
     done = len(written) - len(failed)
     if not done:
         raise CalibrationError("No image was written.", "See the reasons above.")
@@ -68,6 +72,7 @@ def report_written(
         }
     )
     if shown:
-        console.print_text(shown)
+        console.print_text(fill_lines(shown, "", "  "))
     count = format_count(sum(map(len, paths.values())), "image")
     console.print_text(f"Wrote {count} and their geometry, {GEOMETRY_FILE}, to {folder}.")
+    return int(bool(failed))

@@ -47,7 +47,10 @@ def configure(parser: argparse.ArgumentParser) -> None:
         "paths", nargs="+", metavar="RESULT", help="result.json of each setting, or their folder"
     )
     parser.add_argument(
-        "--by", type=Scalar, choices=list(Scalar), required=True, help="the quantity that varies"
+        "--by",
+        choices=[scalar.value for scalar in Scalar],
+        required=True,
+        help="the quantity that varies",
     )
     parser.add_argument(
         "--values",
@@ -71,6 +74,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace, console: Console) -> None:
     """Read the results, fit, print and write."""
+    options.by = Scalar(options.by)
     at = _read_value(options)
     paths = find_results(options.paths)
     _check_files(options, paths)

@@ -50,8 +50,8 @@ def configure(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def run(options: argparse.Namespace, console: Console) -> None:
-    """Read, undistort and write."""
+def run(options: argparse.Namespace, console: Console) -> int:
+    """Read, undistort and write; return the exit code."""
     found = read_camera_and_warn(options.result, console, options.camera, options.size)
     camera = found.camera
     images = find_images(options.paths)
@@ -71,4 +71,4 @@ def run(options: argparse.Namespace, console: Console) -> None:
             overwrite=options.overwrite,
             orientation=found.orientation,
         )
-    report_written(written, options.output, console, shown)
+    return report_written(written, options.output, console, shown)

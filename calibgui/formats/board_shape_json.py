@@ -36,7 +36,7 @@ def read_board_shape(path: str | os.PathLike[str]) -> BoardShape:
         CalibrationError: if the file cannot be read or is of another format.
     """
     node = read_json(path)
-    check_format(node, FORMAT, VERSION)
+    check_format(node, FORMAT, VERSION, "a board shape")
     return decode_board_shape(node)
 
 

@@ -24,6 +24,7 @@ from calibgui.formats import (
     ros_yaml,
 )
 from calibgui.formats.importer import CameraText, ImportedCamera, Importer
+from calibgui.formats.json_document import parse_json
 from calibgui.formats.origin import CORNERS, make_mark
 
 IMPORTERS: tuple[Importer, ...] = tuple(
@@ -74,6 +75,8 @@ def read_camera(
         if importer.signature.search(source.text):
             break
     else:
+        if source.file.lower().endswith(".json") or not source.text.strip():
+            parse_json(source.text, source.file)  # says where it is damaged
         source.fail(
             "is not a camera file that can be read.",
             f"These can be read: {', '.join(importer.title for importer in IMPORTERS)}.",

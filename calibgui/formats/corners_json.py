@@ -58,9 +58,9 @@ def read_corners(path: str | os.PathLike[str]) -> CornerSet:
             names view and entry.
     """
     node = read_json(path)
-    if (other := node.get("format")) is not None:
+    if node.get("format") is not None or not {"size", "views"} & node.members().keys():
         raise CalibrationError(
-            f"{node.file} is a file of the format {other.value!r}, not corners.json.",
+            f"{node.file} is not a file of corners.",
             "Name the corners: `calibgui detect -o` writes them, and `--export corners=`.",
         )
     board = decode_board(node.get("target"))

@@ -26,7 +26,7 @@ def read_detections(file: Path) -> dict[str, View]:
     """Read the views by their keys; none from a file that is missing or cannot be understood."""
     try:
         node = read_json(file)
-        check_format(node, FORMAT, VERSION)
+        check_format(node, FORMAT, VERSION, "a record of detections")
         return {view["key"].text(): _decode_view(view) for view in node["views"].items()}
     except CalibrationError:
         return {}

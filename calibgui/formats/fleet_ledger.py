@@ -195,7 +195,7 @@ def _check_or_create(connection: sqlite3.Connection, path: Path, create: bool) -
     (application,) = connection.execute("PRAGMA application_id").fetchone()
     (version,) = connection.execute("PRAGMA user_version").fetchone()
     if application != _APPLICATION:
-        raise CalibrationError(f"{path} is an SQLite file, but not the ledger of a fleet.", _REMEDY)
+        raise CalibrationError(f"{path} is not the ledger of a fleet.", _REMEDY)
     if version != VERSION:
         raise CalibrationError(
             f"{path} is a ledger of version {version}; this program knows version {VERSION}.",

@@ -346,6 +346,8 @@ def parse_json(text: str, file: str) -> Node:
         # Other threads can run between objects, but not within the parser.
         return Node(json.loads(text, object_hook=_convert_tables), "", file)
     except json.JSONDecodeError as error:
+        if not text.strip():
+            raise CalibrationError(f"{file} is empty.", "Copy or write it again.") from error
         rest = error.doc[error.pos :]
         if _CUT_OFF.fullmatch(rest) or error.msg.startswith("Unterminated string"):
             raise CalibrationError(
@@ -388,21 +390,30 @@ def _make_error(file: str, reason: str) -> CalibrationError:
     return CalibrationError(f"{file} is not a JSON file: {reason}.", "Choose another file.")
 
 
-def check_format(node: Node, name: str, version: int, remedy: str = "Choose another file.") -> None:
-    """Refuse a file of another format with the `remedy`, or of a version that is not known.
+def check_format(
+    node: Node, name: str, version: int, title: str, remedy: str = "Choose another file."
+) -> None:
+    """Refuse a file of another format, or of a version that is not known.
+
+    Args:
+        node: the content of the file.
+        name: of the format.
+        version: the newest one that is known.
+        title: what such a file is, as "a project".
+        remedy: if it is of another format.
 
     Raises:
         CalibrationError: with a hint.
     """
     found = node.get("format")
     if found is None or str(found.value) != name:  # an array would compare number by number
-        raise CalibrationError(f"{node.file} is not a file of the format {name!r}.", remedy)
+        raise CalibrationError(f"{node.file} is not {title}.", remedy)
     number = node["version"].integer()
     if number < 1:
         node["version"].fail("a version of this format, which are counted from 1")
     if number > version:
         raise CalibrationError(
-            f"{node.file} has version {number} of the format {name!r}; "
+            f"{node.file} has version {number} of its format; "
             f"this program knows versions up to {version}.",
             "Install a newer calibgui to read it.",
         )

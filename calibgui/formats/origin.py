@@ -31,6 +31,26 @@ _OWN_WORDS: Mapping[str, re.Pattern[bytes]] = {
 """Patterns of the files that say in words of their own what they are."""
 
 
+_TITLES: Mapping[str, str] = {
+    RESULT: "a result.json",
+    CORNERS: "a corners.json",
+    CORNERS_CSV: "a table of corners",
+    BOARD_SHAPE: "a board shape",
+    FIGURE: "a figure",
+    LENS_COMPARISON: "a comparison of lens models",
+    METHOD_COMPARISON: "a comparison of methods",
+    PAPER_PAGE: "a page on the paper",
+    SERIES_CSV: "a table of settings",
+    FLEET_TABLE: "a table of a fleet",
+    FLEET_PAGE: "a page on a fleet",
+}
+
+
+def describe_kind(kind: str) -> str:
+    """Describe what a file of a kind is, as "a figure"; an exporter's as "an export to ros"."""
+    return _TITLES.get(kind, f"an export to {kind}")
+
+
 def make_mark(kind: str) -> str:
     """Return the sentence that marks a file of a kind, for a comment or a note in it."""
     return f"Written by calibgui as {kind}."

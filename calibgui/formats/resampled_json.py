@@ -57,7 +57,7 @@ def read_resampled(path: Path) -> tuple[dict[str, Any], Written] | None:
         return {}, {}
     try:
         node = read_json(path)
-        check_format(node, FORMAT, VERSION)
+        check_format(node, FORMAT, VERSION, "a record of resampled images")
         record = node["written"].members()
         return node.value, {k: None if n.value is None else n.text() for k, n in record.items()}
     except CalibrationError:

@@ -212,14 +212,20 @@ def read_result(path: str | os.PathLike[str]) -> Result:
             or something in it is wrong; the message names the place.
     """
     node = read_json(path)
-    check_format(node, FORMAT, VERSION, "Name a result: `calibgui calibrate -o` writes it.")
+    if node.get("format") is None and node.get("views") is not None:
+        raise CalibrationError(
+            f"{node.file} holds corners, but no calibration.",
+            "Calibrate them first: `calibgui calibrate`.",
+        )
+    remedy = "Name a result: `calibgui calibrate -o` writes it."
+    check_format(node, FORMAT, VERSION, "the result of a calibration", remedy)
     return decode_result(node)
 
 
 def read_result_camera(source: CameraText) -> ImportedCamera:
     """Read the camera of a result.json, with its covariance. Raises as `read_result`."""
     node = parse_json(source.text, source.file)
-    check_format(node, FORMAT, VERSION)
+    check_format(node, FORMAT, VERSION, "the result of a calibration")
     result = decode_result(node)
     calibration = result.calibration
     source.choose_size(calibration.camera.size)

@@ -130,7 +130,12 @@ def test_a_square_may_have_a_unit(text: str) -> None:
 
 @pytest.mark.parametrize(
     ("text", "reason"),
-    [("0.03", "say 0.03m if it is metres, 0.03mm if it is not"), ("m", "above 0"), ("", "above 0")],
+    [
+        ("0.03", "say 0.03m if it is metres, 0.03mm if it is not"),
+        ("m", "above 0"),
+        ("", "above 0"),
+        ("2km", "the units are mm, cm, m, in"),
+    ],
 )
 def test_a_square_in_metres_is_not_taken_for_millimetres(
     corners_file: Path, text: str, reason: str, capsys: pytest.CaptureFixture[str]

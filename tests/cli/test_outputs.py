@@ -70,7 +70,7 @@ def test_own_files_are_replaced_and_others_with_the_option(
     for _ in range(2):
         assert main(calibrate) == 0
     assert main(["detect", str(photographs / "view1.png"), "-q", "-o", out]) == 1, "another kind"
-    assert "did not write it as corners" in capsys.readouterr().err
+    assert "is not a corners.json that calibgui wrote" in capsys.readouterr().err
     assert main(["detect", str(photographs / "view1.png"), "-q", "-o", out, "--overwrite"]) == 0
     assert main(["detect", str(photographs / "view1.png"), "-q", "-o", out]) == 0
 

@@ -58,3 +58,5 @@ def test_other_photographs_are_refused(tmp_path: Path, capsys: pytest.CaptureFix
     assert main(["paper", str(find_resource("sample")), "-o", str(tmp_path / "out")]) == 1
     problem = " ".join(capsys.readouterr().err.split())
     assert "has none of the paper's images, Image1 to Image25. Name the folder" in problem
+    assert main(["paper", str(tmp_path / "no"), "-o", str(tmp_path / "out")]) == 1
+    assert "There is no folder" in capsys.readouterr().err

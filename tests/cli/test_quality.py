@@ -66,6 +66,7 @@ def test_diff(
     assert main(["diff", *both, "--covered", "--distance", "700", "-o", str(picture)]) == 0
     out = capsys.readouterr().out
     assert "shifted by" in out
+    assert out.startswith("A is result.json, B is held.json.\n")
     assert max(map(len, out.splitlines())) <= 80
     assert picture.stat().st_size > 10_000
     assert main(["diff", both[0], both[0], "--json"]) == 0

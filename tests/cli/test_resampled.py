@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+import shutil
 from pathlib import Path
 
 import pytest
@@ -56,14 +57,27 @@ def test_rectify_takes_the_calibrated_images_by_default(
     assert read_image_size(tmp_path / "out" / "view1.png") == (8 * 60, 7 * 60)
 
 
+def test_photographs_that_are_not_found_are_asked_for(
+    result_file: Path, photographs: Path, tmp_path: Path, capsys: Capture
+) -> None:
+    moved = tmp_path / "moved.json"
+    moved.write_text(result_file.read_text().replace(str(photographs), "photographs"))
+    out = ["-o", str(tmp_path / "out")]
+    assert main(["rectify", str(moved), *out]) == 1
+    assert f"or their folder after {moved}" in capsys.readouterr().err
+    shutil.copytree(photographs, tmp_path / "photographs")
+    assert main(["rectify", str(moved), *out]) == 0
+
+
 def test_a_skipped_image_is_named_and_none_written_fails(
     result_file: Path, photographs: Path, tmp_path: Path, capsys: Capture
 ) -> None:
     text = tmp_path / "text.png"
     text.write_text("no image")
     both = [str(result_file), str(photographs / "view1.png"), str(text)]
-    assert main(["undistort", *both, "-o", str(tmp_path / "a")]) == 0
-    assert "skipped" in capsys.readouterr().err
+    assert main(["undistort", *both, "-o", str(tmp_path / "a")]) == 1
+    assert f"skipped: {text} is not an image" in capsys.readouterr().err
+    assert (tmp_path / "a" / "view1.png").exists()
     assert main(["undistort", str(result_file), str(text), "-o", str(tmp_path / "b")]) == 1
     assert "No image was written" in capsys.readouterr().err
 

@@ -132,7 +132,11 @@ def test_focal_lengths_are_read_from_photographs(folder: Path) -> None:
 
 @pytest.mark.parametrize(
     ("options", "text"),
-    [(["--export", "ros=x.yaml"], "--at VALUE"), (["--at", "warm"], "no value of temperature")],
+    [
+        (["--export", "ros=x.yaml"], "--at VALUE"),
+        (["--at", "warm"], "no value of temperature"),
+        (["--by", "weather"], "choose from 'zoom', 'focus', 'temperature', 'date'"),
+    ],
 )
 def test_wrong_usage_is_explained(
     folder: Path, options: list[str], text: str, capsys: Capture

@@ -30,7 +30,7 @@ def test_reads_back_to_the_last_bit(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("content", "message"),
     [
-        ("{}", "not a file of the format"),
+        ("{}", "is not a board shape"),
         ('{"format": "calibgui-plate", "version": 2}', "version 2"),
         (
             '{"format": "calibgui-plate", "version": 1, "model": "free", '

@@ -97,7 +97,6 @@ def test_our_own_result_is_read_with_its_covariance(tmp_path: Path, weighted: Re
 @pytest.mark.parametrize(
     ("content", "message"),
     [
-        (b"", "is not a camera file"),
         (b"\x89PNG\r\n\x1a\n\xff", "is not text in UTF-8"),
         (b"image;row;col;u_px\n", "is not a camera file"),
         (b'{"format": "calibgui-corners", "version": 1}', "is not a camera file"),
@@ -112,6 +111,22 @@ def test_other_files_are_refused_with_a_list_of_what_is_read(
         read_camera(file)
     assert str(file) in caught.value.message
     assert all(importer.title in caught.value.hint for importer in IMPORTERS)
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "message"),
+    [
+        ("camera.yaml", "", "is empty"),
+        ("camera.json", "{camera", "in line 1"),
+        ("camera.json", '{"a": 1}', "is not a camera file"),
+    ],
+)
+def test_damage_is_named_where_no_format_is_known(
+    tmp_path: Path, name: str, text: str, message: str
+) -> None:
+    (tmp_path / name).write_text(text)
+    with pytest.raises(CalibrationError, match=message):
+        read_camera(tmp_path / name)
 
 
 @pytest.mark.parametrize(

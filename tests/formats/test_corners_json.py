@@ -116,7 +116,7 @@ def test_found_corners_follow_another_square_size(tmp_path: Path, result: Result
         (["views", 0, "status"], "seen", r"view 1 \(a.png\).status is not one of waiting, found"),
         (["views", 0, "status"], "no-board", "although the view has corners"),
         (["views", 2, "status"], "found", "although the status is 'found'"),
-        (["format"], "calibgui-result", "of the format 'calibgui-result', not corners.json"),
+        (["format"], "calibgui-result", "is not a file of corners"),
         (["size"], [1e18, 480], "size is not an array of integers"),
         (["target"], {"rows": 1, "cols": 4, "square_mm": 30}, "rows is not a number of corners"),
         (["target"], {"rows": 4, "cols": 4, "square_mm": 0}, "square_mm is not a length above 0"),

@@ -201,7 +201,7 @@ def test_a_byte_order_mark_is_no_error(tmp_path: Path) -> None:
     [
         (b'{"a": [1, 2', "is cut short in line 1"),
         (b'{"a": "x', "is cut short in line 1"),
-        (b"", "is cut short"),
+        (b"", "is empty"),
         (b"%YAML 1.2\n---\n", "is not a JSON file"),
         (b"\x89PNG\r\n\x1a\n\xff", "is not a JSON file"),
         *((content, "is cut short") for content in (b"[12.", b"[1e-", b"[-", b"[fals", b"[1,\n")),
@@ -227,8 +227,8 @@ def test_a_missing_file_and_a_folder_are_named(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("content", "message"),
     [
-        ({}, "not a file of the format 'x'"),
-        ({"format": "y", "version": 1}, "not a file of the format 'x'"),
+        ({}, "is not a thing"),
+        ({"format": "y", "version": 1}, "is not a thing"),
         ({"format": "x", "version": 3}, "knows versions up to 2"),
         ({"format": "x", "version": 0}, "version is not a version of this format"),
         ({"format": "x", "version": "2"}, "version is not a finite number"),
@@ -236,8 +236,8 @@ def test_a_missing_file_and_a_folder_are_named(tmp_path: Path) -> None:
 )
 def test_other_formats_and_newer_versions_are_refused(content: object, message: str) -> None:
     with pytest.raises(CalibrationError, match=message):
-        check_format(Node(content, "", "a.json"), "x", 2)
-    check_format(Node({"format": "x", "version": 2}, "", "a.json"), "x", 2)
+        check_format(Node(content, "", "a.json"), "x", 2, "a thing")
+    check_format(Node({"format": "x", "version": 2}, "", "a.json"), "x", 2, "a thing")
 
 
 def test_a_file_too_large_for_memory_is_not_read(tmp_path: Path) -> None:

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import numpy as np
 
-from calibgui.app.photographs.paths import make_natural_key
+from calibgui.app.photographs.paths import find_photograph, make_natural_key
 from calibgui.dataset import LeftOut, Result
 from calibgui.engine.assessment import (
     MIN_SETTINGS,
@@ -278,7 +278,7 @@ def _read_from_photographs(path: Path, result: Result, scalar: Scalar) -> float:
         )
     found = []
     for view in result.used:
-        image = next((p for p in _list_places(path, view.image) if p.is_file()), None)
+        image = find_photograph(path, view.image)
         if image is None:
             continue
         exif = read_image_header(image).exif
@@ -293,8 +293,3 @@ def _read_from_photographs(path: Path, result: Result, scalar: Scalar) -> float:
             "Give a table of file,value for each result: --values FILE.csv.",
         )
     return float(np.median(found))
-
-
-def _list_places(path: Path, image: str) -> list[Path]:
-    """List where a photograph that a result names may be."""
-    return [Path(image), path.parent / image, path.parent / Path(image).name]

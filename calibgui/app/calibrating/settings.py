@@ -8,7 +8,13 @@ from dataclasses import dataclass, field
 
 from calibgui.engine.boards import BoardShape, BoardShapeModel, BoardShapePrior
 from calibgui.engine.calibration import DEFAULT_METHOD, METHODS, Cost, check_method
-from calibgui.engine.camera import MODELS, PINHOLE, list_parameter_names, resolve_model_id
+from calibgui.engine.camera import (
+    MODELS,
+    PINHOLE,
+    list_parameter_names,
+    resolve_model_id,
+    suggest_model,
+)
 from calibgui.engine.errors import CalibrationError
 
 DEFAULT_MODEL = "lucchese"
@@ -64,8 +70,8 @@ def resolve_model_choice(model: str) -> str:
         CalibrationError: if there is none, with the names to choose from.
     """
     hint = (
-        f"Choose from {AUTO_MODEL}, {', '.join(MODEL_CHOICES)}; splined-stereographic-40x30-120 "
-        "would be one with 40 x 30 control points over 120 degrees."
+        f"{suggest_model(model)}Choose from {AUTO_MODEL}, {', '.join(MODEL_CHOICES)}; "
+        "splined-stereographic-40x30-120 would be one with 40 x 30 control points over 120 degrees."
     )
     try:
         current = resolve_model_id(model)

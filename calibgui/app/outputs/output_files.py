@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.files import describe_write_error, refuse_special_file, write_atomically
-from calibgui.formats.origin import FIGURE, is_own, make_mark
+from calibgui.formats.origin import FIGURE, describe_kind, is_own, make_mark
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure  # slow to import, and not needed to check
@@ -126,13 +126,14 @@ def _refuse_foreign(path: Path, kind: str) -> None:
             return
     except OSError as error:
         raise describe_write_error(path, error) from error
+    what = describe_kind(kind)
     if path.is_symlink():
         raise CalibrationError(
-            f"{path} leads to {os.path.realpath(path)}, which calibgui did not write as {kind}.",
+            f"{path} leads to {os.path.realpath(path)}, which is not {what} that calibgui wrote.",
             "Choose another name, or remove the link.",
         )
     raise CalibrationError(
-        f"{path} exists, and calibgui did not write it as {kind}.",
+        f"{path} exists, and is not {what} that calibgui wrote.",
         "Choose another name, or add --overwrite to replace it.",
     )
 
@@ -154,7 +155,10 @@ def make_folder(path: Path) -> None:
             f"The folder {path} cannot be made: {error.strerror or error}.",
             "Choose another folder that you may write to.",
         ) from error
-    check_writable(path / "any")
+    if not os.access(path, os.W_OK | os.X_OK):
+        raise CalibrationError(
+            f"You may not write to the folder {path.absolute()}.", "Choose another folder."
+        )
 
 
 def save_figure(figure: Figure, path: Path) -> None:

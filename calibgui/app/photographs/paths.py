@@ -263,3 +263,17 @@ def _is_image(entry: os.DirEntry[str]) -> bool:
         return True
     path = Path(entry)
     return path.is_file() or not path.exists()
+
+
+def find_photograph(result: Path, image: str) -> Path | None:
+    """Find a photograph that a result names: by that name, or beside the file of the result.
+
+    Args:
+        result: the file; its photographs may be named from the folder in which it was made.
+        image: the name.
+
+    Returns:
+        None if it is at none of these places.
+    """
+    places = Path(image), result.parent / image, result.parent / Path(image).name
+    return next((place for place in places if place.is_file()), None)

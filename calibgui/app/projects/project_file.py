@@ -185,7 +185,7 @@ def read_project(path: Path, folder: Path | None = None) -> Project:
             or something in it is wrong; the message names the place.
     """
     node = read_json(path)
-    check_format(node, FORMAT, VERSION)
+    check_format(node, FORMAT, VERSION, "a project")
     project = _decode_project(_migrate(node))
     base = (folder or path.parent).absolute()
     project = _change_paths(project, lambda image: _make_absolute(image, base))

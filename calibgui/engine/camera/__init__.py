@@ -27,6 +27,7 @@ if TYPE_CHECKING:
         find_model as find_model,
         list_parameter_names as list_parameter_names,
         resolve_model_id as resolve_model_id,
+        suggest_model as suggest_model,
     )
     from calibgui.engine.camera.models.lucchese import Lucchese as Lucchese
     from calibgui.engine.camera.models.splined_stereographic import (
@@ -50,7 +51,14 @@ load_on_demand(
             "undistort_points",
         ],
         "model": ["Lens"],
-        "models": ["MODELS", "PINHOLE", "find_model", "list_parameter_names", "resolve_model_id"],
+        "models": [
+            "MODELS",
+            "PINHOLE",
+            "find_model",
+            "list_parameter_names",
+            "resolve_model_id",
+            "suggest_model",
+        ],
         "models.lucchese": ["Lucchese"],
         "models.splined_stereographic": ["SplinedStereographic"],
         "projection": ["pixels_from_rays", "rays_from_pixels"],

@@ -60,6 +60,14 @@ def test_a_folder_is_made_with_those_above_it_unless_a_file_is_there(tmp_path: P
         make_folder(tmp_path / "file")
 
 
+def test_a_folder_that_is_closed_to_writing_is_named(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(os, "access", lambda *_: False)
+    with pytest.raises(CalibrationError, match=f"the folder {re.escape(str(tmp_path))}\\."):
+        make_folder(tmp_path)
+
+
 def test_a_figure_is_written_whole_or_not_at_all(tmp_path: Path) -> None:
     figure = Figure(figsize=(2, 1))
     save_figure(figure, tmp_path / "figure.png")
@@ -123,7 +131,7 @@ def test_only_files_of_the_same_kind_are_replaced(tmp_path: Path) -> None:
         if is_replaced:
             check_outputs([(file, "result")], [])
         else:
-            with pytest.raises(CalibrationError, match=r"did not write it as result.*--overwrite"):
+            with pytest.raises(CalibrationError, match=r"is not a result\.json that.*--overwrite"):
                 check_outputs([(file, "result")], [])
         check_outputs([(file, "result")], [], overwrite=True)
         assert file.read_bytes() == content
@@ -134,10 +142,10 @@ def test_a_figure_says_that_it_is_one_of_ours(tmp_path: Path, suffix: str) -> No
     path = tmp_path / f"figure{suffix.upper()}"
     save_figure(Figure(figsize=(2, 1)), path)
     check_figures([path], [])
-    with pytest.raises(CalibrationError, match="did not write it as result"):
+    with pytest.raises(CalibrationError, match=r"is not a result\.json that calibgui wrote"):
         check_outputs([(path, "result")], [])
     Figure(figsize=(2, 1)).savefig(path, format=suffix[1:])
-    with pytest.raises(CalibrationError, match="did not write it as figure"):
+    with pytest.raises(CalibrationError, match="is not a figure that calibgui wrote"):
         check_figures([path], [])
 
 

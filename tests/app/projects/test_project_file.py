@@ -119,7 +119,7 @@ def test_what_is_no_project_is_refused_by_name(tmp_path: Path) -> None:
     for content, says in (
         (text[: len(text) // 2], "cut short"),
         (newer, "version 99"),
-        ('{"format": "something"}', "not a file of the format"),
+        ('{"format": "something"}', "is not a project"),
         (text.replace('"square_mm": 30.0', '"square_mm": -1.0', 1), "a length above 0"),
         (
             text.replace('"model": "lucchese"', '"model": "none"', 1),

@@ -11,9 +11,10 @@ import pytest
 
 from calibgui.engine.arrays import Array
 from calibgui.engine.camera.model import Lens
-from calibgui.engine.camera.models import MODELS, find_model
+from calibgui.engine.camera.models import MODELS, find_model, suggest_model
 from calibgui.engine.camera.models.lucchese import Lucchese
 from calibgui.engine.camera.plane import PlaneLens
+from calibgui.engine.errors import CalibrationError
 from tests.engine.scenes import LENSES, central_differences
 
 AZIMUTHS = np.linspace(0, 2 * np.pi, 16, endpoint=False) + 0.1
@@ -75,6 +76,17 @@ def check(analytic: Array, f: Callable[[Array], Array], x: Array) -> None:
     for i, (ours, theirs) in enumerate(zip(analytic / most, numeric / most, strict=True)):
         limit = 1e-8 * np.abs(theirs).max(initial=0.0) + 1e-10
         assert np.abs(ours - theirs).max(initial=0.0) < limit, f"angle {i}"
+
+
+@pytest.mark.parametrize(
+    ("name", "model"),
+    [("fisheye", "kannala-brandt"), ("plumb_bob", "brown-conrady"), ("kanala", "kannala-brandt")],
+)
+def test_a_name_that_others_have_or_that_is_mistyped_is_understood(name: str, model: str) -> None:
+    with pytest.raises(CalibrationError) as caught:
+        find_model(name)
+    assert caught.value.hint.startswith(f"Did you mean {model}? Choose from ")
+    assert suggest_model("thing") == ""
 
 
 def test_there_is_a_lens_of_every_model() -> None:

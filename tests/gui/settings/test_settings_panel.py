@@ -220,7 +220,7 @@ def test_the_boards_shape_is_a_setting(
         choose(choice.model, "as in a file")
         assert session.project.settings.board_shape is BoardShapeModel.FREE
         assert choice.model.currentText().startswith("free")
-    assert "not a file of the format" in full.banner.text.text()
+    assert "is not a board shape" in full.banner.text.text()
     monkeypatch.setattr(
         QFileDialog, "getOpenFileName", lambda *_: (str(tmp_path / "shape.json"), "")
     )

@@ -112,8 +112,8 @@ def remark_unfinished_alternation(calibration: Calibration) -> tuple[str, ...]:
     if calibration.status is not Status.MAX_ITERATIONS:
         return ()
     return (
-        f"{len(calibration.history)} turns did not reach the least cost: the values may be off by "
-        "more than their standard deviations say.",
+        f"{len(calibration.history) - 1} turns did not reach the least cost: the values may be off "
+        "by more than their standard deviations say.",
     )
 
 

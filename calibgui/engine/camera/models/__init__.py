@@ -8,6 +8,8 @@ it does what a rotation of the camera does.
 
 from __future__ import annotations
 
+import difflib
+
 from calibgui.engine.camera.model import Lens
 from calibgui.engine.camera.models.brown_conrady import BrownConrady, BrownConrady4
 from calibgui.engine.camera.models.division import Division
@@ -53,6 +55,18 @@ models with other numbers of control points."""
 MODEL_ALIASES = {"opencv": "brown-conrady"}
 """Ids that models had in earlier versions, and the ids that they have now."""
 
+_NAMES_ELSEWHERE = {
+    "kannala-brandt": ("fisheye", "equidistant", "equi", "kb4", "opencv-fisheye"),
+    "brown-conrady": ("plumb-bob", "opencv5", "brown"),
+    "brown-conrady-4": ("radtan", "opencv4"),
+    "rational": ("rational-polynomial", "radtan8", "opencv8", "full-opencv"),
+    "thin-prism": ("opencv12",),
+    "double-sphere": ("ds",),
+    "mei": ("omni", "omnidir"),
+    "scaramuzza": ("ocam", "ocamcalib"),
+}
+"""Names that other programs have for the models, by ours."""
+
 PINHOLE = ("fx", "fy", "cx", "cy")
 """Names of the parameters that every camera has."""
 
@@ -68,10 +82,20 @@ def find_model(model: str) -> Lens:
     if lens is None:
         raise CalibrationError(
             f"There is no lens model {model!r}.",
-            f"Choose from {', '.join(MODELS)}; {PREFIX}-30x20-150 is the splined model of"
-            " 30 x 20 control points over 150 degrees, and there is one for any such numbers.",
+            f"{suggest_model(model)}Choose from {', '.join(MODELS)}; {PREFIX}-30x20-150 is the "
+            "splined model of 30 x 20 control points over 150 degrees, and there is one for any "
+            "such numbers.",
         )
     return lens
+
+
+def suggest_model(name: str) -> str:
+    """Return the question whether a model was meant by a name that is not its own, with a blank
+    after it; empty if none is like it."""
+    plain = name.lower().replace("_", "-")
+    meant = [model for model, names in _NAMES_ELSEWHERE.items() if plain in names]
+    meant += difflib.get_close_matches(plain, MODELS, n=1)
+    return f"Did you mean {meant[0]}? " if meant else ""
 
 
 def resolve_model_id(model: str) -> str:

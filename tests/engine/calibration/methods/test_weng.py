@@ -84,7 +84,7 @@ def test_a_stop_short_of_the_minimum_is_not_called_convergence() -> None:
     likely = calibrate(views, VGA, method=TOGETHER)
     assert found.status is Status.MAX_ITERATIONS
     assert found.history[-1].cost > 1.001 * likely.history[-1].cost
-    assert any("11 turns did not reach" in remark for remark in WENG.list_remarks(found))
+    assert any("10 turns did not reach" in remark for remark in WENG.list_remarks(found))
 
 
 def test_a_user_s_stop_keeps_the_last_turn() -> None:
