@@ -30,8 +30,8 @@ class HelpDialog(QDialog):
     def _page(self) -> str:
         steps = (
             self.tr(
-                "<b>Photograph</b> a flat board 10 to 30 times with focus and zoom fixed: "
-                "tilted by 20 to 50 degrees in different directions, near and far, and with "
+                "<b>Photograph</b> a flat board 10 to 20 times with focus and zoom fixed: "
+                "tilted by 20 to 45 degrees in different directions, near and far, and with "
                 "corners close to every corner of the image. <i>Print a board</i> makes one; "
                 "glue it to something flat and measure the bar below it."
             ),

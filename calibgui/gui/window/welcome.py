@@ -57,7 +57,7 @@ class Welcome(QScrollArea):
         title.setFont(font)
         words = WrappedLabel(
             self.tr(
-                "Drop photographs of a flat board here: 10 to 30 of them, the board tilted in "
+                "Drop photographs of a flat board here: 10 to 20 of them, the board tilted in "
                 "different directions and reaching into the image's corners. Its kind and size are "
                 "found. A saved project can be dropped as well."
             )
