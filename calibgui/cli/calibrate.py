@@ -166,6 +166,8 @@ def run(options: argparse.Namespace, console: Console) -> None:
     check_corner_outputs(options, [*(pair for pair in outputs if pair[0]), *exported])
     corner_set = read_or_search(options, console)
     search = not is_corners_file(options.paths)
+    if settings.board_shape is None:
+        console.print_notice("Board shapes will be compared on unseen views; this takes a while…")
     with explain_solve(console, corner_set), _show_comparison(settings, console) as advance:
         result = calibrate_twice(corner_set, settings, search=search, progress=advance)
     with console.show_progress("judging the calibration", "step") as advance:

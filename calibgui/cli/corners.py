@@ -20,6 +20,7 @@ from calibgui.cli.arguments import (
 from calibgui.cli.boards import add_board_options, is_pattern_open, read_pattern_options
 from calibgui.cli.console import Console
 from calibgui.dataset import CornerSet
+from calibgui.engine.detection import METHODS
 from calibgui.engine.errors import CalibrationError
 from calibgui.formats.corners_json import read_corners
 from calibgui.report.boards import describe_recognised_board
@@ -49,9 +50,9 @@ def add_corner_options(parser: argparse.ArgumentParser, need: str) -> None:
 def check_corner_options(options: argparse.Namespace) -> None:
     """End the program if the options on board and search do not fit the paths."""
     if is_corners_file(options.paths):
-        if options.board or options.roi or options.target:
+        if options.board or options.roi or options.target or options.corners != METHODS[0]:
             options.usage_error(
-                "--board, --roi and --target are for photographs, not for a corners file"
+                "--board, --roi, --target and --corners are for photographs, not for a corners file"
             )
     elif any(is_corners_file([path]) for path in options.paths):
         options.usage_error("a corners file is calibrated by itself")

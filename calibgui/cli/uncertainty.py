@@ -9,7 +9,7 @@ from pathlib import Path
 from calibgui.app.calibrating.calibration import shorten_names
 from calibgui.app.outputs.output_files import check_figures, save_figure
 from calibgui.cli.arguments import add_map_options, parse_positive
-from calibgui.cli.console import Console
+from calibgui.cli.console import Advance, Console
 from calibgui.cli.outputs import add_overwrite_option
 from calibgui.cli.result import read_result_and_warn
 from calibgui.dataset import Result
@@ -65,7 +65,8 @@ def run(options: argparse.Namespace, console: Console) -> None:
             quality.tabulate_noise_report(report, explanation, result.board),
         ]
         if options.validate:
-            sections += _validate(result)
+            with console.show_progress("validating", "part") as advance:
+                sections += _validate(result, advance)
     if options.output:
         from calibgui.report import quality_figures  # matplotlib takes a while to import
 
@@ -93,15 +94,18 @@ def run(options: argparse.Namespace, console: Console) -> None:
     console.print_text("\n\n".join(sections))
 
 
-def _validate(result: Result) -> list[str]:
+def _validate(result: Result, advance: Advance) -> list[str]:
     """Describe calibrations from parts of the views, and with other board shapes."""
     calibration, views = result.calibration, result.observations()
     size, settings = calibration.camera.size, recover_arguments(calibration)
+    advance(0, 3)
+    validation = cross_validate(views, size, min(5, len(views)), calibration, **settings)
+    advance(1, 3)
+    bootstrap = bootstrap_views(views, size, **settings)
+    advance(2, 3)
     sections = [
-        quality.tabulate_cross_validation(
-            cross_validate(views, size, min(5, len(views)), calibration, **settings)
-        ),
-        quality.tabulate_bootstrap(bootstrap_views(views, size, **settings), calibration),
+        quality.tabulate_cross_validation(validation),
+        quality.tabulate_bootstrap(bootstrap, calibration),
     ]
     if settings.pop("board_shape") is BoardShapeModel.NOMINAL and calibration.cost == "image":
         sections.append(

@@ -6,6 +6,7 @@ import io
 import json
 import math
 import shutil
+import sys
 from dataclasses import fields
 from pathlib import Path
 from typing import Any
@@ -115,6 +116,14 @@ def test_every_setting_has_its_option(corners_file: Path, monkeypatch: pytest.Mo
     # Those that take all corners as equally good take few of these settings.
     names = {field.name for field in fields(Settings)} - {"cost", "model", "method"}
     assert all(getattr(changed, name) != getattr(Settings(), name) for name in names)
+
+
+def test_a_comparison_of_board_shapes_is_said(
+    corners_file: Path, capsys: Capture, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(sys.stderr, "isatty", lambda: True)
+    assert main(["calibrate", str(corners_file), "--board-shape", "auto"]) == 0
+    assert "Board shapes will be compared" in capsys.readouterr().err
 
 
 def test_corners_need_no_square(corners_file: Path, tmp_path: Path) -> None:
@@ -459,6 +468,7 @@ def test_outputs_are_checked_before_the_work(
         ["a.png", "--square", "30", "--plate", "bow", "--prior", "0.1,0.3"],
         ["a.png", "b.json", "--square", "30"],
         ["corners.json", "--board", "6x7"],
+        ["corners.json", "--corners", "saddle"],
     ],
 )
 def test_wrong_usage_is_said_before_any_work(wrong: list[str], capsys: Capture) -> None:

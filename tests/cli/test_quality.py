@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import sys
 from pathlib import Path
 
 import pytest
@@ -45,9 +46,13 @@ def test_uncertainty_as_json(result_file: Path, capsys: Capture) -> None:
 
 
 @pytest.mark.slow
-def test_uncertainty_validates(result_file: Path, capsys: Capture) -> None:
+def test_uncertainty_validates(
+    result_file: Path, monkeypatch: pytest.MonkeyPatch, capsys: Capture
+) -> None:
+    monkeypatch.setattr(sys.stderr, "isatty", lambda: True)
     assert main(["uncertainty", str(result_file), "--validate"]) == 0
-    out = capsys.readouterr().out
+    out, err = capsys.readouterr()
+    assert "validating" in err
     for title in ("Cross-validation", "resamplings of the views", "Board shapes on unseen views"):
         assert title in out
     assert max(map(len, out.splitlines())) <= 80
