@@ -126,6 +126,12 @@ def test_a_comparison_of_board_shapes_is_said(
     assert "Board shapes will be compared" in capsys.readouterr().err
 
 
+def test_a_focal_length_is_held_in_pixels(capsys: Capture) -> None:
+    with pytest.raises(SystemExit):
+        main(["calibrate", "a.png", "--fix", "fy=-5"])
+    assert "State a number of pixels above 0, as fy=650." in capsys.readouterr().err
+
+
 def test_corners_need_no_square(corners_file: Path, tmp_path: Path) -> None:
     file = tmp_path / "result.json"
     assert main(["calibrate", str(corners_file), "-q", "-o", str(file)]) == 0

@@ -217,8 +217,8 @@ def _parse_value(name: str, text: str) -> float:
         value = float(text)
     except ValueError:
         value = math.nan
-    if not math.isfinite(value) or (name in ("fx", "fy") and value <= 0):
-        raise CalibrationError(
-            f"{text!r} cannot be the value of {name}.", "State a number, as k3=0."
-        )
+    is_focal = name in ("fx", "fy")
+    if not math.isfinite(value) or (is_focal and value <= 0):
+        wanted = f"a number of pixels above 0, as {name}=650" if is_focal else "a number, as k3=0"
+        raise CalibrationError(f"{text!r} cannot be the value of {name}.", f"State {wanted}.")
     return value
