@@ -41,8 +41,8 @@ def add_board_options(parser: argparse.ArgumentParser) -> None:
         "--target",
         choices=list(KINDS),
         metavar="KIND",
-        help=f"the printed pattern, one of {', '.join(KINDS)}; found out if neither this nor "
-        "--board is given, else checkerboard; --board counts inner corners or circles, of an "
+        help=f"the printed pattern, one of {', '.join(KINDS)}; if left out the photographs tell, "
+        "and with --roi it is a checkerboard; --board counts inner corners or circles, of an "
         "AprilGrid two for each tag; --square is the side of a square or tag, the distance of "
         "circles, or the distance of the rows of an asymmetric grid",
     )
