@@ -136,7 +136,7 @@ def test_parquet_is_written_or_the_library_is_named(
     [
         (["--workers", "0"], "not a number of processes"),
         (["--workers", "2", "--scheduler", "tcp://x:1"], "not allowed with"),
-        (["--square", "-1"], "not a number above 0"),
+        (["--square", "-1"], "not a length above 0"),
         (["--model", "pinhol"], "pinhol"),
     ],
 )
