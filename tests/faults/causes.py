@@ -46,6 +46,7 @@ FAULTS = {
     "1%-of-all-5px": Fault(corners.misplace_everywhere, ("misplaced-corners",), _MISPLACED),
     "rolling-shutter": Fault(cameras.roll_shutter, ("rolling-shutter",), ("shutter",)),
     "sheared-images": Fault(cameras.shear_images, ("sheared-images", "views-disagree"), ("shear",)),
+    "rolled-images": Fault(cameras.roll_images, ("rolled-images",), ("roll",)),
     "focus-change": Fault(cameras.refocus, ("focus",), ("focus", "zoom")),
     "stabilisation": Fault(cameras.stabilise, ("moving-centre",), ("stabilis",)),
     "zoom-change": Fault(cameras.zoom, ("mixed-views", "focus", "views-disagree"), ("zoom",)),

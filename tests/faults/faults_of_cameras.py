@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 
 from calibgui.engine.arrays import Array
@@ -77,6 +79,39 @@ def shear_images(rng: Rng) -> FaultySet:
 
     views = photograph(photographed, shift=shift)
     return state_fault(photographed, views, f"rows shift by {size:.1f} px, alike in all views")
+
+
+def roll_images(rng: Rng) -> FaultySet:
+    """Turn the rows of all images alike in proportion, as where a camera rolls about its axis.
+
+    Lenses are decentred by as much as a roll of 0.2 degrees.
+    """
+    photographed = draw_set(rng)
+    degrees = draw_log(rng, 0.4, 3.0) * float(rng.choice([-1, 1]))
+    views = photograph(photographed, shift=make_roll(photographed.camera, degrees))
+    return state_fault(photographed, views, f"rows roll by {degrees:.2f} degrees in all views")
+
+
+def make_roll(camera: Camera, degrees: float | Array) -> Callable[[int, Array], Array]:
+    """Make the shift of corners where the camera rolls between its first row and its last.
+
+    Args:
+        camera: the camera.
+        degrees: the angle, of all views or (K,) of each.
+    """
+
+    def shift(k: int, uv: Array) -> Array:
+        angle = np.deg2rad(degrees if isinstance(degrees, float) else degrees[k])
+        x, y = (uv - camera.centre).T
+        row = y
+        for _ in range(20):  # a corner is turned as the row is that it comes to lie in
+            turn = angle * row / camera.size[1]
+            row = np.sin(turn) * x + np.cos(turn) * y
+        return np.asarray(
+            camera.centre + np.column_stack([np.cos(turn) * x - np.sin(turn) * y, row])
+        )
+
+    return shift
 
 
 def refocus(rng: Rng) -> FaultySet:

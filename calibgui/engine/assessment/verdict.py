@@ -57,6 +57,7 @@ from calibgui.engine.assessment.changes.comparison import compare_cameras, find_
 from calibgui.engine.assessment.lens_extrapolation import map_disagreement
 from calibgui.engine.calibration.observations import Observation
 from calibgui.engine.calibration.result import Calibration, Status
+from calibgui.engine.camera.camera import Camera
 from calibgui.engine.geometry.rotations import rotation_from_vector
 from calibgui.engine.images.sampling import make_mesh
 from calibgui.engine.numbers import format_two_digits
@@ -184,6 +185,9 @@ def judge_calibration(
     for finding in found:
         trial = try_action_safely(finding.action, calibration, views, check)
         if trial is None:
+            if finding.without is not None:
+                known = _map_uncertainty(calibration, views)
+                errors.append(np.hypot(_map_move(finding.without, calibration, views), known))
             tried.append(_ask_for_photographs(finding))
             continue
         before, after = _compare_with_trial(calibration, views, trial)
@@ -252,8 +256,12 @@ def _compare_with_trial(
 ) -> tuple[Array, Array]:
     """Return the errors (m, n) before an action and after it, px."""
     after = _map_uncertainty(trial.calibration, trial.views)
-    moved = compare_cameras(trial.calibration.camera, calibration.camera, views=views).length
-    return np.hypot(moved, after), after
+    return np.hypot(_map_move(trial.calibration.camera, calibration, views), after), after
+
+
+def _map_move(camera: Camera, calibration: Calibration, views: Sequence[Observation]) -> Array:
+    """Map how far a calibration's pixels (m, n) are from those of another camera, px."""
+    return compare_cameras(camera, calibration.camera, views=views).length
 
 
 def _find_covered(size: Size, views: Sequence[Observation]) -> BoolArray:

@@ -13,7 +13,8 @@ without those behind it:
    estimated before it is named, and if one of these explains much of what is left, that is the
    cause; the board follows once it is gone. So are two kinds that explain more than any board does.
    Where it is not the board, a lens of another kind (``rival_lens.py``) is fitted in any case. A
-   shear of all images (``sheared_images.py``) is asked for where either would be named.
+   shear of all images (``sheared_images.py``) is asked for where either would be named, and a roll
+   (``rolled_images.py``) where the lens would, a motion, no cause or nothing.
 2. **Two kinds of views** (``mixed_views.py``), which have twice the unknowns of one.
 3. **Focus, centre, bending, motion**, which differ from view to view: that which is most probable
    by far, or else shifts from row to row; then **blur**, which moves nothing.
@@ -40,6 +41,7 @@ from calibgui.engine.assessment.causes.finding import (
 from calibgui.engine.assessment.causes.harm import Case, prepare_case
 from calibgui.engine.assessment.causes.mixed_views import DISTORTION, Split, find_two_kinds
 from calibgui.engine.assessment.causes.rival_lens import fit_rival
+from calibgui.engine.assessment.causes.rolled_images import find_roll
 from calibgui.engine.assessment.causes.sheared_images import find_shear
 from calibgui.engine.assessment.residuals.cause_fits import MIN_LEAD
 from calibgui.engine.assessment.residuals.residual_checks import NoiseCheck
@@ -111,6 +113,8 @@ _CAUSES_OF_CHECKS = {
     "views": Cause.BLUR,
 }
 """Causes by the names of the tests of ``residual_checks.py``."""
+_CAUSES_BESIDE_ROLL = (Cause.LENS, Cause.ROLLING_SHUTTER, Cause.DISAGREEMENT, Cause.BLUR)
+"""Causes that a roll of all images is mistaken for, or beside which it may be more harmful."""
 _MESSAGES = {
     Cause.BOARD_SHAPE: "The board is not as it was drawn.",
     Cause.FOCUS: "The focal length differs between the views.",
@@ -147,11 +151,15 @@ def explain_most(case: Case) -> float:
 def find_systematic_cause(case: Case) -> Finding | None:
     """Find the one cause of residuals that are not noise; None if none matters."""
     found = _find_cause(case)
-    if found is None or found.cause not in (Cause.LENS, Cause.BOARD_SHAPE):
-        return found
-    names = ("lens",) if found.cause is Cause.LENS else _CHECKS_OF_BOARD
-    explained = find_largest_share(check for check in case.report.checks if check.name in names)
-    return find_shear(case, explained or _MIN_SHARE_OF_RIVAL) or found
+    if found is not None and found.cause in (Cause.LENS, Cause.BOARD_SHAPE):
+        names = ("lens",) if found.cause is Cause.LENS else _CHECKS_OF_BOARD
+        explained = find_largest_share(check for check in case.report.checks if check.name in names)
+        explained = explained or _MIN_SHARE_OF_RIVAL
+        found = find_shear(case, explained) or found
+    if found is None or found.cause in _CAUSES_BESIDE_ROLL:
+        is_lens = found is not None and found.cause is Cause.LENS
+        return find_roll(case, found, explained if is_lens else 0.0) or found
+    return found
 
 
 def _find_cause(case: Case) -> Finding | None:

@@ -6,6 +6,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from enum import StrEnum
 
+from calibgui.engine.camera.camera import Camera
 from calibgui.engine.numbers import format_two_digits
 
 MIN_HARM_PX = 0.05
@@ -50,6 +51,9 @@ class Cause(StrEnum):
     LINE_JITTER = "line-jitter"
     SHEARED_IMAGES = "sheared-images"
     """Each row is shifted sideways against the next, by the same angle in all images."""
+    ROLLED_IMAGES = "rolled-images"
+    """Each row is turned against the next, by the same angle in all images, or the lens is
+    decentred."""
     MIXED_VIEWS = "mixed-views"
     """Photographs of two cameras, zooms or boards; the evidence seldom tells which."""
     DISAGREEMENT = "views-disagree"
@@ -128,6 +132,8 @@ class Finding:
     times_better: float = 1.0
     """Ratio by which the action makes the error of pixels smaller, as a trial showed
     (``verdict.py``); 1 if it was not tried or brings nothing."""
+    without: Camera | None = None
+    """The camera without the cause, where no action leads to it; None if it is not known."""
 
 
 def describe_harm(harm: float) -> str:

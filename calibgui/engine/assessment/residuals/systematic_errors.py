@@ -205,6 +205,18 @@ def multiply_by_board(fit: LinearisedFit) -> ViewProducts:
     return _multiply_own_columns(fit, make_columns)
 
 
+def multiply_by_roll(fit: LinearisedFit) -> ViewProducts:
+    """Multiply the column of a roll about the optical axis, rad over the image's height, by which
+    rows are turned in proportion."""
+
+    def make_columns(fit: LinearisedFit, _: Linearised, views: slice) -> Array:
+        x, y = np.moveaxis(fit.predict_corners(views) - fit.camera.centre, -1, 0)
+        turned = np.stack([-y, x], axis=-1) * y[..., None] / fit.camera.size[1]
+        return np.asarray(fit.get_weight(views) @ turned[..., None])
+
+    return _multiply_own_columns(fit, make_columns)
+
+
 def _multiply_own_columns(fit: LinearisedFit, columns: Columns) -> ViewProducts:
     """Multiply columns that each view has of its own, and the camera's, without the view's pose."""
     parts, cost, P = [], 0.0, len(fit.free)
