@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from calibgui.engine.assessment.changes.comparison import compare_cameras
 from calibgui.engine.assessment.choices.cross_validation import (
     bootstrap_views,
     choose_board_shape,
@@ -15,7 +16,8 @@ from calibgui.engine.calibration.calibrate import calibrate
 from calibgui.engine.calibration.methods import lucchese
 from calibgui.engine.calibration.observations import Observation
 from calibgui.engine.errors import CalibrationError
-from tests.engine.scenes import TRUE_BOARD, barrel, scene
+from tests.engine.scenes import BOARD, TRUE_BOARD, barrel, looking, scene
+from tests.faults.sets import project_corners
 
 SIZE = barrel().size
 
@@ -124,6 +126,26 @@ def test_no_board_shape_stands_in_for_a_lens_that_is_not_followed() -> None:
     assert set(choice.refused) == set(BoardShapeModel) - {BoardShapeModel.NOMINAL}
     assert "The lens comes first" in choice.recommendation
     assert f"{choice.nominal.lens_error:.2g} px" in choice.recommendation
+
+
+def test_a_board_far_from_flat_is_estimated_where_a_flat_one_leads_astray() -> None:
+    """It is bowed by 14 % of its length, and some of its views do not determine a camera with a
+    flat board."""
+    angle = 0.58  # to both sides, on a cylinder
+    rng = np.random.default_rng([5, 0])
+    xy = BOARD.points()
+    middle, half = (xy.min(axis=0) + xy.max(axis=0)) / 2, np.ptp(xy[:, 0]) / 2
+    turn = (xy[:, 0] - middle[0]) / half * angle
+    x, z = half / angle * np.sin(turn), half / angle * (np.cos(turn) - np.cos(angle))
+    bowed = np.column_stack([middle[0] + x, xy[:, 1], z])
+    views = [
+        Observation(project_corners(barrel(), looking(barrel(), rng), bowed), xy) for _ in range(8)
+    ]
+    views = [view._replace(uv=view.uv + rng.normal(0, 0.05, view.uv.shape)) for view in views]
+    choice = choose_board_shape(views, SIZE)
+    assert choice.model is BoardShapeModel.FREE
+    assert compare_cameras(barrel(), choice.nominal.camera, views=views).rms > 50
+    assert compare_cameras(barrel(), choice.chosen.camera, views=views).rms < 0.2
 
 
 def test_board_shapes_that_the_views_cannot_carry_are_named() -> None:
