@@ -276,7 +276,8 @@ def _is_noise_enough(case: Case) -> bool:
     """
     checks = case.report.checks
     smooth = max((check.share for check in checks if check.name == "smooth"), default=0.0)
-    explained = max(smooth, find_largest_share(checks))
+    rival = fit_rival(case.calibration, case.views).share
+    explained = max(smooth, rival, find_largest_share(checks))
     return float(np.sqrt(1 - explained)) * case.by_noise_alone > _MAX_NOISE_PX
 
 

@@ -168,7 +168,12 @@ def _let_lens_be_decentred(case: Case, explained: float) -> Calibration | None:
         return None
     other = _DECENTRED_MODELS.get(model, _DECENTRED_AT_LARGE)
     found = calibrate_by_model(calibration, case.views, other)
-    share = 1 - (summarise_residuals(found.residuals).rms / case.rms) ** 2
+    settings = recover_image_arguments(found) | {"model_errors": False}
+    settings["free"] = [name for name in settings["free"] if name not in _DECENTRING]
+    settings["fix"] |= dict.fromkeys(_DECENTRING, 0.0)
+    centred = calibrate(case.views, found.camera.size, **settings)
+    after, before = (summarise_residuals(one.residuals).rms for one in (found, centred))
+    share = (before**2 - after**2) / case.rms**2  # what another lens model explains is no roll
     return found if share >= _MIN_PART * explained else None
 
 

@@ -211,6 +211,14 @@ def test_photographs_stored_upside_down_are_named_and_not_a_board(every: int) ->
     assert "upside down" in finding.message and "Turn them by 180 degrees" in finding.remedy
 
 
+def test_a_fisheye_that_a_pinhole_does_not_follow_is_no_lack_of_views() -> None:
+    """Of these ten the noise, if it were all that a pinhole leaves, would leave pixels unknown."""
+    fisheye = Camera(VGA, [330.0, 330.0, 312.0, 246.0, -0.02, 4e-3, -3e-3, 4e-4], "kannala-brandt")
+    views = photograph(draw_rendered_set(np.random.default_rng([1373, 0]), fisheye))
+    findings = list_findings(calibrate(views, VGA, model="pinhole"), views)
+    assert [finding.cause for finding in findings] == [Cause.LENS]
+
+
 def test_a_board_under_glass_is_not_said_to_bend_for_certain() -> None:
     """Glass of 6 mm moves corners by the angle at which they are seen."""
     camera, rng = barrel(), np.random.default_rng(12)
