@@ -81,9 +81,19 @@ is named instead: a lens model that is off by some hundredths of a pixel is not 
 bowed board moves pixels by several. It was 0.01 in rendered photographs of such boards, and 1 where
 a lens model did not follow the lens (``tests/faults``)."""
 _MAX_RMS_IF_TURNED = 1.2
-"""RMS residual with the odd views turned by 180 degrees, over what a camera of their own would
-leave to the first order, up to which they were upside down: with no unknowns more. They leave half
-of the squares at most that such a camera explains."""
+"""RMS residual with the odd views turned back, over what a camera of their own would
+leave to the first order, up to which they were turned: with no unknowns more. They leave half of
+the squares at most that such a camera explains."""
+_TURNS = {
+    (-1, -1): ("upside down", "turn them by 180 degrees"),
+    (-1, 1): ("mirrored left to right", "mirror them left to right"),
+    (1, -1): ("mirrored top to bottom", "mirror them top to bottom"),
+}
+"""Ways in which a program may have turned what the camera wrote, by the signs of the coordinates:
+how the images stand, and what turns them back."""
+_MAX_RMS_ALIKE = 1.05
+"""RMS residual over the least one, up to which another of these ways is as likely: a lens in the
+middle of the image is the same when it is turned and when it is mirrored."""
 _SOUGHT = {
     DISTORTION: "photographs that the camera or a program has corrected, or another lens, among "
     "these"
@@ -306,23 +316,26 @@ def _order_by_probability(checks: Iterable[NoiseCheck]) -> list[NoiseCheck]:
 
 
 def _describe_two_kinds(case: Case, split: Split) -> Finding:
-    """Describe views of two kinds; one kind may be stored upside down."""
+    """Describe views of two kinds; one kind may be stored upside down or mirrored."""
     odd = np.flatnonzero(split.is_odd).tolist()
     views = tuple(case.numbers[k] for k in odd)
     left = case.rms * float(np.sqrt(1 - split.share))
     harm = case.measure_harm(split.share)
     listed = list_names([case.names[k] for k in odd])
-    turned = _measure_rms_if_turned(case, split.is_odd)
+    turns = {turn: _measure_rms_if_turned(case, split.is_odd, turn) for turn in _TURNS}
+    turned = min(turns.values())
     # Where little is to be explained, nearly all would be left of it if nothing were wrong.
     half = float(np.sqrt((left**2 + case.rms**2) / 2))
     if turned < min(_MAX_RMS_IF_TURNED * left, half):
+        alike = [_TURNS[turn] for turn, rms in turns.items() if rms < _MAX_RMS_ALIKE * turned]
+        how, back = (" or ".join(words) for words in zip(*alike, strict=True))
         return Finding(
             Cause.MIXED_VIEWS,
-            f"{listed} {'stand' if len(odd) > 1 else 'stands'} upside down against the others, "
-            "stored by a program that turned what the camera wrote.",
-            f"Turned by 180 degrees they leave {turned:.2g} px of {case.rms:.2g} px RMS; "
+            f"{listed} {'are' if len(odd) > 1 else 'is'} {how} against the others, stored by a "
+            "program that turned what the camera wrote.",
+            f"Turned back they leave {turned:.2g} px of {case.rms:.2g} px RMS; "
             f"{describe_harm(harm)}.",
-            "Turn them by 180 degrees, or take the files as the camera wrote them.",
+            f"{back[:1].upper()}{back[1:]}, or take the files as the camera wrote them.",
             harm,
             views,
             Action(ActionKind.LEAVE_OUT_VIEWS, views),
@@ -340,12 +353,19 @@ def _describe_two_kinds(case: Case, split: Split) -> Finding:
     )
 
 
-def _measure_rms_if_turned(case: Case, is_turned: BoolArray) -> float:
-    """Measure the RMS residual if some views (K,) are turned by 180 degrees, px; infinite if that
-    is no calibration."""
+def _measure_rms_if_turned(case: Case, is_turned: BoolArray, turn: tuple[int, int]) -> float:
+    """Measure the RMS residual if some views (K,) are turned by half a turn or mirrored, px;
+    infinite if that is no calibration.
+
+    A board that is seen in a mirror is numbered from its other side.
+    """
     last = np.array(case.calibration.camera.size) - 1
+    sign = np.array(turn)
+    side = np.array([sign.prod(), 1])
     views = [
-        Observation(last - view[0], *view[1:]) if turned else view
+        Observation(np.where(sign < 0, last - view[0], view[0]), view[1] * side, *view[2:])
+        if turned
+        else view
         for view, turned in zip(case.views, is_turned, strict=True)
     ]
     settings = recover_image_arguments(case.calibration)

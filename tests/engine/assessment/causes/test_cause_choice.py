@@ -211,6 +211,17 @@ def test_photographs_stored_upside_down_are_named_and_not_a_board(every: int) ->
     assert "upside down" in finding.message and "Turn them by 180 degrees" in finding.remedy
 
 
+def test_photographs_stored_mirrored_are_named() -> None:
+    """A board that is seen in a mirror is numbered from its other side."""
+    mirrored = [
+        Observation(view.uv * [-1, 1] + [2 * MIDDLE[0], 0], view.xy * [-1, 1]) if k % 2 else view
+        for k, view in enumerate(CLEAN)
+    ]
+    (finding,) = found(mirrored)
+    assert "are mirrored left to right against the others" in finding.message
+    assert finding.remedy.startswith("Mirror them left to right, or take the files")
+
+
 def test_a_fisheye_that_a_pinhole_does_not_follow_is_no_lack_of_views() -> None:
     """Of these ten the noise, if it were all that a pinhole leaves, would leave pixels unknown."""
     fisheye = Camera(VGA, [330.0, 330.0, 312.0, 246.0, -0.02, 4e-3, -3e-3, 4e-4], "kannala-brandt")
