@@ -313,7 +313,7 @@ def _is_narrow(calibration: Calibration, error: PixelError, findings: Sequence[F
     """Return whether pixels are known well among corners and too poorly over the image, for no
     other cause that asks for photographs and without a remedy that makes them much better."""
     is_judged = calibration.diagnosis is None and calibration.status is Status.CONVERGED
-    is_told = any(finding.cause is Cause.FEW_VIEWS for finding in findings)
+    is_told = any(f.cause is Cause.FEW_VIEWS or f.without is not None for f in findings)
     is_mended = bool(findings) and findings[0].times_better >= MIN_TIMES_BETTER
     is_poor = error.covered <= MAX_USABLE_PX and not error.median <= MAX_USABLE_PX
     return is_judged and is_poor and not is_told and not is_mended

@@ -54,8 +54,10 @@ from calibgui.engine.numbers import format_two_digits
 _MIN_ROLL = np.deg2rad(0.2)
 """Roll from the first row to the last that a decentring stands for, from which the lens may have
 none, rad."""
-_MIN_SIGMAS = 3.0
-"""The same, in its standard deviations."""
+_MIN_SIGMAS, _MIN_SIGMAS_OF_MOTION = 3.0, 1.0
+"""The same, in its standard deviations, and where a motion is found in each view: views that
+disagree widen them by more than it takes (rolls of 1 and 3 degrees, with a fifth of that from view
+to view, were found to 0.3 degrees, and stated to 0.2 to 2)."""
 _MIN_LEAD_TO_NAME = 20.0
 """Difference of Akaike's criterion from that of a decentred lens, from which a roll is named. Of 17
 decentred lenses that stood for a roll of 0.2 degrees or more it was 0 at most, of 45 rolls of 0.3
@@ -90,10 +92,9 @@ class _Roll(NamedTuple):
     number: int
     """Index of the decentring among the camera's parameters."""
 
-    @property
-    def is_large(self) -> bool:
-        """True if lenses are hardly decentred as much, and it is no chance."""
-        return abs(self.angle) >= max(_MIN_ROLL, _MIN_SIGMAS * self.sigma)
+    def is_large(self, sigmas: float) -> bool:
+        """Return whether lenses are hardly decentred as much, and it is so many sigmas."""
+        return abs(self.angle) >= max(_MIN_ROLL, sigmas * self.sigma)
 
 
 def find_roll(case: Case, found: Finding | None, explained: float) -> Finding | None:
@@ -104,10 +105,12 @@ def find_roll(case: Case, found: Finding | None, explained: float) -> Finding | 
         found: what is found otherwise; a motion in each view is returned with the roll's harm.
         explained: the share of the squared residuals that a wrong lens explains.
     """
+    is_moving = found is not None and found.cause is Cause.ROLLING_SHUTTER
+    sigmas = _MIN_SIGMAS_OF_MOTION if is_moving else _MIN_SIGMAS
     try:
         decentred = _let_lens_be_decentred(case, explained)
         roll = None if decentred is None else _estimate_roll(decentred, case.views)
-        if decentred is None or roll is None or not roll.is_large:
+        if decentred is None or roll is None or not roll.is_large(sigmas):
             return None
         angle, still = _turn_back(decentred, case.views, roll)
         moved = compare_cameras(still.camera, case.calibration.camera, views=case.views).rms
@@ -120,7 +123,7 @@ def find_roll(case: Case, found: Finding | None, explained: float) -> Finding | 
     if moved < MIN_HARM_PX or lead < -MIN_LEAD or is_less:
         return None
     degrees = format_two_digits(abs(float(np.rad2deg(angle))))
-    if found is not None and found.cause is Cause.ROLLING_SHUTTER:
+    if found is not None and is_moving:
         harm = float(np.hypot(found.harm, moved))
         evidence = (
             f"{found.evidence} With a roll of {degrees} degrees from the first row to the last "

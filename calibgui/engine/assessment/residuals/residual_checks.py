@@ -55,6 +55,7 @@ from calibgui.engine.assessment.residuals.cause_fits import (
 )
 from calibgui.engine.assessment.residuals.residual_statistics import summarise_residuals
 from calibgui.engine.assessment.residuals.systematic_errors import (
+    MOTIONS,
     OWN_CAUSES,
     measure_dispersion,
     prepare_fit,
@@ -276,8 +277,11 @@ def _check_causes(
     fits["smooth"], fits["lines"] = step_to_smooth(fit), step_to_lines(fit)
     dispersion = measure_dispersion(fit, fits["smooth"])
 
+    def compute_criterion_of(found: CauseFit) -> float:
+        return found.compute_akaike(without, freedom, dispersion)
+
     def compute_criterion(name: str) -> float:
-        return fits[name].compute_akaike(without, freedom, dispersion)
+        return compute_criterion_of(fits[name])
 
     is_lens_likely = compute_criterion("lens") < compute_criterion("squares")
     if is_lens_likely and (calibration.lens_error > 0 or outdoes_board(shared)):
@@ -288,7 +292,8 @@ def _check_causes(
             progress(done, len(names))
         share = 1.0
         if name in OWN_CAUSES:
-            fits[name] = fit_own_cause(fit, OWN_CAUSES[name])
+            ways = MOTIONS if name == "rows" else (OWN_CAUSES[name],)
+            fits[name] = min((fit_own_cause(fit, way) for way in ways), key=compute_criterion_of)
             found = fits[name].judge(without, freedom)
         elif name in _STEPS:
             found = fits[name].judge(CauseFit(shared.cost, 0), freedom)

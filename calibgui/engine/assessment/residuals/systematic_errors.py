@@ -150,6 +150,26 @@ def _make_row_columns(fit: LinearisedFit, linear: Linearised, views: slice) -> A
     return np.asarray(linear.by_pose * _measure_rows(fit, views)[..., None, None])
 
 
+def _make_turn_columns(fit: LinearisedFit, linear: Linearised, views: slice) -> Array:
+    """Make the columns of a steady rotation of the camera about its centre while rows are read.
+
+    A rotation by w moves a point X = R x + T by w x X, of which w x T is a shift of the board.
+    """
+    x, y, z = fit.state.T[views].T
+    zero = np.zeros_like(x)
+    shift = np.array([[zero, z, -y], [-z, zero, x], [y, -x, zero]])
+    by_turn = linear.by_pose[..., :3] + linear.by_pose[..., 3:] @ np.moveaxis(shift, -1, 0)[:, None]
+    return np.asarray(by_turn * _measure_rows(fit, views)[..., None, None])
+
+
+def _make_roll_columns(fit: LinearisedFit, _: Linearised, views: slice) -> Array:
+    """Make the column of a steady roll about the optical axis while rows are read, rad over the
+    image's height."""
+    x, y = np.moveaxis(fit.predict_corners(views) - fit.camera.centre, -1, 0)
+    turned = np.stack([-y, x], axis=-1) * y[..., None] / fit.camera.size[1]
+    return np.asarray(fit.get_weight(views) @ turned[..., None])
+
+
 def _make_line_columns(fit: LinearisedFit, _: Linearised, views: slice) -> Array:
     """Make the columns of a shift along the rows that wanders from row to row in each view."""
     rows = _measure_rows(fit, views)[..., None]
@@ -165,6 +185,9 @@ OWN_CAUSES: dict[str, Columns] = {
 }
 """Columns of the causes with few unknowns of each view's own, by the names of their tests
 (``residual_checks.py``)."""
+MOTIONS = (_make_row_columns, _make_turn_columns, _make_roll_columns)
+"""Columns of steady motions while the rows are read, with fewer and fewer unknowns: of any, of a
+camera that turns, as one does that is held in the hand, and of one that rolls."""
 
 
 def _measure_rows(fit: LinearisedFit, views: slice) -> Array:
@@ -206,15 +229,8 @@ def multiply_by_board(fit: LinearisedFit) -> ViewProducts:
 
 
 def multiply_by_roll(fit: LinearisedFit) -> ViewProducts:
-    """Multiply the column of a roll about the optical axis, rad over the image's height, by which
-    rows are turned in proportion."""
-
-    def make_columns(fit: LinearisedFit, _: Linearised, views: slice) -> Array:
-        x, y = np.moveaxis(fit.predict_corners(views) - fit.camera.centre, -1, 0)
-        turned = np.stack([-y, x], axis=-1) * y[..., None] / fit.camera.size[1]
-        return np.asarray(fit.get_weight(views) @ turned[..., None])
-
-    return _multiply_own_columns(fit, make_columns)
+    """Multiply the column of a steady roll of each view's own, rad over the image's height."""
+    return _multiply_own_columns(fit, _make_roll_columns)
 
 
 def _multiply_own_columns(fit: LinearisedFit, columns: Columns) -> ViewProducts:

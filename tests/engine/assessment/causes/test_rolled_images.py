@@ -61,3 +61,12 @@ def test_rolls_that_differ_and_have_a_mean_are_a_motion_with_the_error_of_both()
     (finding,) = verdict.findings
     assert finding.cause is Cause.ROLLING_SHUTTER
     assert true / 2 < verdict.error.covered < 2 * true
+
+
+def test_rolls_that_differ_move_no_centre_of_a_wide_lens() -> None:
+    """They displace its corners nearly as another principal point in each view does."""
+    wide = Camera(VGA, [330.0, 330.0, 312.0, 246.0, -0.02, 4e-3, -3e-3, 4e-4], "kannala-brandt")
+    degrees = 1 + np.random.default_rng(6).normal(0, 0.2, 30)
+    verdict, true = judge(wide, degrees, model="kannala-brandt-decentering")
+    assert [finding.cause for finding in verdict.findings] == [Cause.ROLLING_SHUTTER]
+    assert true / 2 < verdict.error.covered < 2 * true
