@@ -58,6 +58,11 @@ class TagLayout(NamedTuple):
             squares[:, 0] *= -1
         return squares
 
+    def number_squares(self, squares: IntArray) -> IntArray:
+        """Return the numbers (n,) of the tags at `squares` (n, 2), as of `locate_squares`."""
+        rows = squares[:, 0] if self.from_top else -squares[:, 0]
+        return np.asarray(self.cols * rows + squares[:, 1])
+
 
 @dataclass(frozen=True, slots=True)
 class AprilGrid(CodedPattern):

@@ -22,7 +22,8 @@ from calibgui.engine.detection.apriltags.tag_outlines import (
     fit_tag_outlines,
     follow_shaded_outlines,
 )
-from calibgui.engine.detection.apriltags.tag_reader import verify_tags
+from calibgui.engine.detection.apriltags.tag_reader import draw_tags, verify_tags
+from calibgui.engine.detection.apriltags.tag_spread import measure_corner_moves, move_edges_outwards
 from calibgui.engine.detection.charuco.assembly import FittedCorners
 from calibgui.engine.detection.charuco.corners_between_markers import predict_places
 from calibgui.engine.detection.charuco.markers import Markers
@@ -122,7 +123,7 @@ def locate_outlined_corners(
     kept = _are_measurable(quads, image)
     rejected = list_rejected_corners(quads[~kept].reshape(-1, 2), "not whole in the image")
     squares, quads = squares[kept], quads[kept]
-    doubted: list[tuple[FittedCorners, IntArray, Array]] = []
+    doubted: list[tuple[FittedCorners, IntArray, Array, Array]] = []
     while True:
         if len(quads) < 2:
             raise NoBoardError(
@@ -142,13 +143,21 @@ def locate_outlined_corners(
             break
         bad = np.repeat(~good, 4)
         shaded = follow_shaded_outlines(image, quads[~good], fit.lens_bows[~good], border, gap)
-        its_corners = corners.select(bad)._replace(uv=shaded.reshape(-1, 2))
-        doubted.append((its_corners, grid[bad], quads[~good]))
+        doubted.append((corners.select(bad), grid[bad], shaded, quads[~good]))
         squares, quads = squares[good], quads[good]
+    numbers = read[1].layout.number_squares(squares - first)
+    dark = draw_tags(read[0], numbers)
+    moves = measure_corner_moves(image, fit, dark, gap)
+    corners = corners._replace(
+        uv=corners.uv + moves.move.reshape(-1, 2),
+        covariance=corners.covariance + moves.covariance.reshape(-1, 2, 2),
+    )
     # Where tags were read they are smaller than they are, and the gap between them wider.
-    gap = measure_gap_of_tags(squares, fit.corners, gap)
+    gap = measure_gap_of_tags(squares, corners.uv.reshape(-1, 4, 2), gap)
     all_corners, all_grid = corners, grid
-    for its_corners, its_grid, at in doubted:
+    for unshaded, its_grid, shaded, at in doubted:
+        moved = move_edges_outwards(shaded, moves.shift)
+        its_corners = unshaded._replace(uv=moved.reshape(-1, 2))
         displacement = _measure_displacements(its_corners.uv, its_grid, corners.uv, grid, gap)
         near = _are_tolerable(its_corners, displacement, border * np.repeat(_measure_sides(at), 4))
         rejected += list_rejected_corners(at.reshape(-1, 2)[~near], "not the outline of a tag")

@@ -16,7 +16,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from calibgui.engine.arrays import Array, IntArray
+from calibgui.engine.arrays import Array, IntArray, compute_median
 from calibgui.engine.detection.grid_map import fit_radial_homography
 from calibgui.engine.errors import NoBoardError
 
@@ -68,7 +68,7 @@ def measure_gap(uv: Array, gap: float) -> float:
     ratio = ratio[np.isfinite(ratio) & (ratio > 1)]
     if not len(ratio):
         return gap
-    cross = float(np.median(ratio))
+    cross = float(compute_median(ratio))
     measured = float(np.sqrt(cross / (cross - 1))) - 1
     if measured > 1 + _MAX_EXCESS:
         raise explain_wide_gap()

@@ -22,7 +22,7 @@ from typing import NamedTuple
 import numpy as np
 
 from calibgui.engine import kernels
-from calibgui.engine.arrays import Array, GreyImage, IntArray
+from calibgui.engine.arrays import Array, GreyImage, IntArray, compute_median
 from calibgui.engine.detection import grid_map
 from calibgui.engine.detection.apriltags.outline_model import (
     LAST,
@@ -33,7 +33,9 @@ from calibgui.engine.detection.apriltags.outline_model import (
 )
 from calibgui.engine.detection.apriltags.tag_gap import measure_gap_of_tags
 from calibgui.engine.detection.detector_io import estimate_least_noise
-from calibgui.engine.images.sampling import sample_image
+from calibgui.engine.detection.grid_map import RadialHomography
+from calibgui.engine.geometry import homography
+from calibgui.engine.images.sampling import make_mesh, sample_image
 
 _MAX_FREE_STEPS, _LAST_STEPS = 8, 2
 """Numbers of steps, each tag by itself, and with the bows that the lens of all tags gives them."""
@@ -69,6 +71,12 @@ _DAMPING = 1e-9
 """Number that is added to the diagonal of the normal equations, over its largest entry."""
 AROUND = np.array([(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)])
 """(4, 2) corners of a tag from its upper left one, sides."""
+NODE_PLACES = np.arange(4) / 3
+"""(4,) places across a tag between which the lens is interpolated, sides."""
+NODES = make_mesh(NODE_PLACES, NODE_PLACES).reshape(-1, 2)
+"""(16, 2) of all pairs of these, row by row."""
+_CORNER_NODES = [0, 3, 15, 12]
+"""Indices of the tag's corners among them."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -87,6 +95,9 @@ class TagOutlines:
     """(n,) standard deviation of what the model leaves unexplained, grey levels."""
     lens_bows: Array
     """(n, 4) px, the bows that the lens of all tags gives the edges."""
+    bends: Array
+    """(n, 16, 2) px, by how much the lens moves the `NODES` of each from where the homography of
+    its corners has them."""
 
 
 def fit_tag_outlines(
@@ -108,7 +119,7 @@ def fit_tag_outlines(
     model, inverse, square = _take_steps(image, model, usual, noise, _MAX_FREE_STEPS)
     noise = np.maximum(square, least)
     places = _locate_corners(squares, measure_gap_of_tags(squares, model.corners, gap))
-    prior = _estimate_bows(model, noise[:, None] * _get_bow_variances(inverse), places)
+    prior, board = _estimate_bows(model, noise[:, None] * _get_bow_variances(inverse), places)
     model, inverse, square = _take_steps(image, model, prior, noise, _LAST_STEPS)
     noise = np.maximum(square, least)
     pairs = inverse[:, :8, :8].reshape(-1, 4, 2, 4, 2)
@@ -123,6 +134,7 @@ def fit_tag_outlines(
         contrast=contrast[:, 0],
         residual=np.sqrt(square),
         lens_bows=prior.bows,
+        bends=_compute_bends(board, places[:, 0]),
     )
 
 
@@ -201,6 +213,16 @@ def _estimate_start(image: GreyImage, corners: Array, border: float, gap: float)
     )
 
 
+def _compute_bends(board: RadialHomography, first: Array) -> Array:
+    """Compute the bends (n, 16, 2) px of tags whose upper left corners are at `first` (n, 2) on the
+    board, sides of a tag; see `TagOutlines`."""
+    seen = board.locate((first[:, None] + NODES).reshape(-1, 2)).reshape(-1, len(NODES), 2)
+    corners = seen[:, _CORNER_NODES]
+    n = len(first)
+    H = homography.fit_homography(np.broadcast_to(AROUND, (n, 4, 2)), corners, np.ones((n, 4)))
+    return seen - homography.apply_homography(H, np.broadcast_to(NODES, seen.shape))
+
+
 class _BowPrior(NamedTuple):
     """The bows that k tags are expected to have, and how well that is known."""
 
@@ -210,7 +232,9 @@ class _BowPrior(NamedTuple):
     """(k, 4) px."""
 
 
-def _estimate_bows(model: OutlineModel, variance: Array, places: Array) -> _BowPrior:
+def _estimate_bows(
+    model: OutlineModel, variance: Array, places: Array
+) -> tuple[_BowPrior, RadialHomography]:
     """Estimate bows from the lens that the corners of all tags show; how far they are from those
     that were found for each tag by itself tells how well they are known.
 
@@ -218,6 +242,9 @@ def _estimate_bows(model: OutlineModel, variance: Array, places: Array) -> _BowP
         model: of n tags.
         variance: (n, 4) of its bows, px^2.
         places: (n, 4, 2) of the corners on the board, sides of a tag.
+
+    Returns:
+        The bows, and the map from the board to the image from which they follow.
     """
     board = grid_map.fit_radial_homography(
         places.reshape(-1, 2), model.corners.reshape(-1, 2), are_exact=True
@@ -232,9 +259,9 @@ def _estimate_bows(model: OutlineModel, variance: Array, places: Array) -> _BowP
     bows = np.sum(((seen + seen[:, NEXT]) / 2 - middle) * normal, axis=2)
     length = model.measure_edges()[0]
     square = (model.bows - bows) ** 2
-    misfit, noise = (np.median(each / length**2) for each in (square, variance))
+    misfit, noise = (compute_median((each / length**2).ravel()) for each in (square, variance))
     usual = max(misfit / _MEDIAN_CHI_SQUARE - noise, noise * _LENS_UNKNOWNS / square.size)
-    return _BowPrior(bows, np.sqrt(usual) * length)
+    return _BowPrior(bows, np.sqrt(usual) * length), board
 
 
 def _get_bow_variances(inverse: Array) -> Array:
@@ -257,10 +284,12 @@ def _measure_profiles(
     """
     share = np.linspace(_ALONG_MARGIN, 1 - _ALONG_MARGIN, _SAMPLES_ALONG)
     seen = _average_profiles(image, model, reach, share, _SAMPLES_ACROSS)
-    quarter = _SAMPLES_ACROSS // 4
-    axes = (3,) if is_shaded else (1, 2, 3)
-    paper = np.median(seen[..., :quarter], axis=axes, keepdims=True)
-    ink = np.median(seen[..., -quarter:], axis=axes, keepdims=True)
+    n, quarter = len(seen), _SAMPLES_ACROSS // 4
+    shape = (n, *seen.shape[1:3], 1) if is_shaded else (n, 1, 1, 1)
+    paper, ink = (
+        compute_median(ends.reshape(*shape[:-1], -1)).reshape(shape)
+        for ends in (seen[..., :quarter], seen[..., -quarter:])
+    )
     swing = np.where(ink == paper, 1.0, ink - paper)
     rise = np.clip((seen - paper) / swing, 0.0, 1.0)
     across = np.linspace(-1, 1, _SAMPLES_ACROSS)
@@ -273,7 +302,7 @@ def _measure_profiles(
     offset = np.zeros((*mean.shape[:2], 3))
     count = 2 if is_shaded else 3
     offset[..., :count] = reach[:, None, None] * mean @ np.linalg.pinv(felt[:, :count]).T
-    levels = [np.median(each, axis=(1, 2, 3)) for each in (paper, ink)]
+    levels = [compute_median(each.reshape(n, -1)) for each in (paper, ink)]
     return np.column_stack(levels), offset, variance
 
 
@@ -339,7 +368,7 @@ def _take_steps(
         (n,) of what is left unexplained.
     """
     for _ in range(steps):
-        is_sharp = bool(np.median(model.blurs) < _MAX_SHARP_BLUR)
+        is_sharp = bool(compute_median(model.blurs.ravel()) < _MAX_SHARP_BLUR)
         products = accumulate_normal_equations(image, model, is_sharp)
         before = model.corners
         model, inverse, square = _take_step(model, products, prior, noise)

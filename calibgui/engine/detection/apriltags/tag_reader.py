@@ -13,7 +13,14 @@ from typing import NamedTuple
 
 import numpy as np
 
-from calibgui.engine.arrays import Array, BoolArray, FloatImage, GreyImage, IntArray
+from calibgui.engine.arrays import (
+    Array,
+    BoolArray,
+    FloatImage,
+    GreyImage,
+    IntArray,
+    compute_median,
+)
 from calibgui.engine.boards.april_grid import MAX_BORDER
 from calibgui.engine.boards.apriltags import FAMILIES, load_family
 from calibgui.engine.detection.charuco.marker_cells import find_dark_cells, measure_cells
@@ -147,9 +154,7 @@ def verify_tags(
 def rate_tags(image: GreyImage, quads: Array, tag_print: TagPrint, numbers: IntArray) -> Array:
     """Rate quadrilaterals (n, 4, 2) px as the tags of given numbers (n,), upright, by the share of
     the steps between neighbouring cells that have the sign that the number says, (n,)."""
-    border = tag_print.border
-    cells = load_family(tag_print.family).cells[numbers]
-    ink = np.pad(cells, ((0, 0), (border, border), (border, border)), constant_values=True)
+    ink = draw_tags(tag_print, numbers)
     level = measure_cells(image, quads, tag_print.side)
     right, steps = np.zeros(len(quads)), np.zeros(len(quads))
     for axis in (1, 2):
@@ -157,6 +162,14 @@ def rate_tags(image: GreyImage, quads: Array, tag_print: TagPrint, numbers: IntA
         right += (expected * np.diff(level, axis=axis) > 0).sum(axis=(1, 2))
         steps += (expected != 0).sum(axis=(1, 2))
     return right / steps
+
+
+def draw_tags(tag_print: TagPrint, numbers: IntArray) -> BoolArray:
+    """Draw tags of given numbers (n,) upright: their cells (n, k, k), True where dark, the border
+    included."""
+    width = 2 * ((tag_print.border,) * 2,)
+    cells = load_family(tag_print.family).cells[numbers]
+    return np.pad(cells, ((0, 0), *width), constant_values=True)
 
 
 def rate_borders(image: GreyImage, quads: Array) -> Array:
@@ -169,7 +182,7 @@ def rate_borders(image: GreyImage, quads: Array) -> Array:
     """
     inside, around = _weigh_border_samples()
     levels, paper = (sample_image(image, weights @ quads) for weights in (inside, around))
-    inner, white = np.sort(levels, axis=1), np.median(paper, axis=1)
+    inner, white = np.sort(levels, axis=1), compute_median(paper, axis=1)
     dark = inner[:, len(inside) // 2]
     bright = inner[:, -int(_MIN_BRIGHT_SHARE * len(inside)) :].mean(axis=1)
     is_patterned = bright - dark >= _MIN_RELATIVE_SWING * (white - dark)
