@@ -92,11 +92,12 @@ class _LocatedBoard(NamedTuple):
 
     def rate(self, rows: int) -> int:
         """Return how many more of the predicted corners are there than are not, in the first
-        `rows`."""
-        there, missing = (
-            np.count_nonzero(mask[:rows]) for mask in (self.lattice.found, self.missing)
-        )
-        return int(there) - int(missing)
+        `rows`. Missing ones count beside others of their row that are there: where none is, the
+        board may be too slanted or too blurred to show them."""
+        there = self.lattice.found[:rows]
+        around = np.pad(there, ((0, 0), (1, 1)))
+        missing = self.missing[:rows] & (around[:, :-2] | around[:, 2:])
+        return int(np.count_nonzero(there)) - int(np.count_nonzero(missing))
 
 
 def find_charuco(

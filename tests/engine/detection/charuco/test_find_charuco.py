@@ -232,6 +232,23 @@ def test_a_fisheye_near_the_board() -> None:
     assert seen.marker == pytest.approx(0.75, abs=0.05)
 
 
+def test_corners_too_slanted_to_be_seen_do_not_tell_where_a_board_ends() -> None:
+    """Of its first column, at the edge of a fisheye's image, two corners are seen and four not."""
+    lens = [210.0, 210.0, 319.5, 239.5, 0.02, -0.01, 0.0, 0.0]
+    scene = Scene(
+        Board(7, 10, 26.0, Charuco("DICT_4X4_50", 0.75, False)),
+        Camera((640, 480), lens, "kannala-brandt"),
+        (0.1751, 0.5561, 1.6541),
+        69.801,
+        (-23.0170, -11.1589),
+    )
+    with pytest.raises(NoBoardError, match="do not tell which part"):
+        find_corners(scene.image(), (7, 10), pattern=Charuco())
+    corners = find_corners(scene.image(), (7, 10), pattern=Charuco(legacy=False))
+    assert len(corners) > 35
+    assert np.abs(scene.error(corners)).max() < 0.5
+
+
 def test_markers_stand_for_neighbours_where_lines_bend() -> None:
     """Of few large squares the lines do not tell where they go on."""
     board = Board(4, 6, 40.0, Charuco("DICT_6X6_250", 0.6, False))
