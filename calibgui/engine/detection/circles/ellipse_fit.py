@@ -17,17 +17,19 @@ E the blurred edge of ``edge_intensity``. The unknowns c, S (3), blur, m and a a
 Gauss-Newton steps on the pixels near the edge, all circles at once. Under point reflection
 about c the derivatives by c are odd and the others even, so that they decouple, and the
 covariance of c is the Cramer-Rao bound noise^2 (sum of (grad I)(grad I)^T)^-1. The light's
-gradient gm is odd too: it is taken from how m varies over the board.
+gradient gm is odd too: it is taken from how m varies from disc to disc. The blur moves the pattern
+by -s^2 grad a / a, and it is moved back.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
+import scipy
 
 from calibgui.engine import kernels
-from calibgui.engine.arrays import Array, GreyImage, IntArray
+from calibgui.engine.arrays import Array, BoolArray, GreyImage, IntArray
 from calibgui.engine.detection.circles.thresholds import CIRCLE_THRESHOLDS
 from calibgui.engine.detection.detector_io import estimate_least_noise
 from calibgui.engine.detection.edge_intensity import compute_edge
@@ -54,14 +56,10 @@ _SAMPLES = 49
 """Number of samples along each of them."""
 _MIN_RHO = 0.3
 """Least rho of a pixel that is read: nearer the centre d approximates the distance badly."""
-_LIGHT_STEPS = 10
-"""Number of fits of the light by which the sum of absolute deviations is made small."""
-_MIN_LIGHT_DEVIATION = 0.01
-"""Deviation of a disc's light from the quadratic below which all count alike, grey levels."""
-_MAX_LIGHT_DEVIATION = 6.0
-"""Deviation over the median one beyond which a disc does not count: 4 standard deviations."""
-_MIN_LIGHT_PIVOT = 1e-9
-"""Singular values of the quadratic's terms, over the largest, below which they count as 0."""
+_MAX_NEIGHBOUR_ERROR = 0.3
+"""Greatest distance of a disc's neighbour from its place, steps."""
+_LEAST_RISE = 0.02
+"""Change of the light from disc to disc below which both sides count alike, half contrasts."""
 _INK_REACH = 0.2
 """Distance from the centre within which samples are ink, half distances of neighbours."""
 
@@ -99,7 +97,7 @@ class EllipseFit:
 
 
 def fit_ellipses(
-    image: GreyImage, uv: Array, steps: Array, reach: float, paper: Array
+    image: GreyImage, uv: Array, steps: Array, reach: float, paper: Array, neighbours: Array
 ) -> EllipseFit:
     """Fit the model at every disc.
 
@@ -109,14 +107,18 @@ def fit_ellipses(
         steps: (n, 2, 2) columns: images of a unit of the board's X and Y there, px.
         reach: half the distance of neighbouring discs, in the same unit.
         paper: (k, 2) displacements from a disc's centre to paper around it, in the same unit.
+        neighbours: (2, 2) displacements to its neighbours on one side, in the same unit.
     """
     x = _estimate_start(image, uv, steps, reach, paper)
-    gradient = np.zeros_like(uv)
+    gradient, beside = np.zeros_like(uv), _find_neighbours(uv, steps, neighbours)
     for step in range(_GAUSS_NEWTON_STEPS):
         fit = _take_step(image, x, gradient, _BAND_HALF_WIDTHS[min(step, 1)])
         x = fit.unknowns
-        gradient = _estimate_light_gradient(x)
-    return fit
+        gradient = _estimate_gradient(x[_M], x, beside)
+    rise = _estimate_gradient(x[_A], x, beside) / x[:, 7:]
+    moved = x.copy()
+    moved[_C] += x[_BLUR][:, None] ** 2 * rise
+    return replace(fit, unknowns=moved)
 
 
 def _estimate_start(image: GreyImage, uv: Array, steps: Array, reach: float, paper: Array) -> Array:
@@ -279,44 +281,61 @@ def _limit_step(step: Array, x: Array) -> Array:
     return bounded
 
 
-def _estimate_light_gradient(x: Array) -> Array:
-    """Estimate the gradient (n, 2) of the light m over the image, grey levels per px, from a
-    quadratic fitted to the discs.
+def _find_neighbours(uv: Array, steps: Array, neighbours: Array) -> IntArray:
+    """Find the discs next to each on either side along two directions, (n, 2, 2), -1 where there
+    is none; the arguments are those of `fit_ellipses`."""
+    ways = (steps @ neighbours.T).transpose(0, 2, 1)
+    wanted = uv[:, None, None] + np.stack([ways, -ways], axis=2)
+    distance, index = scipy.spatial.cKDTree(uv).query(wanted)
+    limit = _MAX_NEIGHBOUR_ERROR * np.linalg.norm(ways, axis=2)[..., None]
+    return np.where(distance < limit, index, -1)
 
-    Discs that the image's border cuts, or that something covers, have an m of their own, and lie at
-    the grid's edge mostly, where they would bend the quadratic for all: sums of absolute deviations
-    find those that are far off, and least squares of the others follow. Discs whose light is not
-    told from their blur, which tilt makes so on one side of the grid, count only if most are such.
+
+def _estimate_gradient(values: Array, x: Array, beside: IntArray) -> Array:
+    """Estimate the gradient (n, 2) over the image of `values` (n,) at each disc, grey levels per
+    px, from those of the discs `beside` it, see `_find_neighbours`.
+
+    Of the changes to either side along a direction the smaller counts more: the edge of a shadow
+    passes between two discs, and discs that the image's border cuts, or that something covers, have
+    an m of their own. Discs whose light is not told from their blur, which tilt makes so on one
+    side of the grid, count only if most are such.
     """
-    centre, unit = x[_C].mean(axis=0), np.ptp(x[_C], axis=0).max()
-    u, v = ((x[_C] - centre) / unit).T
-    one, zero = np.ones_like(u), np.zeros_like(u)
     steepest = np.linalg.eigvalsh(_assemble_matrix(x[_S]))[:, -1]
     is_told = x[_BLUR] ** 2 * steepest < CIRCLE_THRESHOLDS.max_blur_over_axis**2
     if 2 * np.count_nonzero(is_told) < len(x):
         is_told[:] = True
-    terms = np.column_stack([one, u, v, u * u, u * v, v * v])[is_told]
-    light = x[_M][is_told]
-    weight, deviation = np.ones_like(light), np.zeros_like(light)
-    for _ in range(_LIGHT_STEPS):
-        coefficients = _fit_weighted(terms, light, weight)
-        deviation = abs(light - terms @ coefficients)
-        weight = 1 / np.maximum(deviation, _MIN_LIGHT_DEVIATION)
-    fitted = min(terms.shape[1], len(light) - 1)  # as many deviations are 0
-    usual = max(float(np.median(np.sort(deviation)[fitted:])), _MIN_LIGHT_DEVIATION)
-    weight = (deviation <= _MAX_LIGHT_DEVIATION * usual).astype(np.float64)
-    coefficients = _fit_weighted(terms, light, weight)
-    by_u = np.column_stack([zero, one, zero, 2 * u, v, zero]) @ coefficients
-    by_v = np.column_stack([zero, zero, one, zero, u, 2 * v]) @ coefficients
-    return np.column_stack([by_u, by_v]) / unit
+    counts = (beside >= 0) & is_told[beside]
+    sign = np.array([1.0, -1.0])
+    along = sign[:, None] * (x[_C][beside] - x[_C][:, None, None])
+    rise = sign * (values[beside] - values[:, None, None])
+    least = _LEAST_RISE * float(np.median(abs(x[_A])))
+    weight = counts / (rise**2 + least**2)
+    total = weight.sum(axis=2) + 1e-300
+    way = np.sum(weight[..., None] * along, axis=2) / total[..., None]
+    slope = np.sum(weight * rise, axis=2) / total
+    is_known = np.asarray(counts.any(axis=2))
+    slope = _limit_slopes(slope, way, counts, beside)
+    # Where there is no disc on either side, the light is taken to be even along that direction.
+    other = way[:, ::-1, ::-1] * np.array([-1.0, 1.0])
+    way = np.where(is_known[..., None], way, other)
+    way[~is_known.any(axis=1)] = np.eye(2)
+    return np.asarray(np.linalg.solve(way, np.where(is_known, slope, 0.0)[..., None])[..., 0])
 
 
-def _fit_weighted(terms: Array, values: Array, weight: Array) -> Array:
-    """Fit coefficients (k,) of terms (n, k) to values (n,) by weighted least squares."""
-    root = np.sqrt(weight)
-    return np.asarray(
-        np.linalg.lstsq(terms * root[:, None], values * root, rcond=_MIN_LIGHT_PIVOT)[0]
-    )
+def _limit_slopes(slope: Array, way: Array, counts: BoolArray, beside: IntArray) -> Array:
+    """Limit the changes `slope` (n, 2) along `way` (n, 2, 2) px of discs that have a neighbour on
+    one side only, at the grid's border, to those of the discs beside them: that neighbour may be
+    cut or covered."""
+    length = np.linalg.norm(way, axis=2) + 1e-300
+    steepness = slope / length
+    limited = slope.copy()
+    for k in (0, 1):
+        its = np.where(counts[:, 1 - k], steepness[beside[:, 1 - k], k], np.inf)
+        its = np.column_stack([steepness[:, k], its])
+        least = its[np.arange(len(its)), abs(its).argmin(axis=1)]
+        is_one_sided = counts[:, k].sum(axis=1) == 1
+        limited[is_one_sided, k] = (least * length[:, k])[is_one_sided]
+    return limited
 
 
 def _assemble_matrix(S: Array) -> Array:

@@ -23,7 +23,7 @@ import numpy as np
 import numpy.typing as npt
 
 from calibgui.engine import opencv
-from calibgui.engine.arrays import Array, BoolArray, GreyImage, GridSize, IntArray
+from calibgui.engine.arrays import Array, BoolArray, GreyImage, GridSize, IntArray, compute_median
 from calibgui.engine.boards.circle_grid import Circles, list_grid_indices
 from calibgui.engine.boards.pattern import Symmetry
 from calibgui.engine.detection import region_of_interest as region
@@ -73,6 +73,14 @@ _UNSEEN = (
 _MAX_SCATTER_SIGMAS = 3.0
 """Greatest excess of the variance about the map over the stated one that counts as chance, standard
 deviations of the former."""
+_SIGMA_OF_MEDIAN = 1.2
+"""Standard deviation of a variance from the median of squares of distances, over that from their
+mean."""
+_MAX_SCATTER = 4.5
+"""Distance of a centre from the map of the others, standard deviations along one axis, up to which
+it counts as usual: of 20 000 circles one lies farther by chance."""
+_SCATTER_ROUNDS = 4
+"""Number of times that the map and those near it are told from each other."""
 _MAX_DISAGREEMENT = 6.0
 """Greatest distance of a centre from where the others predict it, standard deviations ..."""
 _MIN_DISAGREEMENT = 0.02
@@ -107,17 +115,19 @@ def find_circles(
     first, xy = first[is_seen], all_xy[is_seen]
     start = fit_circle_map(xy, first)
     paper = np.array([(1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0)])
+    neighbours = np.array([(1.0, 1.0), (1.0, -1.0)])
     if not pattern.asymmetric:
         paper = np.array([(0.5, 0.5), (-0.5, 0.5), (0.5, -0.5), (-0.5, -0.5)])
+        neighbours = np.eye(2)
     steps = start.differentiate(xy)
     if len(first) > 2 * _SAMPLE:
         some = np.linspace(0, len(first) - 1, _SAMPLE).astype(np.int64)
         tried = ellipse_fit.fit_ellipses(
-            grey, first[some], steps[some], pattern.half_distance, paper
+            grey, first[some], steps[some], pattern.half_distance, paper, neighbours
         )
         if _measure_misfit(tried) > _MAX_SAMPLE_EXCESS * CIRCLE_THRESHOLDS.max_relative_residual:
             raise _distrust(_NO_ELLIPSES)
-    fit = ellipse_fit.fit_ellipses(grey, first, steps, pattern.half_distance, paper)
+    fit = ellipse_fit.fit_ellipses(grey, first, steps, pattern.half_distance, paper, neighbours)
     verified = _verify_circles(fit, xy, grey, len(grid))
     radius = verified.radius
     if (
@@ -144,7 +154,7 @@ def find_circles(
         grid=places[is_good],
         uv=verified.uv[good],
         estimate=first[good],
-        cov=fit.covariance[good] + verified.scatter * np.eye(2),
+        cov=verified.covariance[good],
         ambiguity=ambiguity,
         roi=region.find_outline(Lattice(whole, dark=True)) if outline is None else outline,
         method="ellipses",
@@ -283,8 +293,8 @@ class _VerifiedCircles:
     """Radius of all but the marks, pitches."""
     are_marks: BoolArray
     """(n,) True for those that pass and are of another size."""
-    scatter: float
-    """Variance along u and v that `uv` has beyond the covariances of the ellipses, px^2."""
+    covariance: Array
+    """(n, 2, 2) px^2, of `uv`."""
 
 
 def _number_by_marks(
@@ -360,8 +370,9 @@ def _verify_circles(fit: EllipseFit, xy: Array, image: GreyImage, count: int) ->
         raise _distrust(_NO_ELLIPSES)
     if np.count_nonzero(are_marks & good) > limits.max_marked_share * len(good):
         raise _distrust("too many of its circles are of another size")
-    scatter = _estimate_scatter(xy[good], uv[good], fit.covariance[good])
-    return _VerifiedCircles(good, uv, radius, are_marks & good, scatter)
+    covariance = fit.covariance.copy()
+    covariance[good] = _widen_covariances(xy[good], uv[good], covariance[good])
+    return _VerifiedCircles(good, uv, radius, are_marks & good, covariance)
 
 
 def _find_agreeing(xy: Array, uv: Array, variance: Array) -> BoolArray:
@@ -398,27 +409,39 @@ def _find_agreeing(xy: Array, uv: Array, variance: Array) -> BoolArray:
     return agreeing
 
 
-def _estimate_scatter(xy: Array, uv: Array, covariance: Array) -> float:
-    """Estimate the variance px^2 along u and v by which centres scatter about the smooth map beyond
-    what their covariances explain: 0 unless it is more than noise would.
+def _widen_covariances(xy: Array, uv: Array, covariance: Array) -> Array:
+    """Return covariances (n, 2, 2) px^2 that say how far centres scatter about the smooth map.
 
-    The covariances take what an ellipse leaves unexplained for noise of single pixels. Beats of a
-    screen's pixels with the camera's, shadows and stains draw whole edges aside, by several times
-    as much, and each circle its own way.
+    The covariances of the ellipses take what these leave unexplained for noise of single pixels.
+    Beats of a screen's pixels with the camera's, shadows and stains draw whole edges aside, by
+    several times as much. What is usual of that, if it is more than noise would, holds for all
+    circles; those that lie farther from where the others predict them have the distance besides.
 
     Args:
         xy: (n, 2) the circles' centres, pitches.
         uv: (n, 2) their images, px.
-        covariance: (n, 2, 2) px^2.
+        covariance: (n, 2, 2) px^2, of the ellipses.
     """
-    circle_map = fit_circle_map(xy, uv, are_exact=True)
-    freedom = uv.size - circle_map.parameters
-    if freedom <= 0:
-        return 0.0
-    variance = float(np.sum((uv - circle_map.locate(xy)) ** 2)) / freedom
-    stated = float(np.mean(np.einsum("nii->n", covariance))) / 2
-    most = 1 + _MAX_SCATTER_SIGMAS * np.sqrt(2 / freedom)
-    return variance - stated if variance > most * stated else 0.0
+    stated = np.einsum("nii->n", covariance) / 2
+    scatter, aside2 = 0.0, np.zeros(len(xy))
+    is_near = np.ones(len(xy), dtype=np.bool_)
+    for _ in range(_SCATTER_ROUNDS):
+        circle_map = fit_circle_map(xy[is_near], uv[is_near], are_exact=True)
+        left = np.ones(len(xy))
+        left[is_near] = 1 - circle_map.compute_leverages(xy[is_near])
+        freedom = 2 * left[is_near].sum()
+        if freedom < _MIN_FREEDOM:
+            break
+        left = np.maximum(left, _MIN_LEFT)
+        off2 = np.sum((uv - circle_map.locate(xy)) ** 2, axis=1) / left
+        usual = compute_median(off2[is_near] / stated[is_near]) / (2 * np.log(2))
+        most = 1 + _MAX_SCATTER_SIGMAS * _SIGMA_OF_MEDIAN * np.sqrt(2 / freedom)
+        scatter = float((usual - 1) * np.mean(stated[is_near])) if usual > most else 0.0
+        was_near, is_near = is_near, off2 < _MAX_SCATTER**2 * (stated + scatter)
+        aside2 = np.where(is_near, 0.0, off2 / left)
+        if (is_near == was_near).all():
+            break
+    return covariance + (scatter + aside2 / 2)[:, None, None] * np.eye(2)
 
 
 def _measure_misfit(fit: EllipseFit) -> float:

@@ -12,7 +12,7 @@ from calibgui.engine.boards.board import Board
 from calibgui.engine.boards.circle_grid import Circles
 from calibgui.engine.boards.pattern import Symmetry
 from calibgui.engine.camera.camera import Camera
-from calibgui.engine.detection.circles import ellipse_fit
+from calibgui.engine.detection.circles import ellipse_fit, find_circles
 from calibgui.engine.detection.circles.circle_map import fit_circle_map
 from calibgui.engine.detection.circles.continuation import find_continuation
 from calibgui.engine.detection.circles.ellipse_fit import EllipseFit
@@ -121,8 +121,36 @@ def test_discs_whose_blur_ran_away_do_not_tilt_the_light() -> None:
     unknowns[:, 6] = 120.0 + 0.05 * unknowns[:, 0]
     lost = unknowns[:, 0] > 180.0
     unknowns[lost, 5], unknowns[lost, 6] = 9.0, 40.0
-    gradient = ellipse_fit._estimate_light_gradient(unknowns)
-    np.testing.assert_allclose(gradient, np.tile([0.05, 0.0], (35, 1)), atol=1e-6)
+    steps = np.tile(40.0 * np.eye(2), (35, 1, 1))
+    beside = ellipse_fit._find_neighbours(unknowns[:, :2], steps, np.eye(2))
+    gradient = ellipse_fit._estimate_gradient(unknowns[:, 6], unknowns, beside)
+    np.testing.assert_allclose(gradient[~lost], np.tile([0.05, 0.0], (25, 1)), atol=1e-6)
+
+
+@pytest.mark.parametrize("asymmetric", [False, True])
+@pytest.mark.parametrize("light", ["shadow", "lamp"])
+def test_light_that_no_quadratic_describes_draws_no_circles_aside(
+    light: str, asymmetric: bool
+) -> None:
+    """Only circles that the edge of the shadow crosses are off, and say so."""
+    pattern, grid_size = (
+        (Circles(True, 0.7), (9, 4)) if asymmetric else (Circles(False, 0.45), (6, 8))
+    )
+    scene = Scene(Board(*grid_size, 24.0, pattern), _SMALL, (0.3, 0.2, 0.1), distance=500.0)
+    image = scene.image(noise=1.0)
+    v, u = np.indices(image.shape)
+    middle = np.array(image.shape[::-1]) / 2
+    across = u - middle[0] + 0.4 * (v - middle[1])
+    lit = 1 / (1 + (np.hypot(u - middle[0] + 60, v - middle[1]) / 90) ** 2)
+    if light == "shadow":
+        lit = 0.5 + 0.5 / (1 + np.exp(-np.clip(across, -50, 50)))
+    corners = find_corners(np.rint(image * lit).astype(np.uint8), grid_size, pattern=pattern)
+    assert len(corners) >= 0.75 * grid_size[0] * grid_size[1] and corners.cov is not None
+    error = scene.error(corners)
+    off = np.linalg.norm(error, axis=1)
+    assert np.median(off) < 0.038  # 0.040 to 0.106 with a quadratic
+    square = np.einsum("ni,nij,nj->n", error, np.linalg.inv(corners.cov), error)
+    assert not ((off > 0.3) & (square > 25)).any()
 
 
 @pytest.mark.parametrize("blur", [1.2, 1.7, 2.5])
@@ -437,6 +465,16 @@ def test_a_dot_of_paint_over_a_circle_is_not_taken_for_it(
     assert len(corners) == len(whole) - 1
     assert corners.cov is not None and np.sqrt(corners.cov[:, 0, 0].max()) < 0.02
     assert np.abs(scene.error(corners)).max() < 0.05
+
+
+def test_a_circle_drawn_aside_says_so_and_no_other_does() -> None:
+    xy = np.indices((6, 8)).reshape(2, -1).T.astype(np.float64)
+    uv = 40 * xy + 0.01 * np.random.default_rng(2).standard_normal(xy.shape)
+    uv[20] += [0.3, -0.3]
+    covariance = np.tile(1e-4 * np.eye(2), (48, 1, 1))
+    sigma = np.sqrt(find_circles._widen_covariances(xy, uv, covariance)[:, 0, 0])
+    assert 0.2 < sigma[20] < 0.6
+    assert np.delete(sigma, 20).max() < 0.015
 
 
 def test_a_covered_circle_might_be_the_mark() -> None:
