@@ -10,11 +10,11 @@ roll that is the same in all images leaves nothing in the residuals, and the cam
 
 Lenses are decentred, too, but less. The roll that a decentring stands for is how far the images
 must be turned back for the calibration to find none. To the first order it is p / (dp/dw), dp/dw
-being the change of p that a roll makes in one Gauss-Newton step. Of seven real cameras whose views
-determine it to 0.2 degrees it was at most 0.13 (``tests/benchmarks/unseen_views.py``). Where it
-exceeds `_MIN_ROLL`, either is possible; whoever photographs can tell. Where the shift of the
-principal point makes radial distortion do what the decentring would, dp/dw is nearly 0 and the
-roll's sigma large: it then stays unseen, as in 4 of 33 sets, all by one real lens.
+being the change of p that a roll makes in one Gauss-Newton step. Of the cameras of our real image
+sets whose views determine it to 0.2 degrees it was at most 0.13. Where it exceeds `_MIN_ROLL`,
+either is possible; whoever photographs can tell. Where the shift of the principal point makes
+radial distortion do what the decentring would, dp/dw is nearly 0 and the roll's sigma large: it
+then stays unseen, as in 4 of 33 rendered sets, all by one lens.
 """
 
 from __future__ import annotations
