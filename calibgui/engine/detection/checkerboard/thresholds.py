@@ -236,6 +236,9 @@ class VerificationThresholds:
     shows that the board ends before it, or where all of its corners are worse described than most.
     Fixed by "no margin" of `tests.benchmarks.corner_troubles`:
     a patterned ground had 3 corners of 5, by chance."""
+    max_partial_displacement: float = 0.03
+    """Distance of a corner from where the others expect it, squares, beyond which it does not speak
+    for a border line that is not full."""
     max_alternating_places: float = 1 / 3
     """Share of the places around a lattice that alternate, beyond which the pattern goes on."""
 

@@ -253,11 +253,12 @@ def find_described_corners(
 
 def find_doubtful_lines(lattice: Lattice, residual: Array, displacement: Array) -> BoolArray:
     """Find the corners (n,) of the border lines of a lattice that are not full and all of whose
-    corners the edge model describes worse than most, by its `residual` (n,), or are drawn aside by
-    a `displacement` (n,) px: such are the rims of things that lie on the board's end, and what
+    corners the edge model describes worse than most, by its `residual` (n,), or are drawn far aside
+    by a `displacement` (n,) px: such are the rims of things that lie on the board's end, and what
     meets its squares there by chance."""
+    limit = THRESHOLDS.verification.max_partial_displacement * lattice.spacing()[lattice.found]
     clear = lattice.found
-    clear[clear] = ~find_suspect_corners(residual) & (displacement == 0)
+    clear[clear] = ~find_suspect_corners(residual) & (displacement <= limit)
     doubtful = np.zeros(lattice.shape, np.bool_)
     for line in (np.s_[0], np.s_[-1], np.s_[:, 0], np.s_[:, -1]):
         is_partial = lattice.found[line].mean() < THRESHOLDS.verification.min_full_border

@@ -67,7 +67,7 @@ def test_what_only_reflections_hold_together_is_not_joined() -> None:
     assert find("glare", 3014).whole == 1
 
 
-@pytest.mark.parametrize("seed", [22, 91010, 91018, 91051])
+@pytest.mark.parametrize("seed", [91010, 91018, 91051])
 def test_a_patterned_ground_adds_no_line_to_the_board(seed: int) -> None:
     """Up to 3 of 5 corners of a line lay where squares at the board's end meet what lies beyond."""
     assert find("no margin", seed).whole == 1
