@@ -97,12 +97,14 @@ def _cut_at_crease(
         (_measure_misfit(list(parts), grid_map.fit_radial_homography), parts)
         for parts in _list_cuts(lattice, core)
     ]
-    least = min((off for off, _ in cuts), default=np.inf)
-    if least > limits.max_misfit_ratio * misfit:
+    # A map of corners that coincide, as in textures, tells no misfit.
+    good = [(off, parts) for off, parts in cuts if off <= limits.max_misfit_ratio * misfit]
+    if not good:
         return None
+    least = min(off for off, _ in good)
     limit = limits.max_excess_misfit * max(least, _NEGLIGIBLE_MISFIT)
-    good = [parts for off, parts in cuts if off <= limit]
-    return max(good, key=lambda parts: len(parts[0]) + len(parts[1]))
+    best = [parts for off, parts in good if off <= limit]
+    return max(best, key=lambda parts: len(parts[0]) + len(parts[1]))
 
 
 def _list_cuts(lattice: Lattice, core: Lattice) -> Iterator[tuple[Lattice, Lattice]]:

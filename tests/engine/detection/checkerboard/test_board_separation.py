@@ -7,10 +7,13 @@ import pytest
 from numpy.typing import NDArray
 
 from calibgui.engine.detection.checkerboard.board_separation import separate_boards
+from calibgui.engine.detection.find_corners import find_corners
 from calibgui.engine.detection.lattice import Lattice
+from calibgui.engine.errors import NoBoardError
 from tests.scenes.checkerboards import draw
 from tests.scenes.conditions import Conditions
 from tests.scenes.creases import draw_corner_of_room
+from tests.scenes.without_board import draw_without_board
 
 Array = NDArray[np.float64]
 CONDITIONS = Conditions(grid_size=(5, 6), square=26.0, turn=5.0, centre=(-80.0, 0.0), parts=1)
@@ -102,3 +105,9 @@ def test_what_a_board_has_grown_into_is_left_out() -> None:
     # Where the image does not show that the board ends there, it is left as it is.
     (same,) = separate_boards(Lattice(uv, True), NOWHERE)
     assert same.shape == (8, 11)
+
+
+def test_a_texture_in_which_corners_coincide_is_refused() -> None:
+    """The misfit of its parts is not a number; no cut was the best of those, and that an error."""
+    with pytest.raises(NoBoardError):
+        find_corners(draw_without_board(500960))
