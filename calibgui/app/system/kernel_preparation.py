@@ -86,7 +86,8 @@ _PREPARATIONS = {
     "asymmetric-circles": prepare_circle_finder,
     "aprilgrid": prepare_tag_finder,
 }
-"""What prepares the detectors that need more than that of checkerboards, or other kernels."""
+"""Functions that prepare detectors which need other kernels than that of checkerboards, by the kind
+of their boards."""
 _SECONDS = {prepare_finder: 25, prepare_circle_finder: 5, prepare_tag_finder: 30}
 """Rough times, s, that compiling takes, once after an installation."""
 

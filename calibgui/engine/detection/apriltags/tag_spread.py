@@ -1,4 +1,4 @@
-"""How far bright parts of tags have grown over dark ones: by the camera's grey curve, or by ink.
+"""The spread of tags: how far their bright parts have grown over the dark ones, or the reverse.
 
 What a camera records is no linear measure of light. Blurred edges then seem to lie farther in the
 dark, with a curve of gamma 2.2 by 0.3 blurs, and clipping does the same where paper or ink reach

@@ -38,7 +38,8 @@ median move of these after which that ends, standard deviations. Twice does unde
 it is 0.7 of what is plain, corners of rendered boards were 0.12 px off then, and are 0.03 px off
 after eight."""
 _MOVE_LEFT = 1.5
-"""What is left of a move by the next removals, over the last: each is some 0.6 of that before."""
+"""Sum of the moves that further removals would make, over the last move: each is some 0.6 of that
+before it."""
 _MOVE_ERROR = 0.2
 """Error of what marks have drawn a corner aside by, over that: their blur and contrast are known to
 so much."""
