@@ -47,6 +47,7 @@ FAULTS = {
     "rolling-shutter": Fault(cameras.roll_shutter, ("rolling-shutter",), ("shutter",)),
     "sheared-images": Fault(cameras.shear_images, ("sheared-images", "views-disagree"), ("shear",)),
     "rolled-images": Fault(cameras.roll_images, ("rolled-images",), ("roll",)),
+    "scaled-images": Fault(cameras.scale_images, ("scaled-images",), ("scaled",)),
     "focus-change": Fault(cameras.refocus, ("focus",), ("focus", "zoom")),
     "stabilisation": Fault(cameras.stabilise, ("moving-centre",), ("stabilis",)),
     "zoom-change": Fault(cameras.zoom, ("mixed-views", "focus", "views-disagree"), ("zoom",)),

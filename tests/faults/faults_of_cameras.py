@@ -114,6 +114,20 @@ def make_roll(camera: Camera, degrees: float | Array) -> Callable[[int, Array], 
     return shift
 
 
+def scale_images(rng: Rng) -> FaultySet:
+    """Displace corners by where they lie between the rows that the image was made of."""
+    photographed = draw_set(rng)
+    period = rng.uniform(1.2, 3.0)
+    size = draw_log(rng, 1.0, 4.0) * photographed.level
+
+    def shift(_: int, uv: Array) -> Array:
+        between = (uv[:, 1] / period) % 1 - 0.5
+        return np.asarray(uv + np.column_stack([0 * between, size * np.sqrt(12) * between]))
+
+    views = photograph(photographed, shift=shift)
+    return state_fault(photographed, views, f"{size:.2f} px rms with a period of {period:.2f} px")
+
+
 def refocus(rng: Rng) -> FaultySet:
     """Let the focus change the focal length from view to view."""
     photographed = draw_set(rng)

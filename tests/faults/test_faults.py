@@ -8,8 +8,8 @@ import pytest
 from tests.faults.campaign import Verdict, count_verdicts, judge_causes, run_campaign
 from tests.faults.causes import CLEAN, FAULTS
 
-_DRAWS = 3
-"""Draws of each fault: 84 in all."""
+_DRAWS = 2
+"""Draws of each fault."""
 _CLEAN_DRAWS = 40
 _MIN_RIGHT = 0.95
 """Least share of faults that are named, or harmless where nothing is said."""

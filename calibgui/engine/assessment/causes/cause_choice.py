@@ -17,7 +17,8 @@ without those behind it:
    (``rolled_images.py``) where the lens would, a motion, no cause or nothing.
 2. **Two kinds of views** (``mixed_views.py``), which have twice the unknowns of one.
 3. **Focus, centre, bending, motion**, which differ from view to view: that which is most probable
-   by far, or else shifts from row to row; then **blur**, which moves nothing.
+   by far, or else shifts from row to row; then **blur**, which moves nothing. A scale of the images
+   (``scaled_images.py``) is the cause where it explains more than any of these.
 """
 
 from __future__ import annotations
@@ -42,6 +43,7 @@ from calibgui.engine.assessment.causes.harm import Case, prepare_case
 from calibgui.engine.assessment.causes.mixed_views import DISTORTION, Split, find_two_kinds
 from calibgui.engine.assessment.causes.rival_lens import fit_rival
 from calibgui.engine.assessment.causes.rolled_images import find_roll
+from calibgui.engine.assessment.causes.scaled_images import find_scaling
 from calibgui.engine.assessment.causes.sheared_images import find_shear
 from calibgui.engine.assessment.residuals.cause_fits import MIN_LEAD
 from calibgui.engine.assessment.residuals.residual_checks import NoiseCheck
@@ -125,6 +127,16 @@ _CAUSES_OF_CHECKS = {
 """Causes by the names of the tests of ``residual_checks.py``."""
 _CAUSES_BESIDE_ROLL = (Cause.LENS, Cause.ROLLING_SHUTTER, Cause.DISAGREEMENT, Cause.BLUR)
 """Causes that a roll of all images is mistaken for, or beside which it may be more harmful."""
+_CAUSES_OF_VIEWS = (
+    Cause.FOCUS,
+    Cause.MOVING_CENTRE,
+    Cause.BENDING_BOARD,
+    Cause.ROLLING_SHUTTER,
+    Cause.LINE_JITTER,
+    Cause.DISAGREEMENT,
+    Cause.BLUR,
+)
+"""Causes of each view's own, beside which a scale of the images may explain more."""
 _MESSAGES = {
     Cause.BOARD_SHAPE: "The board is not as it was drawn.",
     Cause.FOCUS: "The focal length differs between the views.",
@@ -168,7 +180,10 @@ def find_systematic_cause(case: Case) -> Finding | None:
         found = find_shear(case, explained) or found
     if found is None or found.cause in _CAUSES_BESIDE_ROLL:
         is_lens = found is not None and found.cause is Cause.LENS
-        return find_roll(case, found, explained if is_lens else 0.0) or found
+        found = find_roll(case, found, explained if is_lens else 0.0) or found
+    if found is None or found.cause in _CAUSES_OF_VIEWS:
+        explained = 0.0 if found is None else find_largest_share(case.report.checks)
+        return find_scaling(case, explained) or found
     return found
 
 

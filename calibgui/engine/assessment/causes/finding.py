@@ -54,6 +54,8 @@ class Cause(StrEnum):
     ROLLED_IMAGES = "rolled-images"
     """Each row is turned against the next, by the same angle in all images, or the lens is
     decentred."""
+    SCALED_IMAGES = "scaled-images"
+    """The corners' errors repeat with a period of few pixels, as where images were scaled."""
     MIXED_VIEWS = "mixed-views"
     """Photographs of two cameras, zooms or boards; the evidence seldom tells which."""
     DISAGREEMENT = "views-disagree"
@@ -141,13 +143,16 @@ def describe_harm(harm: float) -> str:
     return f"it adds {format_two_digits(harm)} px to the error of pixels where there are corners"
 
 
-def describe_narrow_views(part: float, covered: float, median: float) -> Finding:
+def describe_narrow_views(
+    part: float, covered: float, median: float, is_mended: bool = False
+) -> Finding:
     """Describe views whose corners cover too small a part of the image to know the rest of it.
 
     Args:
         part: share of the image that the corners of all views cover.
         covered: error of a pixel there, px rms.
         median: median error over the image, px.
+        is_mended: True if these errors are what another remedy leaves.
     """
     is_telling = median < MAX_TELLING_PX
     rest = f"only to {format_two_digits(median)} px" if is_telling else "not at all"
@@ -155,8 +160,8 @@ def describe_narrow_views(part: float, covered: float, median: float) -> Finding
         Cause.FEW_VIEWS,
         f"Corners cover only {100 * part:.0f} % of the image, too small a part to know the lens "
         "beyond it.",
-        f"A pixel is known to {format_two_digits(covered)} px among corners, but {rest} in the "
-        "median over the image.",
+        f"{'Once the rest is mended, a' if is_mended else 'A'} pixel is known to "
+        f"{format_two_digits(covered)} px among corners, but {rest} in the median over the image.",
         _REMEDY_OF_NARROW_VIEWS,
         covered,
         action=Action(ActionKind.PHOTOGRAPH_MORE),
