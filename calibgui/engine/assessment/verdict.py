@@ -181,7 +181,8 @@ def judge_calibration(
     found = list_findings(calibration, views, names, check or (lambda: None))
     covered = _find_covered(calibration.camera.size, views)
     errors: list[Array] = []
-    tried = []
+    tried: list[Finding] = []
+    mended: Array | None = None
     for finding in found:
         trial = try_action_safely(finding.action, calibration, views, check)
         if trial is None:
@@ -201,6 +202,8 @@ def judge_calibration(
         is_weighed = trial.action.kind is ActionKind.WEIGH_VIEWS
         if is_weighed and times < _MIN_GAIN and _is_small(finding.harm, before[covered]):
             continue
+        if not tried and times >= MIN_TIMES_BETTER:
+            mended = after
         errors.append(before)
         tried.append(_state_gain(finding, trial, times))
     error = np.fmax.reduce(errors) if errors else _map_uncertainty(calibration, views)
@@ -208,8 +211,10 @@ def judge_calibration(
         error = np.hypot(error, map_disagreement(calibration, views))
     distance = _measure_distance(calibration, views)
     pixels = _UNKNOWN if calibration.diagnosis is not None else _summarise(error, covered)
-    if _is_narrow(calibration, pixels, tried):
-        narrow = describe_narrow_views(float(covered.mean()), pixels.covered, pixels.median)
+    left = pixels if mended is None else _summarise(mended, covered)
+    if _is_narrow(calibration, left, tried):
+        part, is_mended = float(covered.mean()), mended is not None
+        narrow = describe_narrow_views(part, left.covered, left.median, is_mended)
         tried = sorted([*tried, narrow], key=lambda finding: finding.harm, reverse=True)
     grade, reason = _grade(calibration, pixels, tried)
     mm = distance / float(calibration.camera.focal[0])
@@ -311,12 +316,17 @@ def _measure_distance(calibration: Calibration, views: Sequence[Observation]) ->
 
 def _is_narrow(calibration: Calibration, error: PixelError, findings: Sequence[Finding]) -> bool:
     """Return whether pixels are known well among corners and too poorly over the image, for no
-    other cause that asks for photographs and without a remedy that makes them much better."""
+    other cause that asks for photographs.
+
+    Args:
+        calibration: the calibration.
+        error: the errors of its pixels, once what makes them much better is done.
+        findings: what is wrong.
+    """
     is_judged = calibration.diagnosis is None and calibration.status is Status.CONVERGED
     is_told = any(f.cause is Cause.FEW_VIEWS or f.without is not None for f in findings)
-    is_mended = bool(findings) and findings[0].times_better >= MIN_TIMES_BETTER
     is_poor = error.covered <= MAX_USABLE_PX and not error.median <= MAX_USABLE_PX
-    return is_judged and is_poor and not is_told and not is_mended
+    return is_judged and is_poor and not is_told
 
 
 def _grade(

@@ -27,7 +27,7 @@ from calibgui.engine.calibration.observations import Observation
 from calibgui.engine.calibration.result import Calibration, DegenerateError, Status
 from calibgui.engine.camera.camera import Camera
 from calibgui.engine.errors import CalibrationError, Cancelled
-from tests.engine.scenes import VGA, barrel, scene, scene_in_the_middle
+from tests.engine.scenes import BOARD, VGA, barrel, scene, scene_in_the_middle
 from tests.faults import sets
 from tests.faults.causes import FAULTS
 from tests.faults.sets import FaultySet
@@ -242,6 +242,22 @@ def test_a_board_whose_shape_brings_nothing_is_no_finding() -> None:
     _, verdict = judge(inject("bow", 0).views)
     assert (verdict.findings, verdict.grade) == ((), Grade.USABLE)
     assert "add views" in verdict.reason  # the standard deviations include the doubt
+
+
+def test_what_a_remedy_leaves_is_told_with_it(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A camera that can be made much better, and is too poorly known beyond its corners then."""
+    monkeypatch.setattr(verdict_module, "MAX_USABLE_PX", 0.2)
+    drawn, xy = scene_in_the_middle(barrel(), 12, seed=1, spread=0.15), BOARD.points()
+    bow = np.column_stack([xy, 1e-4 * (xy[:, 0] - 165) ** 2])
+    rng = np.random.default_rng(0)
+    views = [
+        Observation(sets.project_corners(barrel(), pose, bow) + rng.normal(0, 0.05, xy.shape), xy)
+        for pose in drawn.poses
+    ]
+    _, verdict = judge(views)
+    assert verdict.grade is Grade.CAN_BE_BETTER
+    assert [finding.cause for finding in verdict.findings] == [Cause.BOARD_SHAPE, Cause.FEW_VIEWS]
+    assert "Once the rest is mended, a pixel is known to 0.1" in verdict.findings[1].evidence
 
 
 def test_an_edge_that_no_photograph_shows_is_told_but_leaves_a_calibration_good() -> None:
