@@ -19,6 +19,7 @@ from pathlib import Path
 from typing import Any, ParamSpec, TypeVar
 
 import numpy as np
+import numpy.typing as npt
 from numba import config, njit
 
 from calibgui.engine.arrays import Array, GreyImage
@@ -27,6 +28,10 @@ from calibgui.engine.kernels.compilation import KernelCache, KernelCompiler
 _P = ParamSpec("_P")
 _T = TypeVar("_T")
 
+_Floats = npt.NDArray[np.floating[Any]]
+"""Arrays of float32."""
+_Ints = npt.NDArray[np.signedinteger[Any]]
+"""Arrays of int64."""
 _FAST_MATHS = {"contract", "nsz", "arcp", "reassoc"}
 """Freedoms that the compiler needs to vectorise sums; infinities and NaN stay as they are."""
 _OPTIONS: dict[str, Any] = {
@@ -44,6 +49,7 @@ _MAX_SWEEPS = 30
 _NEGLIGIBLE = 1e-36
 """Sum of squares aside the diagonal, over that on it, at which a matrix counts as diagonal."""
 _NEXT = np.uintp(1)
+_NO = np.float32(0)
 _MIN_BLOCKS_FOR_THREADS = 4
 """Number of blocks below which starting threads costs more than they save."""
 
@@ -155,6 +161,48 @@ def gram(J: Array, out: Array) -> None:
     for a in range(M):
         for b in range(a):
             out[a, b] = out[b, a]
+
+
+@compiled_part
+def add_products(w: _Floats, stride: int, rows: _Ints, count: int, m: int, out: Array) -> None:
+    """Add to out (M, M) the products of the first `count` of `rows`, which ascend, three by three:
+    on its diagonal and below, and some above. Rows of w have m numbers and begin `stride` apart."""
+    for i in range(0, count, 3):
+        a, a1, a2 = rows[i], rows[min(i + 1, count - 1)], rows[min(i + 2, count - 1)]
+        p0, p1, p2 = w[a * stride :], w[a1 * stride :], w[a2 * stride :]
+        for j in range(0, i + 1, 3):
+            b, b1, b2 = rows[j], rows[min(j + 1, count - 1)], rows[min(j + 2, count - 1)]
+            q0, q1, q2 = w[b * stride :], w[b1 * stride :], w[b2 * stride :]
+            s00 = s01 = s02 = s10 = s11 = s12 = s20 = s21 = s22 = _NO
+            for k in range(m):
+                x, y, z, t, u, v = p0[k], p1[k], p2[k], q0[k], q1[k], q2[k]
+                s00 += x * t
+                s01 += x * u
+                s02 += x * v
+                s10 += y * t
+                s11 += y * u
+                s12 += y * v
+                s20 += z * t
+                s21 += z * u
+                s22 += z * v
+            # Where a row fills up its three its products are there already.
+            out[a, b] += s00
+            if b1 > b:
+                out[a, b1] += s01
+            if b2 > b1:
+                out[a, b2] += s02
+            if a1 > a:
+                out[a1, b] += s10
+                if b1 > b:
+                    out[a1, b1] += s11
+                if b2 > b1:
+                    out[a1, b2] += s12
+            if a2 > a1:
+                out[a2, b] += s20
+                if b1 > b:
+                    out[a2, b1] += s21
+                if b2 > b1:
+                    out[a2, b2] += s22
 
 
 @compiled_part

@@ -29,10 +29,10 @@ from typing import NamedTuple
 import numpy as np
 import scipy
 
+from calibgui.engine import kernels
 from calibgui.engine.arrays import (
     Array,
     BoolArray,
-    FloatImage,
     GreyImage,
     IntArray,
     compute_median,
@@ -188,20 +188,23 @@ def _take_step(
     beside = min(gap / 2, 1 / side) * within
     inside = ((np.arange(side)[:, None] + within) / side).ravel()
     x = np.concatenate([-beside[::-1], inside, 1 + beside])
-    mesh = make_mesh(x, x).reshape(-1, 2)
-    levels = sample_image(image, _map_to_image(quads, tags.bends, x)).astype(np.float32)
     length = np.linalg.norm(quads[:, NEXT] - quads, axis=2)
-    lengths = np.column_stack([length[:, [0, 2]].mean(axis=1), length[:, [1, 3]].mean(axis=1)])
-    columns = _compute_columns(x, mesh, tags.dark, blur / lengths, is_shift)
-    products = (columns @ columns.swapaxes(1, 2)).astype(np.float64)
-    inverse = np.linalg.inv(products)
-    found = np.einsum("nij,nj->ni", inverse, (columns @ levels[..., None])[..., 0])
+    blurs = blur / np.column_stack([length[:, ::2].mean(axis=1), length[:, 1::2].mean(axis=1)])
+    n, power = len(quads), np.arange(4)
+    H = homography.fit_homography(np.broadcast_to(AROUND, (n, 4, 2)), quads, np.ones((n, 4)))
+    weights = x[:, None] ** power @ np.linalg.inv(NODE_PLACES[:, None] ** power)
+    products = _sum_products(
+        image, H, tags.bends, weights, tags.dark, x, blurs, _HALO * blurs, is_shift
+    )
+    by_level = products[:, :-1, -1]
+    inverse = np.linalg.inv(products[:, :-1, :-1])
+    found = np.einsum("nij,nj->ni", inverse, by_level)
     contrast = (found[:, 0] - found[:, 1])[:, None]
     ways = _list_ways(quads, is_shift)
     count = ways.shape[3]
     step = np.einsum("nkij,nj->nki", ways, found[:, -count:] / contrast)
-    left = levels - (found[:, None].astype(np.float32) @ columns)[:, 0]
-    noise = (left.var(axis=1) / contrast[:, 0] ** 2)[:, None, None]
+    square = products[:, -1, -1] - np.einsum("ni,ni->n", found, by_level)
+    noise = (square / len(x) ** 2 / contrast[:, 0] ** 2)[:, None, None]
     own = (noise * inverse[:, -count:, -count:])[:, None]
     return step, np.asarray(ways @ own @ ways.swapaxes(2, 3))
 
@@ -219,43 +222,60 @@ def _list_ways(quads: Array, is_shift: bool) -> Array:
     return np.concatenate([own * right, own * down], axis=3)
 
 
-def _map_to_image(quads: Array, bends: Array, x: Array) -> Array:
-    """Map all pairs of places `x` (m,) across tags, sides, to the image (n, m^2, 2) px, bent by the
-    lens as cubic polynomials through its `bends` (n, 16, 2) px."""
-    n = len(quads)
-    H = homography.fit_homography(np.broadcast_to(AROUND, (n, 4, 2)), quads, np.ones((n, 4)))
+@kernels.with_kernel("tag_spread", "sum_products")
+def _sum_products(
+    image: GreyImage,
+    H: Array,
+    bends: Array,
+    weights: Array,
+    dark: BoolArray,
+    x: Array,
+    blur: Array,
+    wide: Array,
+    is_shift: bool,
+) -> Array:
+    """Sum the products (n, m + 1, m + 1) of the m terms of the level, and of the level less one of
+    the tag's, over all pairs of places across tags.
+
+    Args:
+        image: (h, w) grey levels.
+        H: (n, 3, 3) from tags, sides, to the image, px.
+        bends: (n, 16, 2) px, as of ``TagOutlines``.
+        weights: (p, 4) of the lines of nodes in a bend at the places.
+        dark: (n, k, k) cells.
+        x: (p,) places across a tag, sides.
+        blur: (n, 2) along x and along y, sides.
+        wide: (n, 2) the same of the halos.
+        is_shift: whether all edges of a tag are shifted alike.
+    """
+    levels = sample_image(image, _map_to_image(H, bends, weights, x))
+    columns = _compute_columns(x, dark, blur, wide, is_shift)
+    rows = np.concatenate([columns, (levels - levels.mean(axis=1, keepdims=True))[:, None]], axis=1)
+    return np.asarray(rows @ rows.swapaxes(1, 2))
+
+
+def _map_to_image(H: Array, bends: Array, weights: Array, x: Array) -> Array:
+    """Map all pairs of places to the image (n, p^2, 2) px, bent by lenses; see `_sum_products`."""
+    n = len(H)
     by_x, by_y, rest = np.moveaxis(H, 2, 0)[..., None, None]
     u, v, w = np.moveaxis(by_x * x + by_y * x[:, None] + rest, 1, 0)
-    power = np.arange(4)
-    weights = x[:, None] ** power @ np.linalg.inv(NODE_PLACES[:, None] ** power)
     nodes = np.moveaxis(bends.reshape(n, 4, 4, 2), 3, 0)
     bend = weights @ nodes @ weights.T
     return np.stack([u / w + bend[0], v / w + bend[1]], axis=-1).reshape(n, -1, 2)
 
 
-def _compute_columns(
-    x: Array, mesh: Array, dark: BoolArray, blur: Array, is_shift: bool
-) -> FloatImage:
-    """Compute the terms (n, m, p) of the level at all pairs of `x` (m,), of which the first are
-    those of paper and ink and the last those of `_list_ways`.
-
-    Args:
-        x: places across a tag, sides.
-        mesh: (p, 2) the pairs.
-        dark: (n, k, k) cells.
-        blur: (n, 2) along x and along y, sides.
-        is_shift: whether all edges of a tag are shifted alike.
-    """
-    paper = np.pad(~dark, ((0, 0), (1, 1), (1, 1)), constant_values=True).astype(np.float32)
+def _compute_columns(x: Array, dark: BoolArray, blur: Array, wide: Array, is_shift: bool) -> Array:
+    """Compute the terms (n, m, p^2) of the level at all pairs of places, of which the first are
+    those of paper and ink and the last those of `_list_ways`; see `_sum_products`."""
+    paper = np.pad(~dark, ((0, 0), (1, 1), (1, 1)), constant_values=True).astype(np.float64)
     in_x, in_y = (_compute_shares(x, dark.shape[1], each) for each in blur.T)
-    wide_x, wide_y = (_compute_shares(x, dark.shape[1], _HALO * each)[0] for each in blur.T)
+    wide_x, wide_y = (_compute_shares(x, dark.shape[1], each)[0] for each in wide.T)
 
-    def combine(rows: FloatImage, cols: FloatImage) -> FloatImage:
-        seen = rows @ paper @ cols.swapaxes(1, 2)
-        return np.asarray(seen.reshape(len(dark), -1), dtype=np.float32)
+    def combine(rows: Array, cols: Array) -> Array:
+        return np.asarray((rows @ paper @ cols.swapaxes(1, 2)).reshape(len(dark), -1))
 
     w, by_x, by_y = combine(in_y[0], in_x[0]), combine(in_y[0], in_x[1]), combine(in_y[1], in_x[0])
-    at_x, at_y = (mesh - 0.5).T.astype(np.float32)
+    at_x, at_y = (make_mesh(x, x).reshape(-1, 2) - 0.5).T
     ink = 1 - w
     terms = [
         *(w, ink, w * ink),
@@ -273,16 +293,12 @@ def _compute_columns(
     return np.stack(terms, axis=1)
 
 
-def _compute_shares(x: Array, side: int, blur: Array) -> tuple[FloatImage, FloatImage, FloatImage]:
-    """Compute X_j at places `x` (m,) under blurs (n,), (n, m, side + 2) with the paper on both
+def _compute_shares(x: Array, side: int, blur: Array) -> tuple[Array, Array, Array]:
+    """Compute X_j at places `x` (p,) under blurs (n,), (n, p, side + 2) with the paper on both
     sides of the tag, and its first and second derivatives."""
     edges = np.concatenate([[-np.inf], np.arange(side + 1) / side, [np.inf]])
     s = blur[:, None, None]
     z = (edges - x[:, None]) / s
     density = np.exp(-(z**2) / 2) / (np.sqrt(2 * np.pi) * s)
     turn = np.where(np.isfinite(z), z, 0.0) * density / s
-    share, slope, bend = (
-        np.asarray(np.diff(each, axis=2), dtype=np.float32)
-        for each in (scipy.special.ndtr(z), -density, -turn)
-    )
-    return share, slope, bend
+    return np.diff(scipy.special.ndtr(z)), -np.diff(density), -np.diff(turn)
