@@ -15,6 +15,7 @@ import numpy.typing as npt
 
 from calibgui.engine.arrays import Array, GreyImage
 from calibgui.engine.kernels.common import (
+    add_products,
     bilinear,
     compiled,
     compiled_part,
@@ -62,31 +63,42 @@ class _Model(Protocol):
 
 
 @compiled_part
-def _measure(
-    p: float, q: float, k: int, corners: Array, edges: Array, bows: Array
-) -> tuple[float, float]:
-    """Compute s over the length, and d px, of (p, q) along and within edge k, whose length, tangent
-    and inward normal are edges (4, 5)."""
-    length = edges[k, 0]
-    x, y = p - corners[k, 0], q - corners[k, 1]
-    s = (edges[k, 1] * x + edges[k, 2] * y) / length
-    return s, edges[k, 3] * x + edges[k, 4] * y + 4 * bows[k] * s * (1 - s)
+def _fill_lines(corners: Array, edges: Array, bands: Array, bows: Array, lines: Array) -> None:
+    """Fill in what an edge a row says of pixels, see `_measure` and `_is_within`; edges (4, 5) are
+    the length, tangent and inward normal of each."""
+    for k in range(4):
+        length, u, v = edges[k, 0], corners[k, 0], corners[k, 1]
+        tu, tv, nu, nv = edges[k, 1], edges[k, 2], edges[k, 3], edges[k, 4]
+        lines[k, 0], lines[k, 1], lines[k, 2] = (
+            tu / length,
+            tv / length,
+            -(tu * u + tv * v) / length,
+        )
+        lines[k, 3], lines[k, 4], lines[k, 5] = nu, nv, -(nu * u + nv * v)
+        lines[k, 6] = 4 * bows[k]
+        lines[k, 7], lines[k, 8] = -bands[k, 0], bands[k, 1]
+        lines[k, 9] = 0.5 + bands[k, 0] / length
 
 
 @compiled_part
-def _is_within(s: float, d: float, length: float, band: Array) -> bool:
-    """Return whether a pixel lies in the band (2,) of an edge."""
-    return -band[0] <= d <= band[1] and abs(s - 0.5) <= 0.5 + band[0] / length
+def _measure(u: float, v: float, line: Array) -> tuple[float, float]:
+    """Compute s over the length, and d px, of (u, v) along and within an edge."""
+    s = line[0] * u + line[1] * v + line[2]
+    return s, line[3] * u + line[4] * v + line[5] + line[6] * s * (1 - s)
 
 
 @compiled_part
-def _is_earlier(
-    p: float, q: float, edge: int, corners: Array, edges: Array, bows: Array, bands: Array
-) -> bool:
+def _is_within(s: float, d: float, line: Array) -> bool:
+    """Return whether a pixel lies in the band of an edge."""
+    return line[7] <= d <= line[8] and abs(s - 0.5) <= line[9]
+
+
+@compiled_part
+def _is_earlier(u: float, v: float, edge: int, lines: Array) -> bool:
     """Return whether a pixel lies in the band of an edge before this one."""
     for k in range(edge):
-        s, d = _measure(p, q, k, corners, edges, bows)
-        if _is_within(s, d, edges[k, 0], bands[k]):
+        s, d = _measure(u, v, lines[k])
+        if _is_within(s, d, lines[k]):
             return True
     return False
 
@@ -198,16 +210,61 @@ def _add_block(
         fill_edge(w[_DO:], _ONE, w[_ZERO:], _NO, w[_BO:], _F(box[last]), w[_EO:], m)
     _fill_columns(w, edge, other, edges, levels, m)
     count = _list_columns(edge, other, columns)
-    for i in range(count):
-        a = columns[i]
-        one = w[_J + a * BLOCK : _J + (a + 1) * BLOCK]
-        for j in range(i + 1):
-            b = columns[j]
-            two = w[_J + b * BLOCK : _J + (b + 1) * BLOCK]
-            total = _NO
-            for p in range(m):
-                total += one[p] * two[p]
-            out[a, b] += total
+    add_products(w[_J:], BLOCK, columns, count, m, out)
+
+
+@compiled_part
+def _follow_edge(
+    edge: int, corners: Array, edges: Array, bow: float, wide: float, extent: int, rows: Array
+) -> tuple[int, int]:
+    """Fill in, for each column of an image that may show the band of an edge, `wide` px to either
+    side, the row where the edge passes, or with u and v exchanged if it runs more along v. Return
+    the first column, and that after the last, of the `extent` less those at its ends."""
+    length, tu, tv = edges[edge, 0], edges[edge, 1], edges[edge, 2]
+    flat = abs(tu) >= abs(tv)
+    axis, along, across = (0, tu, tv) if flat else (1, tv, tu)
+    x0, y0, x1 = corners[edge, axis], corners[edge, 1 - axis], corners[(edge + 1) % 4, axis]
+    first = max(int(np.floor(min(x0, x1) - wide)), 1)
+    last = min(int(np.ceil(max(x0, x1) + wide)) + 1, extent - 1)
+    # Of a normal (-t_v, t_u) the part across is t_u, or -t_v for an edge along v.
+    out = -4 * bow / (along if flat else -along)
+    for x in range(first, last):
+        way = (x - x0) / along
+        share = way / length
+        rows[x] = np.rint(y0 + way * across + out * share * (1 - share))
+    return first, last
+
+
+@compiled_part
+def _find_lone_part(
+    edge: int, corners: Array, bows: Array, lines: Array, wide: float, far: float
+) -> tuple[float, float]:
+    """Find between which shares along an edge no pixel of its band, `wide` px to either side, lies
+    in the band of an edge before it, nor within `far` px of its neighbours."""
+    low, high = -np.inf, np.inf
+    off = wide + 4 * abs(bows[edge]) * lines[edge, 9] ** 2
+    begin, end = corners[edge], corners[(edge + 1) % 4]
+    for k in range(4):
+        is_neighbour = (k - edge) % 2 == 1
+        if k == edge or (k > edge and not is_neighbour):
+            continue
+        limit = max(lines[k, 8] if k < edge else 0.0, far if is_neighbour else 0.0)
+        line = lines[k]
+        s0 = line[0] * begin[0] + line[1] * begin[1] + line[2]
+        s1 = line[0] * end[0] + line[1] * end[1] + line[2]
+        d0 = line[3] * begin[0] + line[4] * begin[1] + line[5]
+        d1 = line[3] * end[0] + line[4] * end[1] + line[5]
+        # A bow moves its edge by 4 b s (1 - s).
+        pad = off * np.sqrt(line[0] ** 2 + line[1] ** 2)
+        most = abs((s0 + s1) / 2 - 0.5) + abs(s1 - s0) * lines[edge, 9] + pad
+        least = limit + off + abs(line[6]) * max(most * most, 0.25)
+        if d1 > d0:
+            low = max(low, (least - d0) / (d1 - d0))
+        elif d1 < d0:
+            high = min(high, (least - d0) / (d1 - d0))
+        elif d0 <= least:
+            high = low
+    return low, high
 
 
 @compiled_part
@@ -222,6 +279,8 @@ def _add_edge(
     box: Array,
     levels: Array,
     half: float,
+    lines: Array,
+    along: Array,
     w: _Floats,
     counts: _Ints,
     columns: _Ints,
@@ -231,36 +290,36 @@ def _add_edge(
     height, width = image.shape
     middle_u = (corners[0, 0] + corners[1, 0] + corners[2, 0] + corners[3, 0]) / 4
     middle_v = (corners[0, 1] + corners[1, 1] + corners[2, 1] + corners[3, 1]) / 4
-    length, tu, tv = edges[edge, 0], edges[edge, 1], edges[edge, 2]
+    line, tu, tv = lines[edge], edges[edge, 1], edges[edge, 2]
     flat = abs(tu) >= abs(tv)
-    along, across = (tu, tv) if flat else (tv, tu)
-    begin, end = corners[edge], corners[(edge + 1) % 4]
-    x0, y0 = (begin[0], begin[1]) if flat else (begin[1], begin[0])
-    x1 = end[0] if flat else end[1]
-    band = bands[edge]
-    wide = max(band[0], band[1])
-    reach = int(np.ceil(wide / abs(along) + 0.5))
+    t, extent, across = (tu, width, height) if flat else (tv, height, width)
+    s_x, s_y, d_x, d_y = line[0], line[1], line[3], line[4]
+    if not flat:
+        s_x, s_y, d_x, d_y = s_y, s_x, d_y, d_x
+    rows, shares, distances = along
+    wide = max(bands[edge, 0], bands[edge, 1])
+    first, last = _follow_edge(edge, corners, edges, bows[edge], wide, extent, rows)
+    reach = int(np.ceil(wide / abs(t) + 0.5))
     far = _FAR * blurs[(edge + 1) % 2] + box[(edge + 1) % 4]
-    for x in range(int(np.floor(min(x0, x1) - wide)), int(np.ceil(max(x0, x1) + wide)) + 1):
-        way = (x - x0) / along
-        share = way / length
-        bow = -4 * bows[edge] * share * (1 - share)
-        # Of a normal (-t_v, t_u) the part across is t_u, or -t_v for an edge along v.
-        row = int(np.rint(y0 + way * across + bow / (along if flat else -along)))
-        for y in range(row - reach, row + reach + 1):
+    low, high = _find_lone_part(edge, corners, bows, lines, wide, far)
+    for aside in range(-reach, reach + 1):
+        for x in range(first, last):
+            y = rows[x] + aside
+            s = s_x * x + s_y * y + line[2]
+            shares[x] = s
+            distances[x] = d_x * x + d_y * y + line[5] + line[6] * s * (1 - s)
+        for x in range(first, last):
+            s, d, y = shares[x], distances[x], int(rows[x]) + aside
+            if not _is_within(s, d, line) or y < 1 or y > across - 2:
+                continue
             u, v = (x, y) if flat else (y, x)
-            if u < 1 or v < 1 or u > width - 2 or v > height - 2:
-                continue
-            s, d = _measure(u, v, edge, corners, edges, bows)
-            if not _is_within(s, d, length, band) or _is_earlier(
-                u, v, edge, corners, edges, bows, bands
-            ):
-                continue
-            which = 0 if s < 0.5 else 1
-            other = (edge + 3 + 2 * which) % 4
-            s2, d2 = _measure(u, v, other, corners, edges, bows)
-            if d2 > far:
-                which = 2
+            which, s2, d2 = 2, 0.0, 0.0
+            if not low < s < high:
+                if _is_earlier(u, v, edge, lines):
+                    continue
+                end = 0 if s < 0.5 else 1
+                s2, d2 = _measure(u, v, lines[(edge + 3 + 2 * end) % 4])
+                which = end if d2 <= far else 2
             m, block = counts[which], w[which]
             block[_D + m], block[_DO + m], block[_S + m], block[_SO + m] = d, d2, s, s2
             block[_X + m] = (u - middle_u) / half
@@ -292,12 +351,14 @@ def _accumulate(
 ) -> None:
     """Add to out (n, 21, 21)."""
     w, counts = np.zeros((3, _ROWS * BLOCK), dtype=_F), np.zeros(3, dtype=np.int64)
-    columns = np.empty(_COLUMNS, dtype=np.int64)
+    columns, lines = np.empty(_COLUMNS, dtype=np.int64), np.empty((4, 10))
+    along = np.empty((3, max(image.shape)))
     for i in range(len(corners)):
+        _fill_lines(corners[i], edges[i], bands[i], bows[i], lines)
         for edge in range(4):
             _add_edge(
                 image, edge, corners[i], edges[i], bands[i], bows[i], blurs[i], box[i], levels[i],
-                half[i], w, counts, columns, out[i],
+                half[i], lines, along, w, counts, columns, out[i],
             )  # fmt: skip
         for a in range(_COLUMNS):
             for b in range(a):
