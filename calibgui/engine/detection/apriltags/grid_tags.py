@@ -346,17 +346,25 @@ def _refine_quads(image: GreyImage, quads: Array) -> Array:
     have one, and no paper comes in. Beside tags without small squares there are none but in noise,
     and moves by 3 to 15 px: of 52 such quadrilaterals all were brighter along their sides then, of
     1360 that had saddle points none."""
-    side = np.repeat(np.linalg.norm(quads - np.roll(quads, 1, axis=1), axis=2).min(axis=1), 4)
-    uv, good = saddle.refine_saddles(
-        image,
-        quads.reshape(-1, 2),
-        np.clip(_REFINING_SIGMA * side, *_SIGMA_LIMITS),
-        _MAX_REFINING_SHIFT * side,
-    )
-    moved = uv.reshape(-1, 4, 2)
-    refined = np.asarray(good.reshape(-1, 4).all(axis=1))
-    refined &= rate_borders(image, moved) <= rate_borders(image, quads)
-    return np.where(refined[:, None, None], moved, quads)
+    side = np.linalg.norm(quads - np.roll(quads, 1, axis=1), axis=2).min(axis=1)
+    sigma, limit = np.clip(_REFINING_SIGMA * side, *_SIGMA_LIMITS), _MAX_REFINING_SHIFT * side
+    moved, left = quads.copy(), np.arange(len(quads))
+    for corners in ([0], [2], [1, 3]):  # most that lack one are done with after the first
+        start, count = quads[left][:, corners], len(corners)
+        uv, good = saddle.refine_saddles(
+            image,
+            start.reshape(-1, 2),
+            np.repeat(sigma[left], count),
+            np.repeat(limit[left], count),
+        )
+        moved[left[:, None], corners] = uv.reshape(start.shape)
+        left = left[good.reshape(-1, count).all(axis=1)]
+        if not len(left):
+            return quads
+    refined = left[rate_borders(image, moved[left]) <= rate_borders(image, quads[left])]
+    out = quads.copy()
+    out[refined] = moved[refined]
+    return out
 
 
 def _reach_paper(image: GreyImage, quads: Array) -> Array:

@@ -116,13 +116,14 @@ def fit_tag_outlines(
     usual = _BowPrior(np.zeros((len(corners), 4)), _USUAL_BOW * model.measure_edges()[0])
     least = estimate_least_noise(image)
     noise = np.full(len(corners), least)
-    model, inverse, square = _take_steps(image, model, usual, noise, _MAX_FREE_STEPS)
+    model, equations, square = _take_steps(image, model, usual, noise, _MAX_FREE_STEPS)
     noise = np.maximum(square, least)
     places = _locate_corners(squares, measure_gap_of_tags(squares, model.corners, gap))
-    prior, board = _estimate_bows(model, noise[:, None] * _get_bow_variances(inverse), places)
-    model, inverse, square = _take_steps(image, model, prior, noise, _LAST_STEPS)
+    bows = np.einsum("nkk->nk", _invert_part(equations, slice(16, 20)))
+    prior, board = _estimate_bows(model, noise[:, None] * bows, places)
+    model, equations, square = _take_steps(image, model, prior, noise, _LAST_STEPS)
     noise = np.maximum(square, least)
-    pairs = inverse[:, :8, :8].reshape(-1, 4, 2, 4, 2)
+    pairs = _invert_part(equations, slice(8)).reshape(-1, 4, 2, 4, 2)
     covariance = np.stack([pairs[:, i, :, i] for i in range(4)], axis=1)
     contrast = model.levels[:, 0] - model.levels[:, 1]
     rise = contrast[:, 1:] / (contrast[:, :1] * model.half[:, None])
@@ -264,9 +265,12 @@ def _estimate_bows(
     return _BowPrior(bows, np.sqrt(usual) * length), board
 
 
-def _get_bow_variances(inverse: Array) -> Array:
-    """Return the variances (n, 4) of bows in the inverse of normal equations (n, 20, 20)."""
-    return np.asarray(np.einsum("nkk->nk", inverse)[:, 16:])
+def _invert_part(equations: Array, part: slice) -> Array:
+    """Compute the `part` of the inverse of equations (n, 20, 20) that holds the covariances of its
+    unknowns, over the noise."""
+    wanted = np.eye(UNKNOWNS)[:, part]
+    wanted = np.broadcast_to(wanted, (len(equations), *wanted.shape))
+    return np.linalg.solve(equations, wanted)[:, part]
 
 
 def _measure_profiles(
@@ -364,17 +368,17 @@ def _take_steps(
         steps: their number, at most.
 
     Returns:
-        The model after them, the inverse (n, 20, 20) of the last equations, and the mean square
+        The model after them, the last equations (n, 20, 20), and the mean square
         (n,) of what is left unexplained.
     """
     for _ in range(steps):
         is_sharp = bool(compute_median(model.blurs.ravel()) < _MAX_SHARP_BLUR)
         products = accumulate_normal_equations(image, model, is_sharp)
         before = model.corners
-        model, inverse, square = _take_step(model, products, prior, noise)
+        model, equations, square = _take_step(model, products, prior, noise)
         if abs(model.corners - before).max() < _CONVERGED_STEP:
             break
-    return model, inverse, square
+    return model, equations, square
 
 
 def _take_step(
@@ -389,8 +393,8 @@ def _take_step(
         noise: (n,) variance of the grey levels, by which that counts.
 
     Returns:
-        The model after it, the inverse (n, 20, 20) of its equations, and the mean square (n,) of
-        what is left unexplained.
+        The model after it, its equations (n, 20, 20), and the mean square (n,) of what is left
+        unexplained.
     """
     N, g = products[:, :UNKNOWNS, :UNKNOWNS], products[:, :UNKNOWNS, UNKNOWNS]
     weight = np.zeros(g.shape)
@@ -399,8 +403,8 @@ def _take_step(
     pull[:, 16:] = weight[:, 16:] * (prior.bows - model.bows)
     largest = np.einsum("nkk->nk", N).max(axis=1) + 1e-300
     diagonal = weight + _DAMPING * largest[:, None]
-    inverse = np.linalg.inv(N + diagonal[:, None] * np.eye(UNKNOWNS))
-    step = np.einsum("nij,nj->ni", inverse, g + pull)
+    equations = N + diagonal[:, None] * np.eye(UNKNOWNS)
+    step = np.linalg.solve(equations, (g + pull)[..., None])[..., 0]
     explained = np.sum(step * (2 * g - np.einsum("nij,nj->ni", N, step)), axis=1)
     square = products[:, UNKNOWNS, UNKNOWNS] - explained
     count = N[:, 10, 10] + N[:, 13, 13] + 2 * N[:, 10, 13]
@@ -414,4 +418,4 @@ def _take_step(
         levels=model.levels + step[:, 10:16].reshape(-1, 2, 3),
         bows=model.bows + np.clip(step[:, 16:], -1.0, 1.0),
     )
-    return stepped, inverse, square
+    return stepped, equations, square
