@@ -8,6 +8,10 @@ import scipy
 
 from calibgui.engine import kernels
 from calibgui.engine.detection.apriltags import tag_outlines
+from calibgui.engine.detection.apriltags.outline_model import (
+    OutlineModel,
+    accumulate_normal_equations,
+)
 from calibgui.engine.detection.apriltags.tag_outlines import TagOutlines, fit_tag_outlines
 
 SQUARES = np.argwhere(np.ones((3, 4)))
@@ -63,3 +67,33 @@ def test_the_same_outlines(
     np.testing.assert_allclose(compiled.contrast, readable.contrast, rtol=1e-3)
     off = np.abs(compiled.covariance - readable.covariance).max(axis=(2, 3))
     assert (off < 0.02 * readable.covariance.max(axis=(2, 3))).all()
+
+
+def test_the_same_pixels_of_bent_and_small_outlines() -> None:
+    """Edges are bent by far, tags so narrow that their bands overlap, or leave the image."""
+    rng = np.random.default_rng(2)
+    image = rng.integers(0, 255, (200, 240)).astype(np.uint8)
+    side = np.array([60.0, 60.0, 9.0, 14.0, 40.0, 40.0])
+    place = np.array([(30, 30), (120, 90), (40, 150), (90, 150), (-10, 100), (205, 170)])
+    corners = place[:, None] + side[:, None, None] * tag_outlines.AROUND
+    corners += rng.uniform(-0.15, 0.15, corners.shape) * side[:, None, None]
+    n = len(side)
+    model = OutlineModel(
+        corners,
+        rng.uniform(0.8, 2.5, (n, 2)),
+        np.tile([[180.0, 3.0, -4.0], [40.0, 2.0, 5.0]], (n, 1, 1)),
+        rng.normal(0, 0.06, (n, 4)) * side[:, None],
+        np.full(n, 4.0),
+        np.full(n, 6.0),
+        side / 2,
+    )
+    found, expected = (
+        run(image, model, False)
+        for run in (accumulate_normal_equations.kernel, accumulate_normal_equations.reference)
+    )
+    count = expected[:, 10, 10] + expected[:, 13, 13] + 2 * expected[:, 10, 13]
+    assert (count > 100).all()
+    scale = np.sqrt(np.einsum("nii->ni", expected)) + 1e-9
+    off = abs(found - expected) / scale[:, :, None] / scale[:, None]
+    assert (np.median(off, axis=(1, 2)) < 1e-6).all()
+    assert off.max() < 0.02  # of a tag outside of the image, whose corners hardly show

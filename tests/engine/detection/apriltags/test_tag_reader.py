@@ -13,12 +13,14 @@ from calibgui.engine.arrays import Array, GreyImage
 from calibgui.engine.boards.april_grid import AprilGrid
 from calibgui.engine.boards.apriltags import FAMILIES, load_family
 from calibgui.engine.boards.board import Board
+from calibgui.engine.detection.apriltags import grid_tags
 from calibgui.engine.detection.apriltags.tag_reader import (
     TagPrint,
     TagReader,
     rate_borders,
     verify_tags,
 )
+from calibgui.engine.detection.checkerboard import saddle
 from calibgui.engine.detection.find_corners import find_corners
 from calibgui.engine.errors import NoBoardError
 from tests.scenes.perspective import photograph_pattern
@@ -52,6 +54,21 @@ def test_whatever_can_be_read_may_be_a_tag(family: str, border: int) -> None:
         read = TagReader(image, quads).read(TagPrint(family, border))
         assert (rate_borders(image, quads)[read.which] < 0.45).all()
         assert len(read.which) > 0.9 * len(quads) or blur > 1
+
+
+def test_of_tags_alone_one_corner_is_looked_for(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Nothing dark touches it, so that the others need not be."""
+    image, quads = draw_tags("t36h11", 2, range(20), 0.7)
+    asked: list[int] = []
+    refine = saddle.refine_saddles
+
+    def count(image: GreyImage, uv: Array, *others: Any) -> Any:
+        asked.append(len(uv))
+        return refine(image, uv, *others)
+
+    monkeypatch.setattr(saddle, "refine_saddles", count)
+    np.testing.assert_array_equal(grid_tags._refine_quads(image, quads), quads)
+    assert sum(asked) < 2 * len(quads)
 
 
 def test_what_is_filled_evenly_is_no_tag() -> None:
