@@ -27,6 +27,9 @@ _Floats = npt.NDArray[np.floating[Any]]
 """Arrays of float32."""
 _SHIFT_TERMS, _OWN_TERMS = 16, 26
 """Numbers of terms where all edges are shifted alike, and where each corner moves by itself."""
+_SEEN = np.array([(0, 0, 0), (1, 0, 0), (0, 0, 2), (0, 2, 0), (0, 0, 1), (0, 1, 0)])
+"""(6, 3) what is seen of the paper: under the blur of edges (0) or halos (1), and how often it is
+differentiated by y, and by x."""
 _FAR = 6.5
 """Distance from an edge, blurs, at which nothing of it is left in a float32."""
 _ROOT_HALF, _ROOT_2PI = math.sqrt(0.5), math.sqrt(2 * math.pi)
@@ -171,23 +174,20 @@ def _accumulate(
 ) -> None:
     """Add to out (n, terms + 1, terms + 1)."""
     m, side, terms = len(x), dark.shape[1], out.shape[1] - 1
-    in_x, in_y = np.empty((3, side + 2, m), dtype=_F), np.empty((3, side + 2, m), dtype=_F)
-    far_x, far_y = np.empty((3, side + 2, m), dtype=_F), np.empty((3, side + 2, m), dtype=_F)
-    seen, weight = np.empty((6, m), dtype=_F), np.empty(side + 2, dtype=_F)
+    shares = np.empty((2, 2, 3, side + 2, m), dtype=_F)  # along x and y, under both blurs
+    seen, weight = np.empty((len(_SEEN), m), dtype=_F), np.empty(side + 2, dtype=_F)
     w, columns = np.empty((terms + 1) * BLOCK, dtype=_F), np.arange(terms + 1)
     for i in range(len(H)):
-        _fill_shares(x, side, blur[i, 0], in_x)
-        _fill_shares(x, side, blur[i, 1], in_y)
-        _fill_shares(x, side, wide[i, 0], far_x)
-        _fill_shares(x, side, wide[i, 1], far_y)
+        for axis in range(2):
+            for which in range(2):
+                s = wide[i, axis] if which else blur[i, axis]
+                _fill_shares(x, side, s, shares[axis, which])
         at = 0
         for row in range(m):
-            _see_row(in_y[0], row, dark[i], in_x[0], weight, seen[0])
-            _see_row(far_y[0], row, dark[i], far_x[0], weight, seen[1])
-            _see_row(in_y[0], row, dark[i], in_x[2], weight, seen[2])
-            _see_row(in_y[2], row, dark[i], in_x[0], weight, seen[3])
-            _see_row(in_y[0], row, dark[i], in_x[1], weight, seen[4])
-            _see_row(in_y[1], row, dark[i], in_x[0], weight, seen[5])
+            for k in range(len(_SEEN)):
+                which, by_y, by_x = _SEEN[k]
+                in_x, in_y = shares[0, which, by_x], shares[1, which, by_y]
+                _see_row(in_y, row, dark[i], in_x, weight, seen[k])
             _fill_terms(seen, x, x[row], w, at)
             if terms == _OWN_TERMS:
                 _fill_own_terms(seen, x, x[row], w, at)
