@@ -17,6 +17,7 @@ The ink's spread cannot be told from larger tags with a smaller gap, and is not.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import cache
 from typing import NamedTuple
 
 import numpy as np
@@ -49,9 +50,16 @@ _PARTS = 3
 """Number of parts of an edge whose profiles are averaged: as many as the ways in which it moves."""
 _ALONG_MARGIN = 0.15
 """Part of an edge at both ends that its profile leaves out, lengths: the corners are blurred."""
+_SHARES = np.linspace(_ALONG_MARGIN, 1 - _ALONG_MARGIN, _SAMPLES_ALONG)
+"""(samples along,) where profiles lie along an edge, lengths."""
 _PROFILE_REACH = 0.75
 """Reach of a profile to either side, over the narrower of border and gap: what follows these is
 blurred into its ends."""
+_INTEGRATION = np.ones((_SAMPLES_ACROSS, 2)) * 2 / (_SAMPLES_ACROSS - 1)
+"""(samples across, 2) weights of the integral over a profile from -1 to 1, and of that times the
+place, by the trapezoidal rule."""
+_INTEGRATION[[0, -1]] /= 2
+_INTEGRATION[:, 1] *= np.linspace(-1, 1, _SAMPLES_ACROSS)
 _BLUR_REACH = 3.0
 """Distance, in blurs, over which the blur of what follows the border or the gap is felt. With 1.5
 corners of tags of 40 px under a blur of 2 px lay 0.06 px outside; now less than 0.01."""
@@ -286,8 +294,7 @@ def _measure_profiles(
         Levels (n, 2) of paper and ink, offsets (n, 4, 3) px inwards of the edges at their beginning
         and end, and of their middle from the chord, and variances (n, 4) px^2 of their blur.
     """
-    share = np.linspace(_ALONG_MARGIN, 1 - _ALONG_MARGIN, _SAMPLES_ALONG)
-    seen = _average_profiles(image, model, reach, share, _SAMPLES_ACROSS)
+    seen = _average_profiles(image, model, reach, _SHARES, _SAMPLES_ACROSS)
     n, quarter = len(seen), _SAMPLES_ACROSS // 4
     shape = (n, *seen.shape[1:3], 1) if is_shaded else (n, 1, 1, 1)
     paper, ink = (
@@ -296,18 +303,23 @@ def _measure_profiles(
     )
     swing = np.where(ink == paper, 1.0, ink - paper)
     rise = np.clip((seen - paper) / swing, 0.0, 1.0)
-    across = np.linspace(-1, 1, _SAMPLES_ACROSS)
-    mean = 1 - np.trapezoid(rise, across, axis=3)
-    square = 1 - 2 * np.trapezoid(across * rise, across, axis=3)
+    integral, moment = np.moveaxis(rise @ _INTEGRATION, 3, 0)
+    mean, square = 1 - integral, 1 - 2 * moment
     variance = reach[:, None] ** 2 * (square - mean**2).mean(axis=2)
-    # An edge moves by the ends of its chord and by its bow, each felt by the thirds.
-    moves = np.stack([1 - share, share, 4 * share * (1 - share)], axis=1)
-    felt = moves.reshape(_PARTS, -1, 3).mean(axis=1)
     offset = np.zeros((*mean.shape[:2], 3))
     count = 2 if is_shaded else 3
-    offset[..., :count] = reach[:, None, None] * mean @ np.linalg.pinv(felt[:, :count]).T
+    offset[..., :count] = reach[:, None, None] * mean @ _weigh_parts(count)
     levels = [compute_median(each.reshape(n, -1)) for each in (paper, ink)]
     return np.column_stack(levels), offset, variance
+
+
+@cache
+def _weigh_parts(count: int) -> Array:
+    """Return the weights (parts, count) of the offsets of an edge's parts in those of its chord's
+    ends and, if `count` is 3, in its bow: each part feels them all."""
+    moves = np.stack([1 - _SHARES, _SHARES, 4 * _SHARES * (1 - _SHARES)], axis=1)
+    felt = moves.reshape(_PARTS, -1, 3).mean(axis=1)
+    return np.asarray(np.linalg.pinv(felt[:, :count]).T)
 
 
 @kernels.with_kernel("tag_outlines", "average_profiles")

@@ -3,6 +3,8 @@ darkest and the brightest of their quadrilateral."""
 
 from __future__ import annotations
 
+from functools import cache
+
 import numpy as np
 
 from calibgui.engine.arrays import Array, BoolArray, GreyImage
@@ -35,11 +37,17 @@ def measure_cells(image: GreyImage, quads: Array, side: int) -> Array:
     n = len(quads)
     square = np.broadcast_to(side * np.array([(0.0, 0), (1, 0), (1, 1), (0, 1)]), (n, 4, 2))
     H = homography.fit_homography(square, quads, np.ones((n, 4)))
-    v, u = np.indices((side, side)).reshape(2, -1) + 0.5
-    at = (np.column_stack([u, v])[:, None] + _SAMPLE_OFFSETS).reshape(-1, 2)
+    at = _list_samples(side)
     # The same places for all: one product in place of one for each.
     rows = H.reshape(3 * n, 3)
     x, y, z = (rows[:, :2] @ at.T + rows[:, 2:]).reshape(n, 3, len(at)).swapaxes(0, 1)
     values = sample_image(image, np.stack([x / z, y / z], axis=2))
     count = len(_SAMPLE_OFFSETS)
     return (values.reshape(-1, count) @ np.full(count, 1 / count)).reshape(n, side, side)
+
+
+@cache
+def _list_samples(side: int) -> Array:
+    """List the places (k, 2) at which side x side cells are sampled, cells."""
+    v, u = np.indices((side, side)).reshape(2, -1) + 0.5
+    return (np.column_stack([u, v])[:, None] + _SAMPLE_OFFSETS).reshape(-1, 2)

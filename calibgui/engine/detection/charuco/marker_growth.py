@@ -223,9 +223,10 @@ def _locate_all(read: Markers[Layout], layout: Layout, count: int) -> IntArray:
 def _find_offset(read: Markers[Layout], layout: Layout) -> IntArray:
     """Find by how many rows and columns (2,) most markers are away from their squares on a
     layout."""
-    offsets, count = np.unique(
-        read.squares - layout.locate_squares(read.numbers), axis=0, return_counts=True
-    )
+    away = read.squares - layout.locate_squares(read.numbers)
+    if (away == away[0]).all():
+        return away[0]
+    offsets, count = np.unique(away, axis=0, return_counts=True)
     return offsets[count.argmax()]
 
 
