@@ -278,7 +278,7 @@ def _invert_part(equations: Array, part: slice) -> Array:
     unknowns, over the noise."""
     wanted = np.eye(UNKNOWNS)[:, part]
     wanted = np.broadcast_to(wanted, (len(equations), *wanted.shape))
-    return np.linalg.solve(equations, wanted)[:, part]
+    return np.asarray(np.linalg.solve(equations, wanted)[:, part])
 
 
 def _measure_profiles(
