@@ -221,6 +221,23 @@ def blinds(seed: int) -> Photograph:
     return Photograph(scene.photograph(seed), (scene.uv,))
 
 
+def half_in_the_sun(seed: int) -> Photograph:
+    """A part of the board overexposed in the sun, the other in shade that gets an eighth to a
+    quarter of that light, as of a camera that does not lift dark tones. Where the shadow ends
+    corners need not be found."""
+    rng = np.random.default_rng([seed, 98])
+    scene = draw(vary(seed), seed)
+    v, u = np.mgrid[:480, :640]
+    turn, soft = rng.uniform(0, 2 * np.pi), rng.uniform(0.7, 6)
+    across = (u - 320) * np.cos(turn) + (v - 240) * np.sin(turn)
+    sun, shade = rng.uniform(1.2, 1.8), rng.uniform(0.12, 0.25)
+    light = shade + (sun - shade) / (1 + np.exp(-across / soft))
+    at = np.clip(np.rint(scene.uv), 0, (639, 479)).astype(int)
+    near = abs(across) < 0.6 * scene.conditions.square + 3 * soft
+    levels = add_noise(light * scene.clean, scene.conditions.noise, seed)
+    return Photograph(as_bytes(levels), (scene.uv,), near[at[..., 1], at[..., 0]])
+
+
 def fringes(seed: int) -> Photograph:
     """A lens that draws red and blue 0.5 to 2.5 px aside of green at the picture's corners."""
     rng = np.random.default_rng([seed, 91])
@@ -355,6 +372,7 @@ PLACES: dict[str, Trouble] = {
     "twins": twins,
     "flicker": flicker,
     "blinds": blinds,
+    "half in the sun": half_in_the_sun,
     "fringes": fringes,
     "wires": wires,
     "overlay": overlay,

@@ -100,6 +100,7 @@ class CornerTemplate:
         down: Array,
         dark: BoolArray,
         max_dissimilarity: float = _THRESHOLDS.max_dissimilarity,
+        light: Array | float = 1.0,
     ) -> tuple[BoolArray, Array]:
         """Match points with the template.
 
@@ -107,12 +108,13 @@ class CornerTemplate:
             image: (h, w) grey levels.
             uv, right, down, dark: the points, as `OrientedCorners`.
             max_dissimilarity: greatest lack of correlation where that of most is small.
+            light: (n,) share of most corners' light, in proportion to which contrast is expected.
 
         Returns:
             A mask (n,) of the points that look like the template, and the gap (n,) between their
             dark and bright sectors, grey levels.
         """
-        alternate, gap = self.match_colours(image, uv, right, down, dark)
+        alternate, gap = self.match_colours(image, uv, right, down, dark, light)
         patches = _compute_patches(image, uv, right, down, dark, PATCH_POSITIONS, _LINEAR_LIGHT)
         dissimilarity = 1 - np.mean(patches * self.patch, axis=1)
         greatest = max(
@@ -122,12 +124,19 @@ class CornerTemplate:
         return alternate & (dissimilarity <= greatest), gap
 
     def match_colours(
-        self, image: GreyImage, uv: Array, right: Array, down: Array, dark: BoolArray
+        self,
+        image: GreyImage,
+        uv: Array,
+        right: Array,
+        down: Array,
+        dark: BoolArray,
+        light: Array | float = 1.0,
     ) -> tuple[BoolArray, Array]:
         """Match points by the colours of their sectors alone; arguments and results as `match`."""
         gap, contrast = compare_sectors(image, uv, right, down, dark)
         alternates = gap > _THRESHOLDS.min_sector_gap * contrast
-        return alternates & (contrast > _THRESHOLDS.min_relative_contrast * self.contrast), gap
+        least = _THRESHOLDS.min_relative_contrast * light * self.contrast
+        return alternates & (contrast > least), gap
 
     def contradict(
         self, image: GreyImage, uv: Array, right: Array, down: Array, dark: BoolArray
@@ -207,6 +216,20 @@ def compare_sectors(
     values = np.where(dark[:, None], values, -values).T
     low, high = np.maximum(values[0], values[1]), np.minimum(values[2], values[3])
     return high - low, (values[2] + values[3] - values[0] - values[1]) / 2
+
+
+def measure_light(image: GreyImage, corners: OrientedCorners) -> Array:
+    """Measure the light on corners (n,) over that on most, at most 1: the grey levels of their
+    bright squares are in proportion to it."""
+    uv, right, down, dark = corners
+    values = _average_sectors(image, uv, right, down, _SECTOR_POSITIONS, len(_SECTOR_SIGNS))
+    level = np.where(dark, values[:, 2] + values[:, 3], values[:, 0] + values[:, 1])
+    return compare_light(level)
+
+
+def compare_light(level: Array) -> Array:
+    """Return grey `level` (n,) of what is bright over the median, between 0 and 1."""
+    return np.asarray(np.clip(level / np.maximum(compute_median(level), 1e-9), 0.0, 1.0))
 
 
 @kernels.with_kernel("corner_template", "average_sectors")

@@ -22,7 +22,7 @@ class TemplateThresholds:
     min_sector_gap: float = 0.25
     """Least gap between the dark and the bright sectors, over their mean difference."""
     min_relative_contrast: float = 0.2
-    """Least contrast of a corner, over the median of its lattice."""
+    """Least contrast of a corner, over the median of its lattice; less as its light is less."""
     max_template_corners: int = 400
     """Number of corners, spread over the lattice, that the typical corner is taken from."""
     max_dissimilarity: float = 0.05

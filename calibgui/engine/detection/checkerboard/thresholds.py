@@ -247,7 +247,7 @@ class VerificationThresholds:
     min_fit_shift_limit: float = 1.0
     """... or px, whichever is more."""
     min_relative_contrast: float = 0.2
-    """Least contrast of a corner, over the board's median."""
+    """Least contrast of a corner, over the board's median; less as its light is less."""
     max_relative_residual: float = 4.0
     """Greatest residual of the edge fit, over the board's median ..."""
     max_residual_to_contrast: float = 0.15

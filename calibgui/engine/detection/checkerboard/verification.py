@@ -31,7 +31,9 @@ from calibgui.engine.detection.checkerboard.board_ends import (
     stands_alone,
 )
 from calibgui.engine.detection.checkerboard.corner_template import (
+    compare_light,
     estimate_template,
+    measure_light,
     orient_corners,
 )
 from calibgui.engine.detection.checkerboard.fit_thresholds import FIT_THRESHOLDS
@@ -123,10 +125,13 @@ def _match_template(
 ) -> BoolArray:
     """Return a mask (rows, cols) of the corners that look like the typical one where squares are
     `plain`, see `CornerTemplate.match`."""
-    alike = lattice.found
-    alike[alike], _ = estimate_template(lattice, image, plain).match(
-        image, *orient_corners(lattice).shorten_steps(plain), max_dissimilarity
-    )
+    corners = orient_corners(lattice).shorten_steps(plain)
+    template, alike = estimate_template(lattice, image, plain), lattice.found
+    good, _ = template.match(image, *corners, max_dissimilarity)
+    if not good.all():  # a part may lie in shade
+        light = measure_light(image, corners)
+        good, _ = template.match(image, *corners, max_dissimilarity, light)
+    alike[alike] = good
     return alike
 
 
@@ -242,10 +247,11 @@ def find_described_corners(
     askew = find_askew_corners(fit, around, lattice.found) & ~is_wide
     to_contrast = np.where(is_wide, limits.max_residual_if_widened, limits.max_residual_to_contrast)
     max_residual = np.maximum(limits.max_relative_residual * typical, to_contrast * fit.contrast)
+    light = compare_light(fit.bright)
     return np.asarray(
         (shift <= limit_fit_shift(spacing))
         & ~(askew & (fit.residual > limits.suspect_relative_residual * typical))
-        & (fit.contrast > limits.min_relative_contrast * compute_median(fit.contrast))
+        & (fit.contrast > limits.min_relative_contrast * light * compute_median(fit.contrast))
         & (fit.residual <= max_residual)
         & find_usable_covariances(fit.covariance)
     )

@@ -113,6 +113,11 @@ class XCornerFit:
         """(n,) bright minus dark, grey levels."""
         return 2 * self.model.unknowns[A]
 
+    @property
+    def bright(self) -> Array:
+        """(n,) grey levels of the bright squares."""
+        return self.model.unknowns[M] + self.model.unknowns[A]
+
     def widen(self, displacement: Array) -> XCornerFit:
         """Return the fit with the covariances of corners that are drawn aside, by `displacement`
         (n,) px, so much larger that they expect it: its square, shared by both axes."""

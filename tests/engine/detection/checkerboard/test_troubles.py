@@ -95,3 +95,9 @@ def test_a_large_thing_with_a_pattern_may_lie_on_the_board(seed: int) -> None:
 def test_a_clip_at_the_end_of_the_board_adds_no_line(seed: int) -> None:
     """Where it covers half of the last line of squares its rim passed for one more corner."""
     assert find("clips", seed).wrong == 0
+
+
+@pytest.mark.parametrize("seed", [5, 7])
+def test_a_board_half_in_the_sun_is_found_whole(seed: int) -> None:
+    """What lies in the shade has an eighth of the others' contrast, and the board was refused."""
+    assert find("half in the sun", seed).whole == 1

@@ -268,6 +268,7 @@ def pretend_fit(lattice: Lattice, **changes: Any) -> Any:
         "uv": lattice.uv[lattice.found].copy(),
         "residual": np.ones(n),
         "contrast": np.full(n, 100.0),
+        "bright": np.full(n, 160.0),
         "covariance": np.tile(1e-4 * np.eye(2), (n, 1, 1)),
         "normals": np.tile([[0.0, 1.0], [-1.0, 0.0]], (n, 1, 1)),
         "blur": np.full((n, 2), 1.0),
@@ -351,6 +352,13 @@ class TestDescribedCorners:
         self, contrast: float, passes: bool
     ) -> None:
         assert is_described(place(6, 9), contrast=(K, contrast)) == passes
+
+    @pytest.mark.parametrize(("bright", "passes"), [(20.0, True), (160.0, False)])
+    def test_in_shade_contrast_may_be_as_much_less_as_the_light(
+        self, bright: float, passes: bool
+    ) -> None:
+        changes = {"contrast": (K, 12.0), "bright": (K, bright)}
+        assert is_described(place(6, 9), None, **changes) == passes
 
     @pytest.mark.parametrize(
         ("contrast", "residual", "passes"),
