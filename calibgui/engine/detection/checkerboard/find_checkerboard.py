@@ -309,7 +309,8 @@ def _fit_board(
         if verification.are_edges_too_wide(fit):
             return Refusal(lattice.shape, verification.TOO_BLURRED)
         described = verification.find_described_corners(fit, lattice, None, displacement)
-        described &= ~verification.find_doubtful_lines(lattice, fit.residual, displacement)
+        residual = verification.compare_residuals(fit.residual, fit.contrast)
+        described &= ~verification.find_doubtful_lines(lattice, residual, displacement)
         near = verification.find_tolerable_displacements(displacement, lattice)
         good = described & near
         if good.all():

@@ -260,6 +260,8 @@ class VerificationThresholds:
     askew ..."""
     max_relative_edge_angle: float = 10.0
     """... or the same sine over the board's median, which distortion raises, whichever is more."""
+    max_even_contrast: float = 1.5
+    """Contrast of a corner, over the board's median, beyond which its light is another."""
     suspect_relative_residual: float = 2.5
     """Residual of the edge fit, over the board's median, beyond which a corner is dropped if its
     edges are askew or if it lies astray."""

@@ -75,7 +75,8 @@ def fit_undisturbed(
     off = verification.measure_displacements(fit.uv, cells, kept)
     # What the model describes near a corner is the corner, however paper or shutter bend the lines,
     # if its edges run along them: those of a finger do not.
-    poor = verification.find_suspect_corners(fit.residual)
+    residual = verification.compare_residuals(fit.residual, fit.contrast)
+    poor = verification.find_suspect_corners(residual)
     is_corner = ~(poor | is_alone | verification.find_askew_corners(fit, lattice, lattice.found))
     farthest = verification.limit_fit_shift(lattice.spacing()[lattice.found])
     off = np.where(is_corner, np.minimum(off, farthest), off)
@@ -97,7 +98,8 @@ def fit_plain_corners(
     if verification.are_edges_too_wide(fit):
         return fit, np.zeros(len(lattice), np.bool_)
     # What covers a part of the squares would pass for light of a corner's own.
-    suspect = verification.find_suspect_corners(fit.board_residual)
+    residual = verification.compare_residuals(fit.board_residual, fit.contrast)
+    suspect = verification.find_suspect_corners(residual)
     if plain > _NEAR and suspect.any():
         near = fit_near(grey, lattice, _NEAR, fit, suspect)
         better = near.residual < fit.residual

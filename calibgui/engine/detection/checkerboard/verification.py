@@ -279,6 +279,14 @@ def find_suspect_corners(residual: Array) -> BoolArray:
     return np.asarray(residual > limit * compute_median(residual))
 
 
+def compare_residuals(residual: Array, contrast: Array) -> Array:
+    """Return the `residual` (n,) of the edge fit, less where light makes the `contrast` (n,) much
+    more than that of most: what the model cannot describe of an edge, as the levels at which a
+    camera is overexposed, is in proportion to it."""
+    limit = THRESHOLDS.verification.max_even_contrast
+    return np.asarray(residual / np.maximum(contrast / (limit * compute_median(contrast)), 1.0))
+
+
 def find_displaced_corners(fit: XCornerFit, cells: Array, suspect: BoolArray) -> BoolArray:
     """Find the suspect corners that the edge model puts where the others do not expect them.
 

@@ -225,6 +225,16 @@ def test_a_full_border_line_may_be_described_worse_than_the_others() -> None:
     assert not verification.find_doubtful_lines(lattice, residual, np.zeros(len(lattice))).any()
 
 
+def test_residuals_are_compared_in_proportion_to_the_light() -> None:
+    residual, contrast = np.ones(20), np.full(20, 30.0)
+    residual[:5], contrast[:5] = 6.0, 180.0
+    compared = verification.compare_residuals(residual, contrast)
+    assert not verification.find_suspect_corners(compared).any()
+    contrast[:5] = 44.0
+    compared = verification.compare_residuals(residual, contrast)
+    assert np.array_equal(compared, residual)
+
+
 class TestContinuation:
     @staticmethod
     def paint_around(top: int, left: int) -> Image:
