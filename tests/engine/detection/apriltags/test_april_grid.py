@@ -10,6 +10,7 @@ import pytest
 
 from calibgui.engine.arrays import GreyImage
 from calibgui.engine.boards.april_grid import AprilGrid, TagLayout
+from calibgui.engine.boards.apriltags import load_family
 from calibgui.engine.boards.board import Board
 from calibgui.engine.boards.checkerboard import CHECKERBOARD
 from calibgui.engine.boards.tagged_checkerboard import TaggedCheckerboard
@@ -217,6 +218,23 @@ def test_tags_far_apart_do_not_tell_how_long_a_row_is() -> None:
     corners = find_corners(image, (8, 10), pattern=AprilGrid())
     assert len(corners) == 12
     assert_at_bound(KALIBR, corners, (0.5, 2.0))
+
+
+@pytest.mark.parametrize("exchanged", [2, 8])
+def test_tags_in_other_places_than_their_numbers_say_are_no_board(exchanged: int) -> None:
+    """Two that were glued on wrongly are left out; of a sheet of tags some agree by chance."""
+    numbers = np.arange(20)
+    numbers[6 : 6 + exchanged] = np.roll(numbers[6 : 6 + exchanged], 1)
+    tags = np.pad(load_family("t36h11").cells[numbers], ((0, 0), (4, 4), (4, 4)))
+    tags[:, 2:12, 2:12] |= np.pad(np.zeros((6, 6), bool), 2, constant_values=True)
+    sheet = np.block([[tags[5 * row + col] for col in range(5)] for row in range(4)])
+    ink = np.kron(np.pad(sheet, 4), np.ones((8, 8), np.uint8))
+    image = cv2.GaussianBlur(np.where(ink, 40, 220).astype(np.uint8), (0, 0), 1.0)
+    if exchanged == 2:
+        assert len(find_corners(image, pattern=AprilGrid())) == 4 * (20 - exchanged)
+    else:
+        with pytest.raises(NoBoardError, match="No AprilGrid"):
+            find_corners(image, pattern=AprilGrid())
 
 
 def test_blur_does_not_move_the_corners_of_tags_alone_outwards() -> None:
