@@ -38,13 +38,16 @@ from calibgui.engine.detection.region_of_interest import are_inside
 
 _MAX_COARSE_SIDE = 1600
 """Longer side of the image in which markers are looked for first, px."""
-_COMMON_FAMILIES = (
+_FAMILIES = (
     *(f"DICT_{k}X{k}" for k in (4, 5, 6, 7)),
     "DICT_ARUCO_ORIGINAL",
     "DICT_APRILTAG_36H11",
     "DICT_ARUCO_MIP_36H12",
+    "DICT_APRILTAG_36H10",
+    "DICT_APRILTAG_25H9",
+    "DICT_APRILTAG_16H5",
 )
-"""Families of dictionaries that are tried where none is stated; others would take longer."""
+"""Families of dictionaries that are tried where none is stated, the usual ones first."""
 
 Box = tuple[int, int, int, int]
 """First column and row of a part of an image, and those behind the last, px."""
@@ -115,7 +118,7 @@ class MarkerReader:
 
         Returns:
             The smallest dictionary of its family that reads the most markers, and these; None if
-            none of the common ones shows such a board.
+            none shows such a board.
         """
         best: ReadBoard | None = None
         for rank in (0, 2):
@@ -242,8 +245,8 @@ def _list_family(family: str) -> list[str]:
 
 
 def _list_family_members(rank: int) -> list[str]:
-    """List one dictionary of each of the common families: that of a rank by size, from 0."""
-    families = [_list_family(family) for family in _COMMON_FAMILIES]
+    """List one dictionary of each family: that of a rank by size, from 0."""
+    families = [_list_family(family) for family in _FAMILIES]
     return [members[min(rank, len(members) - 1)] for members in families]
 
 

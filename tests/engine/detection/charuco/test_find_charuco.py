@@ -157,6 +157,17 @@ def test_markers_do_not_pass_for_spread_ink(blur: float, distance: float) -> Non
     assert 0.7 < np.mean(np.concatenate(chi2)) < 1.3  # of 216 to 240 residuals
 
 
+@pytest.mark.parametrize("family", ["16H5", "25H9", "36H10"])
+def test_markers_of_any_family_of_apriltags_are_read_unstated(family: str) -> None:
+    pattern = Charuco(f"DICT_APRILTAG_{family}", 0.75, False)
+    scene = replace(_WHITE_FIRST, board=Board(5, 8, 30.0, pattern))
+    corners = find_corners(scene.image(), pattern=Charuco())
+    assert corners.complete
+    assert isinstance(corners.pattern, Charuco)
+    assert corners.pattern.dictionary == pattern.dictionary
+    _assert_right(scene, corners)
+
+
 def test_dim_pictures_are_read() -> None:
     image = _WHITE_FIRST.image(noise=0.0) / 12 + 5
     image += np.random.default_rng(0).normal(0, 0.7, image.shape)
