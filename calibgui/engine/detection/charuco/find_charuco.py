@@ -346,7 +346,7 @@ def _check_board(
         )
     rows, _ = np.max(markers.squares, axis=0).tolist()
     if grid_size is not None and rows > grid_size[0]:
-        raise _explain_other_size((rows, markers.layout.cols - 1), grid_size)
+        raise _explain_other_size(markers, grid_size)
 
 
 def _list_layouts(pattern: Charuco, grid_size: GridSize | None) -> list[MarkerLayout]:
@@ -392,7 +392,7 @@ def _explain_missing_board(
         )
     rows, _ = np.max(markers.squares, axis=0).tolist()
     if grid_size is not None and (markers.layout.cols - 1 != grid_size[1] or rows > grid_size[0]):
-        return _explain_other_size((rows, markers.layout.cols - 1), grid_size)
+        return _explain_other_size(markers, grid_size)
     return NoBoardError(
         "The first square of this board is "
         + ("dark." if markers.layout.first_dark else "white, as before OpenCV 4.6."),
@@ -400,10 +400,22 @@ def _explain_missing_board(
     )
 
 
-def _explain_other_size(found: GridSize, stated: GridSize) -> NoBoardError:
-    """Return the error that says which size was found instead of the stated one."""
+def _explain_other_size(markers: Markers[MarkerLayout], stated: GridSize) -> NoBoardError:
+    """Return the error that says which size was found instead of the stated one, or that the
+    markers are those of a board of that size that does not begin with number 0."""
+    rows, _ = np.max(markers.squares, axis=0).tolist()
+    cols = markers.layout.cols - 1
+    last = (stated[0] + 1) * (stated[1] + 1) // 2 - 1
+    low, high = int(markers.numbers.min()), int(markers.numbers.max())
+    are_of_later_board = cols == stated[1] and np.ptp(markers.squares[:, 0]) <= stated[0]
+    if are_of_later_board and low > 0 and high > last:
+        return NoBoardError(
+            f"The markers read are numbers {low} to {high}; a board of {stated[0]} x {stated[1]} "
+            f"inner corners has 0 to {last}, so that this one is numbered from another.",
+            "Leave the size out: its rows are then counted as if the numbers began with 0.",
+        )
     return NoBoardError(
-        f"This board has at least {found[0]} rows and exactly {found[1]} columns of inner corners, "
+        f"This board has at least {rows} rows and exactly {cols} columns of inner corners, "
         f"not {stated[0]} x {stated[1]}.",
         "State the number of inner corners, rows x columns, or leave it out.",
     )

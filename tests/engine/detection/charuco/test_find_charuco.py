@@ -168,6 +168,20 @@ def test_markers_of_any_family_of_apriltags_are_read_unstated(family: str) -> No
     _assert_right(scene, corners)
 
 
+def test_numbers_that_do_not_begin_with_0_are_named() -> None:
+    """Several boards of one dictionary are made so; OpenCV is told the numbers."""
+    dictionary = cv2.aruco.getPredefinedDictionary(cv2.aruco.DICT_4X4_50)
+    drawn = cv2.aruco.CharucoBoard((8, 6), 1.0, 0.72, dictionary, np.arange(24, 48))
+    image = cv2.GaussianBlur(drawn.generateImage((640, 480), marginSize=40), (0, 0), 0.8)
+    for stated in Charuco(), Charuco("DICT_4X4_50"):
+        with pytest.raises(NoBoardError, match=r"24 to 47; .* 5 x 7 .* 0 to 23"):
+            find_corners(image, (5, 7), pattern=stated)
+    corners = find_corners(image, pattern=Charuco())  # as the hint says
+    assert len(corners) == 35
+    with pytest.raises(NoBoardError, match="exactly 7 columns"):
+        find_corners(image, (5, 6), pattern=Charuco())
+
+
 def test_dim_pictures_are_read() -> None:
     image = _WHITE_FIRST.image(noise=0.0) / 12 + 5
     image += np.random.default_rng(0).normal(0, 0.7, image.shape)
