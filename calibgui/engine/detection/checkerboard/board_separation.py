@@ -9,9 +9,9 @@ one of the maps expects. These two maps are rigid, a homography under a lens: wa
 a board that is curled, or that a shaken camera shows in waves, would else be cut, since a map that
 bends as well follows any few lines.
 
-What a board has grown into shows otherwise. From the largest rectangle without a gap on, line by
-line, those corners are taken that lie where the map of the others expects them. What this leaves
-is a board if it lies on a smooth map and is seen to end on all four sides.
+What a board has grown into shows otherwise. From the largest rectangle without a gap that lies on
+one map on, line by line, those corners are taken that lie where the map of the others expects them.
+What this leaves is a board if it lies on a smooth map and is seen to end on all four sides.
 """
 
 from __future__ import annotations
@@ -20,6 +20,7 @@ from collections.abc import Callable, Iterator
 
 import numpy as np
 
+from calibgui.engine import opencv
 from calibgui.engine.arrays import Array, GreyImage, compute_lengths
 from calibgui.engine.detection import grid_map
 from calibgui.engine.detection.checkerboard.board_ends import find_ends
@@ -53,8 +54,8 @@ def separate_boards(lattice: Lattice, image: GreyImage) -> list[Lattice]:
     misfit = _measure_misfit([lattice])
     if misfit <= limits.max_joint_misfit:
         return [lattice]
-    core = _find_core(lattice)
-    board = _drop_ragged_lines(core)
+    max_deviation = THRESHOLDS.verification.max_deviation
+    board = _drop_ragged_lines(_find_core(lattice, grid_map.fit_cells, max_deviation))
     is_board = (
         is_large_enough(board)
         and _measure_misfit([board]) <= limits.max_joint_misfit
@@ -62,7 +63,7 @@ def separate_boards(lattice: Lattice, image: GreyImage) -> list[Lattice]:
     )
     if is_board and len(lattice) - len(board) < MIN_CORNERS:
         return [board]
-    if min(lattice.shape) <= limits.max_lines and (parts := _cut_at_crease(lattice, core, misfit)):
+    if min(lattice.shape) <= limits.max_lines and (parts := _cut_at_crease(lattice, misfit)):
         return [piece for part in parts for piece in separate_boards(part, image)]
     return [board if is_board else lattice]
 
@@ -75,27 +76,26 @@ def _measure_misfit(parts: list[Lattice], fit_map: MapFit = grid_map.fit_cells) 
 
 def _measure_offsets(lattice: Lattice, fit_map: MapFit) -> Array:
     """Measure the distances (n,) of a lattice's corners from their map, steps of the map: those
-    between the corners are 0 where two of them coincide."""
+    between the corners are 0 where two of them coincide. They are not finite where the map's are
+    0, too."""
     found = lattice.found
     uv, cells = lattice.uv.copy(), np.argwhere(found).astype(np.float64)
     uv[found] = fit_map(cells, lattice.uv[found]).locate(cells)
     off = compute_lengths(lattice.uv[found] - uv[found])
-    return np.asarray(off / Lattice(uv, lattice.dark).spacing()[found])
+    with np.errstate(divide="ignore", invalid="ignore"):
+        return np.asarray(off / Lattice(uv, lattice.dark).spacing()[found])
 
 
-def _cut_at_crease(
-    lattice: Lattice, core: Lattice, misfit: float
-) -> tuple[Lattice, Lattice] | None:
-    """Cut a lattice, or its `core` out of it, where two rigid maps follow the parts best; None if
-    they do not follow them many times better than one smooth map, by which its corners are `misfit`
-    steps off.
+def _cut_at_crease(lattice: Lattice, misfit: float) -> tuple[Lattice, Lattice] | None:
+    """Cut a lattice where two rigid maps follow the parts best; None if they do not follow them
+    many times better than one smooth map, by which its corners are `misfit` steps off.
 
     Of cuts that are about as good the one that leaves out the fewest corners is taken.
     """
     limits = THRESHOLDS.separation
     cuts = [
         (_measure_misfit(list(parts), grid_map.fit_radial_homography), parts)
-        for parts in _list_cuts(lattice, core)
+        for parts in _list_cuts(lattice)
     ]
     # A map of corners that coincide, as in textures, tells no misfit.
     good = [(off, parts) for off, parts in cuts if off <= limits.max_misfit_ratio * misfit]
@@ -107,13 +107,14 @@ def _cut_at_crease(
     return max(best, key=lambda parts: len(parts[0]) + len(parts[1]))
 
 
-def _list_cuts(lattice: Lattice, core: Lattice) -> Iterator[tuple[Lattice, Lattice]]:
+def _list_cuts(lattice: Lattice) -> Iterator[tuple[Lattice, Lattice]]:
     """List the pairs of lattices, large enough for boards, on both sides of a cut between two lines
-    or along one, which is then left out, and the core and that of what is around it."""
+    or along one, which is then left out, and the rigid core and that of what is around it."""
+    core = _find_rigid_core(lattice)
     is_around = ~np.isin(lattice.uv[..., 0], core.uv[..., 0])
     around = drop_isolated_and_crop(lattice.select(is_around))
     if is_large_enough(core) and is_large_enough(around):
-        other = _find_core(around)
+        other = _find_rigid_core(around)
         if is_large_enough(other):
             yield core, other
     for quarters in (0, 1):
@@ -132,23 +133,35 @@ def _list_cuts(lattice: Lattice, core: Lattice) -> Iterator[tuple[Lattice, Latti
                     yield turn_lattice(parts[0], -quarters), turn_lattice(parts[1], -quarters)
 
 
-def _find_core(lattice: Lattice) -> Lattice:
-    """Find the corners that lie where the map of those of the largest rectangle without a gap, and
-    then of all found so far, expects them, line by line."""
+def _find_rigid_core(lattice: Lattice) -> Lattice:
+    """Find the core on a map that does not bend: one that does would grow on into another board
+    that is turned almost alike."""
+    limit = THRESHOLDS.separation.max_core_deviation
+    return _find_core(lattice, grid_map.fit_radial_homography, limit)
+
+
+def _find_core(lattice: Lattice, fit_map: MapFit, max_deviation: float) -> Lattice:
+    """Find the corners that lie where the map of those of the largest rectangle without a gap that
+    lies on one, and then of all found so far, expects them to `max_deviation` steps, line by
+    line."""
+    max_misfit = THRESHOLDS.separation.max_joint_misfit
     found, spacing = lattice.found, lattice.spacing()
-    row, col, rows, cols = max(list_full_rectangles(found), key=lambda each: each[2] * each[3])
     core = np.zeros(lattice.shape, dtype=np.bool_)
-    core[row : row + rows, col : col + cols] = True
+    rectangles = list_full_rectangles(found)
+    for row, col, rows, cols in sorted(rectangles, key=lambda each: -each[2] * each[3]):
+        core[:] = False
+        core[row : row + rows, col : col + cols] = True
+        if _measure_misfit([lattice.select(core)], fit_map) <= max_misfit:
+            break
     for _ in range(sum(lattice.shape)):
-        around = np.zeros(lattice.shape, dtype=np.bool_)
-        (top, bottom), (left, right) = (np.flatnonzero(core.any(axis=k))[[0, -1]] for k in (1, 0))
-        around[max(top - 1, 0) : bottom + 2, max(left - 1, 0) : right + 2] = True
-        near = found & around
-        expected = grid_map.fit_grid_map(lattice.select(core)).locate(
+        # What does not hang together with the core, within its rows and columns, is near by chance.
+        reached = opencv.dilate_image(core.astype(np.float32), np.ones((3, 3), np.bool_)) > 0
+        near = found & reached
+        expected = fit_map(np.argwhere(core).astype(np.float64), lattice.uv[core]).locate(
             np.argwhere(near).astype(np.float64)
         )
         off = compute_lengths(lattice.uv[near] - expected) / np.nanmedian(spacing[core])
-        near[near] = off < THRESHOLDS.verification.max_deviation
+        near[near] = off < max_deviation
         if np.array_equal(near, core):
             break
         core = near

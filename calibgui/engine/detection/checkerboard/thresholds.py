@@ -201,6 +201,9 @@ class SeparationThresholds:
     max_joint_misfit: float = 0.03
     """Rms distance of the corners from one smooth grid map up to which they are left as they are,
     steps."""
+    max_core_deviation: float = 0.1
+    """Greatest distance of a corner from where the rigid map of those beside it expects it, steps.
+    The trouble "pile" fixed it: at 0.2 a board took corners of another that lies over it."""
     max_misfit_ratio: float = 0.15
     """Greatest rms distance from the maps of two parts, over that from one map, at which a lattice
     is cut."""
