@@ -79,9 +79,7 @@ def find_lattices(
         return []
     places = _EDGE_SAMPLES if plain >= 0.5 else _EDGE_SAMPLES_BESIDE_MARKS
     ends = _link_neighbours(saddles.smooth, junctions, tolerance, places)
-    closing = _find_closing_edges(ends)
-    _drop_uneven_edges(ends, closing, junctions.uv)
-    parts = _split_components(ends, closing)
+    parts = _split_components(ends, _find_closing_edges(ends))
     arranged = (_arrange_lattices(junctions.uv, *part) for part in parts)
     lattices = islice((lattice for lattices in arranged for lattice in lattices), max_count)
     return sorted(lattices, key=len, reverse=True)
@@ -179,17 +177,6 @@ def _choose_neighbours(
     order = np.argsort(-distance, kind="stable")  # the nearest is written last
     ends[me[order], k[order]] = (4 * other + k_back)[order]
     return ends
-
-
-def _drop_uneven_edges(ends: Int32Array, closing: BoolArray, uv: Array) -> None:
-    """Drop from a graph's `ends` (n, 4) the edges that close no cell and differ much in length from
-    the edge on the other side of a junction."""
-    limit = THRESHOLDS.graph.max_uneven_edge
-    length = np.where(ends < 0, np.nan, compute_lengths(uv[ends // 4] - uv[:, None]))
-    ratio = length / np.roll(length, 2, axis=1)
-    i, k = np.nonzero(~closing & ((ratio > limit) | (ratio * limit < 1)))
-    ends.ravel()[ends[i, k]] = -1
-    ends[i, k] = -1
 
 
 def _split_components(

@@ -112,9 +112,6 @@ class GraphThresholds:
     """Number of junctions around one, the nearest, that its edges may lead to."""
     min_edge_step: float = 0.25
     """Least step across the edge between two neighbours, over the weaker one's contrast."""
-    max_uneven_edge: float = 2.0
-    """Greatest length of an edge that closes no cell over that of the edge on the other side of a
-    junction, or the other way round."""
     max_joined_block: int = 8
     """Greatest number of junctions that hang together by edges that close cells to which one that
     closes none may lead."""
