@@ -359,6 +359,32 @@ def drops(seed: int) -> Photograph:
     return Photograph(image, (scene.uv,), near[at[..., 1], at[..., 0]])
 
 
+def chequered(seed: int) -> Photograph:
+    """A board with a margin on a floor or a cloth of squares, from 0.8 to 3 times as large, that
+    fills the image; every other one lies along the board and has squares of like size."""
+    rng = np.random.default_rng([seed, 97])
+    conditions = vary(seed, quiet=float(rng.uniform(0.2, 1.0)))
+    rows, cols = conditions.grid_size
+    is_alike = bool(seed % 2)
+    turn = rng.uniform(-0.06, 0.06) if is_alike else rng.uniform(0, np.pi)
+    size = rng.uniform(0.9, 1.1) if is_alike else rng.uniform(0.8, 3)
+    dark, start = rng.uniform(0, 0.3), rng.uniform(0, 2, 2)
+    bright = dark + rng.uniform(0.3, 0.65)
+
+    def lay(paper: Array, x: Array, y: Array) -> Array:
+        out = np.maximum(
+            abs(x - (cols - 1) / 2) - (cols + 1) / 2, abs(y - (rows - 1) / 2) - (rows + 1) / 2
+        )
+        x, y = (np.clip(c, -99, 99) for c in (x, y))
+        a = (x * np.cos(turn) + y * np.sin(turn)) / size + start[0]
+        b = (y * np.cos(turn) - x * np.sin(turn)) / size + start[1]
+        floor = np.where((np.floor(a) + np.floor(b)) % 2 == 0, dark, bright)
+        return np.where(out > conditions.quiet, floor, paper)
+
+    scene = draw(conditions, seed, lay)
+    return Photograph(scene.photograph(seed), (scene.uv,))
+
+
 PLACES: dict[str, Trouble] = {
     "coarse JPEG": coarse_jpeg,
     "arc": arc,
@@ -379,5 +405,6 @@ PLACES: dict[str, Trouble] = {
     "ghost": ghost,
     "laser": laser,
     "drops": drops,
+    "chequered": chequered,
 }
 """What happens to boards in labs, cells and studios, by name."""

@@ -63,7 +63,7 @@ def separate_boards(lattice: Lattice, image: GreyImage) -> list[Lattice]:
     )
     if is_board and len(lattice) - len(board) < MIN_CORNERS:
         return [board]
-    if min(lattice.shape) <= limits.max_lines and (parts := _cut_at_crease(lattice, misfit)):
+    if parts := _cut_at_crease(lattice, misfit):
         return [piece for part in parts for piece in separate_boards(part, image)]
     return [board if is_board else lattice]
 
@@ -117,6 +117,8 @@ def _list_cuts(lattice: Lattice) -> Iterator[tuple[Lattice, Lattice]]:
         other = _find_rigid_core(around)
         if is_large_enough(other):
             yield core, other
+    if min(lattice.shape) > THRESHOLDS.separation.max_lines:
+        return
     for quarters in (0, 1):
         turned = turn_lattice(lattice, quarters)
         rows = turned.shape[0]

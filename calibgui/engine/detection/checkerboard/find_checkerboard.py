@@ -25,7 +25,13 @@ import scipy
 from calibgui.engine.arrays import Array, GreyImage, GridSize
 from calibgui.engine.boards.checkerboard import CHECKERBOARD, Checkerboard, checkerboard_symmetry
 from calibgui.engine.detection import region_of_interest as region
-from calibgui.engine.detection.checkerboard import a_contrario, board_ends, harris, verification
+from calibgui.engine.detection.checkerboard import (
+    a_contrario,
+    board_ends,
+    descriptions,
+    harris,
+    verification,
+)
 from calibgui.engine.detection.checkerboard.board_separation import separate_boards
 from calibgui.engine.detection.checkerboard.numbering import (
     Numbering,
@@ -34,11 +40,7 @@ from calibgui.engine.detection.checkerboard.numbering import (
     place_corners,
 )
 from calibgui.engine.detection.checkerboard.pixel_noise import estimate_pixel_noise
-from calibgui.engine.detection.checkerboard.prefilter import (
-    OBJECTIONS_TO_CIRCLES,
-    Refusal,
-    find_objection,
-)
+from calibgui.engine.detection.checkerboard.prefilter import Refusal, find_objection
 from calibgui.engine.detection.checkerboard.pyramid_search import (
     Candidate,
     find_candidates,
@@ -70,11 +72,6 @@ _MAX_ROUNDS = 4
 rest by then is none."""
 _NO_GRID = "its corners lie on no smooth grid, or too many squares do not alternate"
 _TOO_MANY_FAIL = "too many of its corners fail"
-_STATE_SIZE = "State the number of inner corners, rows x columns, or leave it out."
-
-
-class _OtherSizeError(NoBoardError):
-    """There are boards, but none of the stated size."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -144,14 +141,15 @@ def find_checkerboard(
             raise
         marked = find_marked_board(grey, grid_size, outline, method)
         if marked is None:
-            if isinstance(error, _OtherSizeError):
+            if isinstance(error, descriptions.OtherSizeError):
                 raise
-            raise _describe_misfit(grid_size) from None
+            raise descriptions.describe_misfit(grid_size) from None
         board = marked
     numberings = _sort_numberings(grey, board.lattice, grid_size, outline)
     corners = assemble_corners(grey, board, numberings, outline, others)
     if grid_size is None and outline is None:
-        remarks = filter(None, (corners.remark, _describe_continuation(grey, board.lattice)))
+        continuation = descriptions.describe_continuation(grey, board.lattice)
+        remarks = filter(None, (corners.remark, continuation))
         corners = replace(corners, remark=" ".join(remarks))
     return corners
 
@@ -159,15 +157,17 @@ def find_checkerboard(
 def _find_wanted_board(
     grey: GreyImage, grid_size: GridSize | None, outline: Array | None, method: str
 ) -> tuple[RefinedBoard, list[RefinedBoard]]:
-    """Find the board of the strongest edges among those that may be of the stated size.
+    """Find the board of the strongest edges among those that may be of the stated size; what goes
+    on around another is none, see `_choose_board`.
 
     Returns:
         The board and all others.
 
     Raises:
-        NoBoardError: there is no board; an `_OtherSizeError` if there are boards of other sizes.
+        NoBoardError: there is no board; an `OtherSizeError` if there are boards of other sizes.
     """
     boards: list[RefinedBoard] = []
+    wanted, others = None, boards
     tried: dict[Candidate, list[RefinedBoard | Refusal]] = {}
     refused: list[Refusal] = []
     searched = None if outline is None else region.enlarge_outline(outline)
@@ -180,21 +180,54 @@ def _find_wanted_board(
                 )
         results = (result for candidate in candidates for result in tried[candidate])
         boards = [board for board in results if isinstance(board, RefinedBoard)]
-        boards.sort(key=lambda board: board.edge_strength, reverse=True)
-        for wanted in boards:
-            if grid_size is None or _may_have_size(grey, wanted.lattice, grid_size):
-                return wanted, [board for board in boards if board is not wanted]
+        if chosen := _choose_board(grey, boards, grid_size):
+            wanted, others = chosen, [board for board in boards if board is not chosen]
+            if not _may_surround_a_board(grey, wanted.lattice):
+                break
+    if wanted is not None:
+        return wanted, others
     if boards and grid_size is not None:
-        raise _describe_other_sizes(grey, boards, grid_size)
+        raise descriptions.describe_other_sizes(grey, [each.lattice for each in boards], grid_size)
     refusals = [each for results in tried.values() for each in results if isinstance(each, Refusal)]
     for stage in (refusals, refused):  # what came farther is likelier to be meant
         if stage:
-            raise _describe_refusal(max(stage, key=lambda each: each.shape[0] * each.shape[1]))
+            largest = max(stage, key=lambda each: each.shape[0] * each.shape[1])
+            raise descriptions.describe_refusal(largest)
     raise NoBoardError(
         "No checkerboard was found.",
         "Mark its four outermost corners, or take the picture again: all of the board in"
         " view, sharp and evenly lit.",
     )
+
+
+def _choose_board(
+    grey: GreyImage, boards: list[RefinedBoard], grid_size: GridSize | None
+) -> RefinedBoard | None:
+    """Sort boards by the strength of their edges and return the first that may be of the stated
+    size, None if none may.
+
+    A chequered floor or cloth has stronger edges than the board that lies on it, but no end in the
+    image: before such a one comes what is seen to end on most sides.
+    """
+    boards.sort(key=lambda board: board.edge_strength, reverse=True)
+    fitting = [
+        board
+        for board in boards
+        if grid_size is None or _may_have_size(grey, board.lattice, grid_size)
+    ]
+    if len(fitting) > 1 and not any(board_ends.find_ends(fitting[0].lattice, grey)):
+        for board in fitting:
+            if sum(board_ends.find_ends(board.lattice, grey)) > 2:
+                return board
+    return fitting[0] if fitting else None
+
+
+def _may_surround_a_board(grey: GreyImage, lattice: Lattice) -> bool:
+    """Return whether a lattice goes on to all sides, and something that may be a board lies on it:
+    if it has smaller squares, only the finer levels show it."""
+    if lattice.found.all():
+        return False
+    return not any(board_ends.find_ends(lattice, grey))
 
 
 def _is_refused(results: list[RefinedBoard | Refusal]) -> bool:
@@ -384,49 +417,6 @@ def _may_have_size(grey: GreyImage, lattice: Lattice, grid_size: GridSize) -> bo
     )
 
 
-def _describe_other_sizes(
-    grey: GreyImage, boards: list[RefinedBoard], grid_size: GridSize
-) -> _OtherSizeError:
-    """Return an error that says what was found instead of the stated board."""
-    sizes = [tuple(sorted(board.lattice.shape)) for board in boards]
-    stated = f"not {grid_size[0]} x {grid_size[1]}"
-    if len(sizes) > 1:
-        seen = ", ".join(f"{rows} x {cols}" for rows, cols in sizes)
-        return _OtherSizeError(f"The boards here have {seen} inner corners, {stated}.", _STATE_SIZE)
-    least = "" if all(board_ends.find_ends(boards[0].lattice, grey)) else "at least "
-    rows, cols = sizes[0]
-    return _OtherSizeError(
-        f"This board has {least}{rows} x {cols} inner corners, {stated}.", _STATE_SIZE
-    )
-
-
-def _describe_refusal(refusal: Refusal) -> NoBoardError:
-    """Return an error that says which test refused what looked like a board."""
-    rows, cols = sorted(refusal.shape)
-    hint = (
-        "Mark its four outermost corners, or leave this picture out; where marks are drawn over the"
-        " corners, take the original."
-    )
-    if refusal.reason in OBJECTIONS_TO_CIRCLES:
-        hint = (
-            "For a grid of circles, or a board with markers, choose that pattern. For a"
-            f" checkerboard, {hint[:1].lower()}{hint[1:]}"
-        )
-    return NoBoardError(
-        f"What looks like a checkerboard of {rows} x {cols} inner corners is not trusted:"
-        f" {refusal.reason}.",
-        hint,
-    )
-
-
-def _describe_misfit(grid_size: GridSize) -> NoBoardError:
-    """Return an error that says that nothing was found at the marked points."""
-    return NoBoardError(
-        f"No board of {grid_size[0]} x {grid_size[1]} inner corners fits the four marked points.",
-        "Mark the four outermost inner corners, in order around the board. " + _STATE_SIZE,
-    )
-
-
 def _sort_numberings(
     grey: GreyImage, lattice: Lattice, grid_size: GridSize | None, outline: Array | None
 ) -> list[Numbering]:
@@ -472,7 +462,7 @@ def assemble_corners(
         relative=is_relative(numberings),
         rejected=board.rejected,
         others=tuple(map(_summarise_board, others)),
-        remark="" if board.cut_from is None else _describe_cut(board.cut_from),
+        remark="" if board.cut_from is None else descriptions.describe_cut(board.cut_from),
     )
     fit = board.fit
     if fit is None:
@@ -485,30 +475,6 @@ def assemble_corners(
         blur=fit.blur[order],
         contrast=fit.contrast[order],
         residual=fit.residual[order],
-    )
-
-
-def _describe_cut(shape: tuple[int, int]) -> str:
-    """Return a sentence that says of which lattice a board is a part."""
-    rows, cols = sorted(shape)
-    return (
-        f"{rows} x {cols} corners hang together here and were cut where two boards seem to meet; if"
-        " they are one, flatten it, or mark its outermost corners and state its size."
-    )
-
-
-def _describe_continuation(grey: GreyImage, lattice: Lattice) -> str:
-    """Return a sentence that says where a lattice taken for all of a board seems to go on, empty if
-    it does not."""
-    top, right, bottom, left = board_ends.find_continuing_sides(lattice, grey)
-    if not (top or right or bottom or left):
-        return ""
-    rows, cols = lattice.shape
-    counted = sorted(lattice.shape)
-    larger = sorted((rows + top + bottom, cols + left + right))
-    return (
-        f"Beyond the {counted[0]} x {counted[1]} corners taken here, a line of squares looks like"
-        f" the board's own: if it has {larger[0]} x {larger[1]} corners or more, state its size."
     )
 
 

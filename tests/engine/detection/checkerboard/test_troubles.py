@@ -102,3 +102,9 @@ def test_a_board_half_in_the_sun_is_found_whole(seed: int) -> None:
     """What lies in the shade has an eighth of the others' contrast, and the board was refused; or
     the smaller part, in the sun, was left out for what it has unexplained in proportion to it."""
     assert find("half in the sun", seed).whole == 1
+
+
+@pytest.mark.parametrize("seed", [1, 8, 11])
+def test_a_chequered_floor_is_not_taken_for_the_board_on_it(seed: int) -> None:
+    """It was, where no size is stated; or both were joined and refused."""
+    assert find("chequered", seed).whole == 1
