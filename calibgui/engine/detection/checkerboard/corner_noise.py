@@ -31,6 +31,8 @@ edge share, nor such of whole blocks of pixels that are longer than L.
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 
 from calibgui.engine.arrays import Array, BoolArray, GreyImage, compute_median
@@ -90,8 +92,8 @@ def estimate_growth(
     at = np.flatnonzero(usable & ~off_middle.any(axis=1))
     if len(at) < _THRESHOLDS.min_corners:
         return 1.0
-    enough = int(_THRESHOLDS.read_length / model.arm[at].sum(axis=1).mean())
-    count = min(max(enough, _THRESHOLDS.min_read_corners), len(at))
+    length = float(model.arm[at].sum(axis=1).mean())
+    count = min(round(_THRESHOLDS.read_corners / math.sqrt(length)), len(at))
     at = at[np.linspace(0, len(at) - 1, count).astype(np.int64)]
     reach = max(
         _THRESHOLDS.min_correlation_reach,
@@ -110,11 +112,12 @@ def compute_growth(scores: Array, noise: Array, reach: float) -> float:
         reach: greatest distance of lines whose errors may be in common, px.
     """
     lines = np.arange(scores.shape[3])
-    apart = abs(lines[:, None] - lines)
-    window = _compute_window(apart / (reach + 1))
+    window = _compute_window(lines / (reach + 1))[abs(lines[:, None] - lines)]
+    # One product, not one for each corner, which would read all of the window.
+    smooth = (scores.reshape(-1, len(lines)) @ window).reshape(scores.shape)
     F, h = scores[:, :, 0], scores[:, :, 1]
     total = np.maximum(h.sum(axis=2), 1e-300)
-    growth, sigma = _pool_ratios(F @ window * F, total, h @ window * h, noise)
+    growth, sigma = _pool_ratios(smooth[:, :, 0] * F, total, smooth[:, :, 1] * h, noise)
     at_edges, sigma_at_edges = _pool_ratios(F * F, total, h * h, noise)
     is_clear = growth > 1 + _THRESHOLDS.min_growth_sigmas * sigma
     is_clear |= at_edges > 1 + _THRESHOLDS.min_edge_growth_sigmas * sigma_at_edges

@@ -154,11 +154,10 @@ class NoiseThresholds:
     images enlarged by 5 and phones have. With 8 px chi2 was 1.5 and 2.3 there, not 1.2 and 1.4."""
     min_corners: int = 6
     """Number of corners from which on a board tells what neighbouring pixels have in common."""
-    read_length: float = 1600.0
-    """Length of arms that is looked at for that, px; it takes 3 to 5 % of the time of finding
-    corners. Of 54 corners with 15 px each way a growth by 1.25 is clear."""
-    min_read_corners: int = 24
-    """Number of corners that are looked at however long their arms are."""
+    read_corners: float = 264.0
+    """Number of corners that are looked at for that, times the root of their arms' length in px:
+    a longer one tells more, but no single one tells it. Of 54 corners with 15 px each way a growth
+    by 1.25 is clear. It takes 3 to 10 % of the time of finding corners."""
     max_relative_growth: float = 4.0
     """Greatest growth of the covariance that one corner counts with, over the board's median; of
     independent noise one in a thousand has more."""

@@ -18,6 +18,7 @@ from calibgui.engine.detection.checkerboard.corner_noise import (
 from calibgui.engine.detection.find_corners import find_corners
 from tests.scenes.checkerboards import Scene, draw
 from tests.scenes.conditions import Conditions
+from tests.scenes.perspective import photograph_board
 from tests.scenes.troubles import TROUBLES
 
 Photograph = Callable[[Scene, int], tuple[np.ndarray[Any, Any], float]]
@@ -59,6 +60,18 @@ def test_errors_are_in_common_as_far_as_edges_tell(
     conditions = Conditions(square=square, grid_size=(4, 5), tilt=5.0, parts=2)
     find_corners(draw(conditions, 0).photograph(0))
     assert seen == [pytest.approx(reach, rel=0.05)]
+
+
+@pytest.mark.parametrize(("square", "corners"), [(36.0, 44), (240.0, 17)])
+def test_fewer_corners_are_read_where_edges_are_long(
+    square: float, corners: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """They are read a second time for it, which took a fifth of the time in 48 megapixels."""
+    seen = []
+    monkeypatch.setattr(corner_noise, "compute_growth", lambda *args: seen.append(args[1]) or 1.0)
+    width, height = round(18 * square), round(13 * square)
+    find_corners(photograph_board((width, height), (6, 9), square, square / 45))
+    assert [len(noise) for noise in seen] == [pytest.approx(corners, abs=2)]
 
 
 def test_chance_does_not() -> None:
