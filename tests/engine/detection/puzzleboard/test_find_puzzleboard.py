@@ -120,7 +120,7 @@ def test_a_board_without_dots_is_verified_once(monkeypatch: pytest.MonkeyPatch) 
     assert len(verified) == 1
 
 
-@pytest.mark.parametrize(("seed", "count"), [(285, 0), (281, 1), (47, 1), (2, 1)])
+@pytest.mark.parametrize(("seed", "count"), [(285, 0), (281, 1), (2, 1)])
 def test_crossings_of_waves_are_not_verified(
     seed: int, count: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:
