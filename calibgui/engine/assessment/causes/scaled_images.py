@@ -31,8 +31,6 @@ import numpy as np
 from calibgui.engine.arrays import Array
 from calibgui.engine.assessment.causes.finding import (
     MIN_HARM_PX,
-    Action,
-    ActionKind,
     Cause,
     Finding,
     describe_harm,
@@ -101,7 +99,6 @@ def find_scaling(case: Case, explained: float) -> Finding | None:
         "Photograph in another size, best the largest that the camera has, and use the images as "
         "it writes them.",
         harm,
-        action=Action(ActionKind.PHOTOGRAPH_MORE),
     )
 
 
