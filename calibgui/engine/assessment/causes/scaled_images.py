@@ -112,7 +112,7 @@ def _find_period(uv: Array, residual: Array, axis: int, size: int) -> _Period | 
     first, last = (round(f * length) for f in (_MIN_FREQUENCY, _MAX_FREQUENCY))
     power = np.abs(np.fft.rfft(binned)[first:last]) ** 2 / np.sum(r**2)
     k = int(np.argmax(power))
-    if power[k] < np.log((last - first) / _LENGTHS / _MAX_FALSE_ALARM_RATE):
+    if not power[k] >= np.log((last - first) / _LENGTHS / _MAX_FALSE_ALARM_RATE):
         return None
     frequency = (first + k) / length
     phase = 2 * np.pi * frequency * u[:, None] * np.arange(1, _HARMONICS + 1)

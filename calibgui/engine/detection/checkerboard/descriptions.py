@@ -1,4 +1,4 @@
-"""What is said of boards and refusals, in plain English with what to do next."""
+"""Sentences for the user about boards that were found or refused, with what to do next."""
 
 from __future__ import annotations
 
