@@ -271,35 +271,45 @@ def _grow_lattices(
     """Grow lattices of one level; return those that are sufficient, largest first.
 
     A texture holds any number of lattices, and all turn out as the first few did: once these are
-    `sparse`, in whichever level, other sparse ones are left out. Those that are here are added.
+    `sparse`, in whichever level, others that are or become so are left out. Those that are here are
+    added.
     """
     if not seeds:
         return []
+    limits = THRESHOLDS.search
+
+    def is_sparse(lattice: Lattice) -> bool:
+        return compute_filled_share(lattice) < limits.min_filled_in_texture
+
+    def is_one_too_many(lattice: Lattice) -> bool:
+        return len(sparse) >= limits.max_sparse_lattices and is_sparse(lattice)
 
     def is_none_wanted(lattice: Lattice) -> bool:
         return is_other(_place_in_image(lattice, content.depth), content.depth)
 
     def is_hopeless(lattice: Lattice) -> bool:
-        return prefilter.is_hopeless(lattice, content.image, content.plain) or is_none_wanted(
-            lattice
+        return (
+            is_one_too_many(lattice)
+            or _is_chance(lattice, content.junctions)
+            or prefilter.is_hopeless(lattice, content.image, content.plain)
+            or is_none_wanted(lattice)
         )
 
-    limits, smooth = THRESHOLDS.search, content.saddles.smooth
+    smooth = content.saddles.smooth
     nearby, beyond = (
         PointIndex(smooth, points.uv) for points in (content.saddles, content.junctions)
     )
     grown: list[Lattice] = []
     found: list[Candidate] = []
     for seed in seeds:
-        is_texture = len(sparse) >= limits.max_sparse_lattices
-        if is_texture and compute_filled_share(seed) < limits.min_filled_in_texture:
-            continue
-        if any(is_part(seed, other) for other in grown):
+        if is_one_too_many(seed) or any(is_part(seed, other) for other in grown):
             continue
         is_wanted = len(seed) < limits.min_judged_corners or not is_none_wanted(seed)
         lattice = grow_lattice(seed, nearby, beyond, is_hopeless) if is_wanted else seed
         grown.append(lattice)
-        if compute_filled_share(lattice) < limits.min_filled_in_texture:
+        if is_one_too_many(lattice):
+            continue
+        if is_sparse(lattice):
             sparse.append(lattice)
         if not is_sufficient(lattice):
             continue

@@ -69,9 +69,9 @@ most places. With less no place could be certain."""
 _MIN_DOTS_TO_TELL = 300
 """Number of dots from which on they are compared with the pattern before anything else is done with
 the lattice: this takes as long as to fit so many corners."""
-_MIN_EVIDENCE = 0.02
+_MIN_EVIDENCE = 0.04
 """Least logarithm of the factor L of the best place, per dot: with 30 % of the dots wrong it is
-0.08. What is read between the dots of printed pictures has less."""
+0.08. What is read between the dots of printed pictures has mostly less."""
 _MIN_ALL_EVIDENCE = 16.0
 """Least such logarithm of all dots together: chance alone reaches that of a million places, 14. So
 many dots as are compared have 24 or more."""
@@ -96,10 +96,6 @@ class Dots:
     def turn(self) -> Dots:
         """Return the dots of the lattice turned by a quarter, as by `numpy.rot90`."""
         return Dots(np.rot90(self.down), np.rot90(self.right))
-
-    def invert(self) -> Dots:
-        """Return the dots of a print in which dark and white are exchanged."""
-        return Dots(-self.right, -self.down)
 
     def mirror(self) -> Dots:
         """Return the dots as a mirror shows them."""
@@ -138,6 +134,15 @@ class _Comparison(NamedTuple):
     """(k, 501) what the map adds at each offset; less that if dark and white are exchanged."""
 
 
+class _Turn(NamedTuple):
+    """What dots say, turned by some quarters."""
+
+    by_row: _Comparison
+    """What those between rows say."""
+    by_col: _Comparison
+    """What those between columns say."""
+
+
 def find_place(dots: Dots, board: StatedBoard | None = None) -> Place:
     """Find the likeliest place of the dots on the pattern; any, with a doubt of 1, if none is half
     as likely as that they are no such pattern.
@@ -146,11 +151,22 @@ def find_place(dots: Dots, board: StatedBoard | None = None) -> Place:
         dots: of a lattice that is not mirrored.
         board: the part of the pattern that is expected, if it is known.
     """
-    logs = [_compute_logs(*pair) for pair in _compare_turns(dots)]
+    return _choose_place(_compare_turns(dots), dots.grid_size, board)
+
+
+def _choose_place(
+    turns: list[_Turn],
+    grid_size: GridSize,
+    board: StatedBoard | None,
+    is_inverted: bool = False,
+) -> Place:
+    """Choose the likeliest place of dots from what each turn of them says; of a print in which dark
+    and white are exchanged, if `is_inverted`. See `find_place`."""
+    logs = [_compute_logs(turn, is_inverted) for turn in turns]
     tops = [_find_top(*pair) for pair in logs]
     # Factors of hundreds of dots overflow: all weights are divided by the greatest that may be.
     shift = max(0.0, *tops)
-    greatest = _ANYWHERE_WEIGHT / _count_places(dots.grid_size)
+    greatest = _ANYWHERE_WEIGHT / _count_places(grid_size)
     greatest += _ON_BOARD_WEIGHT if board is not None else 0.0
     if shift < np.log(_NOWHERE_WEIGHT / 2) - np.log(greatest):
         return Place(0, (0, 0), 1.0)
@@ -158,8 +174,8 @@ def find_place(dots: Dots, board: StatedBoard | None = None) -> Place:
     for quarters, (top, factors) in enumerate(zip(tops, logs, strict=True)):
         if top < shift - _NEGLIGIBLE:
             continue
-        grid_size = dots.grid_size if quarters % 2 == 0 else dots.grid_size[::-1]
-        weights = _weigh_places(grid_size, board) * _multiply_factors(*factors, shift)
+        turned = grid_size if quarters % 2 == 0 else grid_size[::-1]
+        weights = _weigh_places(turned, board) * _multiply_factors(*factors, shift)
         total += float(weights.sum())
         best = max(best, (float(weights.max()), quarters, int(np.argmax(weights))))
     weight, quarters, at = best
@@ -168,7 +184,7 @@ def find_place(dots: Dots, board: StatedBoard | None = None) -> Place:
     return Place(quarters, (first[0], first[1]), doubt)
 
 
-def _compare_turns(dots: Dots) -> list[tuple[_Comparison, _Comparison]]:
+def _compare_turns(dots: Dots) -> list[_Turn]:
     """Compare dots in all four turns with the pattern: those between rows, and those between
     columns."""
     mean, sigma = measure_dot_noise(dots)
@@ -181,18 +197,16 @@ def _compare_turns(dots: Dots) -> list[tuple[_Comparison, _Comparison]]:
     by_col = _compare_with_map([each.right.swapaxes(0, 1) for each in turned], "right")
     evens = [(down[0], right[0]), (right[0], down[0])] * 2  # a quarter turn exchanges them
     return [
-        (_Comparison(a, odd_a), _Comparison(b, odd_b))
+        _Turn(_Comparison(a, odd_a), _Comparison(b, odd_b))
         for (a, b), odd_a, odd_b in zip(evens, by_row, by_col, strict=True)
     ]
 
 
-def _compute_logs(
-    by_row: _Comparison, by_col: _Comparison, is_inverted: bool = False
-) -> tuple[Array, Array]:
+def _compute_logs(turn: _Turn, is_inverted: bool = False) -> tuple[Array, Array]:
     """Compute the logarithms (k, 501) and (k, 501) of the factors L of the dots between rows and
     between columns, or of a print in which dark and white are exchanged."""
     sign = -1.0 if is_inverted else 1.0
-    a, b = (each.even[:, None] + sign * each.odd for each in (by_row, by_col))
+    a, b = (each.even[:, None] + sign * each.odd for each in turn)
     return a, b
 
 
@@ -217,9 +231,9 @@ def may_be_dots(dots: Dots) -> bool:
         return True
     least = max(_MIN_EVIDENCE * count, _MIN_ALL_EVIDENCE)
     return any(
-        _find_top(*_compute_logs(*pair, is_inverted)) > least
+        _find_top(*_compute_logs(turn, is_inverted)) > least
         for seen in (dots, dots.mirror())
-        for pair in _compare_turns(seen)
+        for turn in _compare_turns(seen)
         for is_inverted in (False, True)
     )
 
@@ -231,15 +245,16 @@ def find_place_of_print(dots: Dots, board: StatedBoard | None = None) -> tuple[P
         The likeliest place, and whether it is that of the mirror image of the dots; if none is
         certain, the likeliest place of the dots as they are.
     """
-    place = find_place(dots, board)
+    turns = _compare_turns(dots)
+    place = _choose_place(turns, dots.grid_size, board)
     if place.doubt <= _MAX_DOUBT_ALONE:
         return place, False
-    mirrored = dots.mirror()
+    mirrored = _compare_turns(dots.mirror())
     best, is_mirrored = min(
         (place, False),
-        (find_place(dots.invert(), board), False),
-        (find_place(mirrored, board), True),
-        (find_place(mirrored.invert(), board), True),
+        (_choose_place(turns, dots.grid_size, board, is_inverted=True), False),
+        (_choose_place(mirrored, dots.grid_size, board), True),
+        (_choose_place(mirrored, dots.grid_size, board, is_inverted=True), True),
         key=lambda found: found[0].doubt,
     )
     return (best, is_mirrored) if is_certain(best) else (place, False)

@@ -39,6 +39,11 @@ def _see_dots(
     return dots
 
 
+def _invert(dots: Dots) -> Dots:
+    """The dots of a print in which dark and white are exchanged."""
+    return Dots(-dots.right, -dots.down)
+
+
 def _count(
     size: tuple[int, int], wrong: float, sigma: float, count: int, stated: bool
 ) -> tuple[int, int]:
@@ -139,7 +144,7 @@ def test_a_mirror_or_an_inverse_print_makes_no_other_place(
     for k in range(12):
         origin = int(rng.integers(490)), int(rng.integers(490))
         dots = _see_dots(origin, (8, 8), k % 4, 0.0, 0.15, rng)
-        dots = dots.invert() if is_inverted else dots
+        dots = _invert(dots) if is_inverted else dots
         place, mirrored = find_place_of_print(dots.mirror() if is_mirrored else dots)
         assert is_certain(place)
         assert mirrored == is_mirrored
@@ -151,7 +156,7 @@ def test_what_may_be_dots() -> None:
     rng = np.random.default_rng(10)
     for quarters, wrong in ((0, 0.0), (1, 0.3), (2, 0.3), (3, 0.3)):
         dots = _see_dots((30, 40), (16, 18), quarters, wrong, 0.2, rng)
-        for print_ in (dots, dots.invert(), dots.mirror(), dots.mirror().invert()):
+        for print_ in (dots, _invert(dots), dots.mirror(), _invert(dots.mirror())):
             assert may_be_dots(print_)
     assert may_be_dots(_see_dots((0, 0), (3, 3), 0, 0.0, 0.1, rng))
     bare = 0.05 * rng.standard_normal((2, 20, 20))
