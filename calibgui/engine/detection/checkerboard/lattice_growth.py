@@ -25,6 +25,7 @@ from calibgui.engine.detection.lattice import (
     MAX_GAP,
     Lattice,
     add_border,
+    compute_filled_share,
     estimate_steps,
     is_scattered,
     measure_in_steps,
@@ -38,8 +39,9 @@ def grow_lattice(
     nearby: PointIndex,
     beyond: PointIndex,
     is_hopeless: Callable[[Lattice], bool],
-) -> Lattice:
-    """Fill every hole and extend every border of a lattice that the saddle points allow.
+) -> Lattice | None:
+    """Fill every hole and extend every border of a lattice that the saddle points allow; return
+    None if it stays ragged however long it grows, as in a texture.
 
     Args:
         lattice: the lattice to start from; returned itself if nothing can be added.
@@ -64,9 +66,11 @@ def grow_lattice(
             )
         if grown is None or max(grown.shape) > limits.max_lattice_side:
             break
-        slow_rounds += len(grown) < limits.min_round_growth * len(lattice)
+        slow_rounds += (len(grown) - len(lattice)) ** 2 < len(lattice)
         lattice = grown
-    return lattice
+    min_filled = THRESHOLDS.search.min_filled_in_texture
+    is_ragged = slow_rounds == limits.max_slow_rounds and compute_filled_share(lattice) < min_filled
+    return None if is_ragged else lattice
 
 
 class PointIndex:

@@ -306,12 +306,12 @@ def _grow_lattices(
             continue
         is_wanted = len(seed) < limits.min_judged_corners or not is_none_wanted(seed)
         lattice = grow_lattice(seed, nearby, beyond, is_hopeless) if is_wanted else seed
-        grown.append(lattice)
-        if is_one_too_many(lattice):
+        grown.append(seed if lattice is None else lattice)
+        if is_one_too_many(grown[-1]):
             continue
-        if is_sparse(lattice):
-            sparse.append(lattice)
-        if not is_sufficient(lattice):
+        if lattice is None or is_sparse(lattice):
+            sparse.append(grown[-1])
+        if lattice is None or not is_sufficient(lattice):
             continue
         if lattice is not seed and _refuse(lattice, content):  # the seeds passed that before
             continue

@@ -22,7 +22,7 @@ def count_sparse(monkeypatch: pytest.MonkeyPatch, seed: int, plain: float) -> in
     """Count the sparse lattices that are grown in a picture without a board."""
     filled: list[float] = []
 
-    def grow(seed: Lattice, *args: Any) -> Lattice:
+    def grow(seed: Lattice, *args: Any) -> Lattice | None:
         filled.append(compute_filled_share(seed))
         return grow_lattice(seed, *args)
 
@@ -43,7 +43,7 @@ def test_a_lattice_that_a_level_shows_again_is_not_grown_again(
     """The coarsest level of these waves has the same 990 crossings under both tolerances."""
     grown: list[Lattice] = []
 
-    def grow(seed: Lattice, *args: Any) -> Lattice:
+    def grow(seed: Lattice, *args: Any) -> Lattice | None:
         grown.append(seed)
         return grow_lattice(seed, *args)
 
@@ -69,6 +69,19 @@ def test_a_lattice_that_waits_for_finer_levels_is_judged_once(
     assert len(set(map(id, judged))) == len(judged)
 
 
+def test_what_grows_by_single_corners_is_given_up(monkeypatch: pytest.MonkeyPatch) -> None:
+    """This halftone has two lattices that wind through it, and no board."""
+    grown: list[Lattice | None] = []
+
+    def grow(*args: Any) -> Lattice | None:
+        grown.append(grow_lattice(*args))
+        return grown[-1]
+
+    monkeypatch.setattr(pyramid_search, "grow_lattice", grow)
+    list(pyramid_search.find_candidates(draw_without_board(8), plain=0.26))
+    assert grown[:2] == [None, None]
+
+
 def test_lattices_that_chance_explains_are_not_grown(monkeypatch: pytest.MonkeyPatch) -> None:
     """One level of these waves has four, all of them ragged."""
     assert count_sparse(monkeypatch, 47, plain=0.26) == 0
@@ -80,9 +93,11 @@ def test_no_ends_are_looked_for_around_lattices_too_small_for_a_board(
     """These waves have twelve of few crossings, and to drop some makes none larger."""
     grown: list[Lattice] = []
 
-    def grow(*args: Any) -> Lattice:
-        grown.append(grow_lattice(*args))
-        return grown[-1]
+    def grow(*args: Any) -> Lattice | None:
+        lattice = grow_lattice(*args)
+        assert lattice is not None
+        grown.append(lattice)
+        return lattice
 
     def drop(lattice: Lattice, _: GreyImage) -> Lattice:
         assert is_large_enough(lattice)
@@ -182,7 +197,7 @@ def test_fragments_of_what_a_coarser_level_shows_are_not_grown(
     than all else."""
     sizes: list[int] = []
 
-    def grow(seed: Lattice, *args: Any) -> Lattice:
+    def grow(seed: Lattice, *args: Any) -> Lattice | None:
         sizes.append(len(seed))
         return grow_lattice(seed, *args)
 
