@@ -70,7 +70,7 @@ class SearchThresholds:
     """Number of grown lattices of a level that fill less than the share `min_filled_in_texture` of
     their rows and columns, after which others that do are not grown. The "waves" and the "halftone"
     of `tests.benchmarks.refusals` have up to 8 of a third and less, which take long."""
-    min_judged_corners: int = 400
+    min_judged_corners: int = 320
     """Number of corners from which on a lattice is asked whether it is another board before it
     grows, which takes longer."""
     min_filled_in_texture: float = 0.5

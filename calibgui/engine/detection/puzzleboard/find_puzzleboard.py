@@ -59,7 +59,7 @@ it is a board: it bounds the time."""
 _MAX_COMPARED = 800
 """Number of corners of a large lattice between which dots are looked for: what is read in the
 "halftone" of `tests.scenes.without_board` passes for dots of the pattern between up to 550."""
-_MIN_SEEN_SHARE = 0.5
+_MIN_SEEN_SHARE = 0.4
 """Least share of these that are seen in the middle, if it is to tell."""
 
 
