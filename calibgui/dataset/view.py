@@ -13,6 +13,11 @@ from calibgui.engine.boards import Board
 from calibgui.engine.calibration import Observation
 from calibgui.engine.detection import Corners
 
+_TOO_FEW_CORNERS = (
+    "The few corners found do not tell where the board is: at least 4 do, in two rows and two "
+    "columns. They are kept, and take no part in a calibration: show more of the board."
+)
+
 
 class ViewStatus(StrEnum):
     """Outcome of the search for the board in one photograph."""
@@ -63,8 +68,21 @@ class View:
 
     @property
     def usable(self) -> bool:
-        """True if the view takes part in a calibration: its board is found, and it is enabled."""
-        return self.enabled and self.status is ViewStatus.FOUND
+        """True if the view takes part in a calibration: its board is found, with corners that tell
+        a pose, and it is enabled."""
+        return self.enabled and self.status is ViewStatus.FOUND and not self._lacks_pose
+
+    @property
+    def why_unused(self) -> str:
+        """Why the image takes no part in a calibration although it is enabled, and the remedy;
+        empty if it does."""
+        if self.reason or not self._lacks_pose:
+            return self.reason
+        return _TOO_FEW_CORNERS
+
+    @property
+    def _lacks_pose(self) -> bool:
+        return self.corners is not None and not self.corners.determine_pose
 
     def refuse(self, status: ViewStatus, reason: str) -> View:
         """Return the view without corners, with the reason why there are none."""

@@ -114,7 +114,7 @@ def find_missing_corners(corners: Corners) -> tuple[IntArray, Array]:
     found = {(int(m), int(n)) for m, n in corners.grid}
     places = [(m, n) for m in range(rows) for n in range(cols) if (m, n) not in found]
     grid = np.array(places, dtype=np.int64).reshape(-1, 2)
-    if not len(grid) or len(corners) < 4:
+    if not len(grid) or not corners.determine_pose:
         return grid, np.empty((0, 2))
     return grid, np.array([_predict_corner(corners, place) for place in grid])
 

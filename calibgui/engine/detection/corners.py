@@ -15,6 +15,8 @@ METHODS = ("edges", "saddle")
 """The methods by which corners are located: the edge model, and the paper's saddle points."""
 _MIN_VARIANCE = 1e-100
 """Variance of a corner below which its covariance cannot be inverted, px^2."""
+_MIN_CORNERS_OF_POSE = 4
+"""Least number of corners that a board's pose follows from."""
 _MAX_VARIANCE_RATIO = 1e12
 """Ratio of a covariance's variances beyond which its inverse has lost most of its digits. In real
 photographs the ratio is below 20."""
@@ -102,3 +104,18 @@ class Corners:
     def complete(self) -> bool:
         """True if every corner of the board was located."""
         return len(self) == self.shape[0] * self.shape[1]
+
+    @property
+    def determine_pose(self) -> bool:
+        """True if these are corners enough to tell the board's pose: at least four, two of them off
+        every line through two others."""
+        n, grid = len(self), self.grid
+        if n < _MIN_CORNERS_OF_POSE or n > max(self.shape) + 1:  # a line holds no more
+            return n >= _MIN_CORNERS_OF_POSE
+        # A line that holds all corners but one holds two of the first three.
+        for a, b in ((0, 1), (0, 2), (1, 2)):
+            (row, col), (down, right) = grid[a], grid[b] - grid[a]
+            area = (grid[:, 0] - row) * right - (grid[:, 1] - col) * down
+            if np.count_nonzero(area) < 2:
+                return False
+        return True

@@ -73,6 +73,13 @@ class Lattice:
         assert self._steps is not None
         return self._steps
 
+    def with_steps(self, right: Array, down: Array) -> Lattice:
+        """Return the lattice with steps (rows, cols, 2) px that something else tells than its
+        corners, where these are few."""
+        lattice = Lattice(self.uv, self.dark)
+        object.__setattr__(lattice, "_steps", (right, down))
+        return lattice
+
     def spacing(self) -> Array:
         """Return (rows, cols) the shorter of the steps to the neighbours, px; NaN where unknown."""
         right, down = self.steps()

@@ -198,7 +198,7 @@ class ImagePage(QWidget):
     def _show_marks(self) -> None:
         session, view = self._session, self._session.view
         remark = "" if view is None or view.corners is None else view.corners.remark
-        self.reason.setText("" if view is None else view.reason or remark)
+        self.reason.setText("" if view is None else view.why_unused or remark)
         self.reason.setVisible(bool(self.reason.text()))
         for action in self.tools:
             enable_action(

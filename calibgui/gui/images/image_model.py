@@ -75,7 +75,7 @@ def status_text(view: View) -> str:
 
 def status_tip(view: View) -> str:
     """The state of an image in sentences."""
-    tip = view.reason or status_text(view)
+    tip = view.why_unused or status_text(view)
     if view.note:
         tip += "\n" + view.note
     if view.corners is not None and view.corners.relative:

@@ -22,8 +22,10 @@ from calibgui.engine.calibration.observations import Observation
 from calibgui.engine.calibration.result import Cost, Iteration, Status
 from calibgui.engine.camera.camera import Camera
 from calibgui.engine.camera.projection import pixels_from_rays
+from calibgui.engine.detection.corners import Corners
 from calibgui.engine.errors import CalibrationError, Cancelled
 from calibgui.engine.geometry.rotations import rotation_from_vector
+from calibgui.report.tables import list_unused_views
 from tests.engine import scenes
 from tests.photographs import BOARD, CAMERA, draw_poses
 
@@ -46,6 +48,18 @@ def test_unusable_views_stay_in_the_result_but_out_of_the_solve() -> None:
     assert result.views == views
     assert len(result.calibration.poses) == len(found.views) - 1
     assert result.calibration.fixed == ("k2", "k3", "p3")
+
+
+def test_a_view_of_one_corner_stays_out_of_the_solve() -> None:
+    found = corner_set()
+    one = Corners((7, 8), np.array([(2, 3)]), np.full((1, 2), 99.0), np.full((1, 2), 99.0))
+    views = (View("one.png", ViewStatus.FOUND, corners=one), *found.views)
+    result = calibrate_views(replace(found, views=views), Settings(fixed={"k2": None, "k3": 0.0}))
+    assert result.views == views
+    assert len(result.calibration.poses) == len(found.views)
+    assert "one.png: The few corners found" in list_unused_views(result.views)
+    with pytest.raises(CalibrationError, match="None of the images"):
+        calibrate_views(replace(found, views=views[:1]))
 
 
 def test_errors_name_the_image() -> None:

@@ -36,6 +36,7 @@ from calibgui.engine.detection.charuco.corners_between_markers import (
     refine_corners,
     require_enough_corners,
 )
+from calibgui.engine.detection.charuco.few_corners import fit_few_corners, locate_few_corners
 from calibgui.engine.detection.charuco.lattice_placement import (
     MarkedBoard,
     measure_margin,
@@ -52,6 +53,7 @@ from calibgui.engine.detection.checkerboard.pyramid_search import (
     find_candidates,
     find_same,
 )
+from calibgui.engine.detection.checkerboard.x_corner_fit import XCornerFit
 from calibgui.engine.detection.corners import Corners, RejectedCorner
 from calibgui.engine.detection.detector_io import (
     check_grey_levels,
@@ -110,17 +112,70 @@ def find_charuco(
     """Locate the inner corners of a ChArUco board in an image; see ``find_corners``."""
     grey = check_grey_levels(image)
     outline = None if roi is None else region.check_outline(roi)
-    board = _find_board(grey, pattern, grid_size, outline)
-    lattice, rejected, fit = board.lattice, board.rejected, None
-    if method == "edges":
-        lattice, fit, more = fit_corners(grey, lattice, board.marks)
-        rejected += more
-    require_enough_corners(lattice)
+    readers = _open_readers(grey, outline)
+    fit: XCornerFit | None = None
+    try:
+        board = _find_board(grey, pattern, grid_size, outline, readers)
+        lattice, rejected = board.lattice, board.rejected
+        if method == "edges":
+            lattice, fit, more = fit_corners(grey, lattice, board.marks)
+            rejected += more
+        require_enough_corners(lattice)
+    except NoBoardError:
+        few = _find_few_corners(grey, pattern, grid_size, readers, method)
+        if few is None:
+            raise
+        board, fit = few
+        lattice, rejected = board.lattice, board.rejected
     return assemble_corners(grey, lattice, fit, outline, rejected, board.pattern)
 
 
+def _find_few_corners(
+    grey: GreyImage,
+    pattern: Charuco,
+    grid_size: GridSize | None,
+    readers: list[MarkerReader],
+    method: str,
+) -> tuple[_FoundBoard, XCornerFit | None] | None:
+    """Find corners between the markers that were read which are too few to be a board's, and fit
+    them if the `method` says so; of a stated size two markers do. None if there are none."""
+    counts = [CHARUCO_THRESHOLDS.min_markers]
+    if grid_size is not None:
+        counts.append(CHARUCO_THRESHOLDS.min_markers_if_stated)
+    for least in counts:
+        read = _read_markers(pattern, readers, grid_size, least)
+        if read is not None:
+            return _locate_between(grey, pattern, grid_size, *read, method)
+    return None
+
+
+def _locate_between(
+    grey: GreyImage,
+    pattern: Charuco,
+    grid_size: GridSize | None,
+    board: ReadBoard,
+    is_inverted: bool,
+    method: str,
+) -> tuple[_FoundBoard, XCornerFit | None] | None:
+    """Locate the corners between markers that were read; see `_find_few_corners`."""
+    if len(board.readings) > 1 or _contradict(board.readings[0], pattern, grid_size) is not None:
+        return None
+    markers, fit = board.readings[0], None
+    size = _find_size(markers, grid_size)
+    lattice = locate_few_corners(grey, markers, size, is_inverted=is_inverted)
+    if method == "edges":
+        lattice, fit = fit_few_corners(grey, lattice, _measure_plain_part(markers))
+    if not len(lattice):
+        return None
+    return _describe_board(board.dictionary, pattern, markers, lattice, []), fit
+
+
 def _find_board(
-    grey: GreyImage, pattern: Charuco, grid_size: GridSize | None, outline: Array | None
+    grey: GreyImage,
+    pattern: Charuco,
+    grid_size: GridSize | None,
+    outline: Array | None,
+    readers: list[MarkerReader],
 ) -> _FoundBoard:
     """Find the board by markers that are read one by one, or, where these tell hardly half of the
     corners of a stated one, by all of them together.
@@ -129,7 +184,7 @@ def _find_board(
         NoBoardError: if neither finds it.
     """
     try:
-        board = _find_by_markers(grey, pattern, grid_size, outline)
+        board = _find_by_markers(grey, pattern, grid_size, readers)
     except NoBoardError:
         other = _find_by_lattice(grey, pattern, grid_size, outline)
         if other is None:
@@ -144,25 +199,37 @@ def _find_board(
 
 
 def _find_by_markers(
-    grey: GreyImage, pattern: Charuco, grid_size: GridSize | None, outline: Array | None
+    grey: GreyImage, pattern: Charuco, grid_size: GridSize | None, readers: list[MarkerReader]
 ) -> _FoundBoard:
     """Find the board by its markers, read one by one.
 
     Raises:
         NoBoardError: if too few are read, or they are of another board.
     """
-    read, is_inverted = _read_board(pattern, convert_for_reading(grey), grid_size, outline)
-    board = _choose_reading(grey, read.readings, grid_size, is_inverted=is_inverted)
-    layout, side = board.markers.layout, board.markers.side
-    legacy = pattern.legacy if pattern.legacy is not None else not layout.first_dark
-    marks = _list_marks(read.dictionary, layout, side, board.lattice.shape)
-    lattice, rejected = board.lattice, board.rejected
+    read, is_inverted = _read_board(pattern, readers, grid_size)
+    located = _choose_reading(grey, read.readings, grid_size, is_inverted=is_inverted)
+    lattice, rejected = located.lattice, located.rejected
+    board = _describe_board(read.dictionary, pattern, located.markers, lattice, rejected)
     if not lattice.found.all():
         # Beside markers that were not read the corners predict others, which markers do not bound.
-        more, lost = refine_and_extend_corners(grey, lattice, marks.margin)
+        more, lost = refine_and_extend_corners(grey, lattice, board.marks.margin)
         if len(more) > len(lattice):
-            lattice, rejected = more, lost
-    return _FoundBoard(lattice, rejected, Charuco(read.dictionary, side, legacy), marks)
+            return board._replace(lattice=more, rejected=lost)
+    return board
+
+
+def _describe_board(
+    dictionary: str,
+    stated: Charuco,
+    markers: Markers[MarkerLayout],
+    lattice: Lattice,
+    rejected: list[RejectedCorner],
+) -> _FoundBoard:
+    """Describe the board that shows markers of a dictionary and a lattice of corners."""
+    layout, side = markers.layout, markers.side
+    legacy = stated.legacy if stated.legacy is not None else not layout.first_dark
+    marks = _list_marks(dictionary, layout, side, lattice.shape)
+    return _FoundBoard(lattice, rejected, Charuco(dictionary, side, legacy), marks)
 
 
 def _find_by_lattice(
@@ -239,16 +306,22 @@ def _locate_corners(
     Raises:
         NoBoardError: if there are too few.
     """
-    rows, _ = np.max(markers.squares, axis=0).tolist()
-    size = grid_size or (rows, markers.layout.cols - 1)
-    # An even number of rows of squares, if the board begins with a white square.
-    if grid_size is None and not markers.layout.first_dark and size[0] % 2 == 0:
-        size = (size[0] + 1, size[1])
+    size = _find_size(markers, grid_size)
     predicted = predict_corners(markers, size, grey, is_inverted=is_inverted)
     plain = _measure_plain_part(markers)
     lattice, rejected = refine_corners(grey, predicted, plain, by_markers=True)
     missing = predicted.found & ~lattice.found & _are_whole_in_image(predicted, grey)
     return _LocatedBoard(markers, lattice, missing, rejected)
+
+
+def _find_size(markers: Markers[MarkerLayout], stated: GridSize | None) -> GridSize:
+    """Return the stated size of a board, or else the least that holds its markers."""
+    if stated is not None:
+        return stated
+    rows, _ = np.max(markers.squares, axis=0).tolist()
+    # An even number of rows of squares, if the board begins with a white square.
+    rows += not markers.layout.first_dark and rows % 2 == 0
+    return rows, markers.layout.cols - 1
 
 
 def _are_whole_in_image(lattice: Lattice, image: GreyImage) -> BoolArray:
@@ -299,10 +372,17 @@ def _choose_reading(
     return boards[0]
 
 
+def _open_readers(grey: GreyImage, outline: Array | None) -> list[MarkerReader]:
+    """Return readers of the markers in an image and in its negative, which remember them."""
+    image = convert_for_reading(grey)
+    positive = MarkerReader(image, outline)
+    return [positive, MarkerReader(invert_levels(image), outline, positive)]
+
+
 def _read_board(
-    pattern: Charuco, image: GreyImage, grid_size: GridSize | None, outline: Array | None
+    pattern: Charuco, readers: list[MarkerReader], grid_size: GridSize | None
 ) -> tuple[ReadBoard, bool]:
-    """Read the dictionary and the board's markers in an 8-bit image (h, w).
+    """Read the dictionary and the board's markers in an image and its negative.
 
     Only what agrees with the statements in `pattern` and `grid_size` is accepted.
 
@@ -312,41 +392,48 @@ def _read_board(
     Raises:
         NoBoardError: if there is no such board; the message names the one that is there instead.
     """
+    read = _read_markers(pattern, readers, grid_size, CHARUCO_THRESHOLDS.min_markers)
+    if read is None:
+        raise _explain_missing_board(pattern, readers, grid_size)
+    if (contradiction := _contradict(read[0].readings[0], pattern, grid_size)) is not None:
+        raise contradiction
+    return read
+
+
+def _read_markers(
+    pattern: Charuco, readers: list[MarkerReader], grid_size: GridSize | None, least: int
+) -> tuple[ReadBoard, bool] | None:
+    """Read the markers of a board on which at least so many agree, and tell whether it is printed
+    bright on dark; None if there is no such board."""
     layouts = _list_layouts(pattern, grid_size)
-    positive = MarkerReader(image, outline)
-    readers = [positive, MarkerReader(invert_levels(image), outline, positive)]
     count = None if grid_size is None else (grid_size[0] + 1) * (grid_size[1] + 1) // 2
     for is_inverted, reader in enumerate(readers):
         found = (
-            reader.read_dictionary(pattern.dictionary, layouts, count)
+            reader.read_dictionary(pattern.dictionary, layouts, count, least)
             if pattern.dictionary
-            else reader.search_dictionaries(layouts, count)
+            else reader.search_dictionaries(layouts, count, least)
         )
         if found is not None:
-            _check_board(found.readings[0], pattern, grid_size)
             return found, bool(is_inverted)
-    raise _explain_missing_board(pattern, readers, grid_size)
+    return None
 
 
-def _check_board(
+def _contradict(
     markers: Markers[MarkerLayout], pattern: Charuco, grid_size: GridSize | None
-) -> None:
-    """Check that the markers read agree with what is stated.
-
-    Raises:
-        NoBoardError: if they do not.
-    """
+) -> NoBoardError | None:
+    """Return the error that says in what the markers read do not agree with what is stated."""
     if (
         pattern.marker is not None
         and abs(markers.side - pattern.marker) > CHARUCO_THRESHOLDS.max_side_difference
     ):
-        raise NoBoardError(
+        return NoBoardError(
             f"The markers are {markers.side:.2f} of a square, not {pattern.marker:.2f}.",
             "State the sides of marker and square as measured, or leave the marker's out.",
         )
     rows, _ = np.max(markers.squares, axis=0).tolist()
     if grid_size is not None and rows > grid_size[0]:
-        raise _explain_other_size(markers, grid_size)
+        return _explain_other_size(markers, grid_size)
+    return None
 
 
 def _list_layouts(pattern: Charuco, grid_size: GridSize | None) -> list[MarkerLayout]:

@@ -32,6 +32,7 @@ class MarkerCandidates:
         self._image = image
         self._quads = quads
         self._cells: dict[int, BoolArray] = {}
+        self._matches: dict[tuple[str, bool], tuple[IntArray, IntArray]] = {}
 
     def count_fitting(self, dictionary: str, is_inverted: bool = False) -> int:
         """Count the quadrilaterals that may be markers of a dictionary, or, `is_inverted`, markers
@@ -51,7 +52,13 @@ class MarkerCandidates:
 
     def _match_dictionary(self, dictionary: str, is_inverted: bool) -> tuple[IntArray, IntArray]:
         """Find the quadrilaterals (n,) that may be markers, and the turned markers (n,), as
-        `_encode_markers` lists them, that they are most alike."""
+        `_encode_markers` lists them, that they are most alike; once."""
+        if (dictionary, is_inverted) not in self._matches:
+            self._matches[dictionary, is_inverted] = self._match_cells(dictionary, is_inverted)
+        return self._matches[dictionary, is_inverted]
+
+    def _match_cells(self, dictionary: str, is_inverted: bool) -> tuple[IntArray, IntArray]:
+        """Compare the cells of all quadrilaterals with a dictionary; see `_match_dictionary`."""
         codes, correctable = _encode_markers(dictionary)
         k = int(np.sqrt(codes.shape[1]))
         if k not in self._cells:

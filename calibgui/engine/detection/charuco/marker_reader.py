@@ -92,7 +92,11 @@ class MarkerReader:
         """True once markers of a board were read that do not tell the length of its rows."""
 
     def read_dictionary(
-        self, name: str, layouts: Collection[MarkerLayout], count: int | None = None
+        self,
+        name: str,
+        layouts: Collection[MarkerLayout],
+        count: int | None = None,
+        least: int = CHARUCO_THRESHOLDS.min_markers,
     ) -> ReadBoard | None:
         """Read the markers of a stated dictionary on a board of one of the layouts.
 
@@ -100,6 +104,7 @@ class MarkerReader:
             name: of the dictionary.
             layouts: those that the board may have.
             count: number of markers on the board, if it is known.
+            least: number of markers that have to agree on it.
 
         Returns:
             The dictionary and the markers; None if they show no such board.
@@ -107,14 +112,18 @@ class MarkerReader:
 
         def list_if_likely(depth: int) -> list[str]:
             is_coarsest = depth == len(self._levels) - 1
-            return [name] if is_coarsest else self._select_likely([name], depth)
+            return [name] if is_coarsest else self._select_likely([name], least, depth)
 
-        return self._read_first(list_if_likely, layouts, count)
+        return self._read_first(list_if_likely, layouts, count, least)
 
     def search_dictionaries(
-        self, layouts: Collection[MarkerLayout], count: int | None = None
+        self,
+        layouts: Collection[MarkerLayout],
+        count: int | None = None,
+        least: int = CHARUCO_THRESHOLDS.min_markers,
     ) -> ReadBoard | None:
-        """Read the markers of an unknown dictionary on a board of one of the layouts.
+        """Read the markers of an unknown dictionary on a board of one of the layouts; the arguments
+        are those of `read_dictionary`.
 
         Returns:
             The smallest dictionary of its family that reads the most markers, and these; None if
@@ -123,14 +132,17 @@ class MarkerReader:
         best: ReadBoard | None = None
         for rank in (0, 2):
             best = best or self._read_first(
-                partial(self._select_likely, _list_family_members(rank)), layouts, count
+                partial(self._select_likely, _list_family_members(rank), least),
+                layouts,
+                count,
+                least,
             )
         if best is None:
             return None
         for larger in _list_larger(best.dictionary):
             if not self._may_show_more(larger, best):
                 break
-            found = self.read_dictionary(larger, layouts, count)
+            found = self.read_dictionary(larger, layouts, count, least)
             if found is None or found.count_markers() <= best.count_markers():
                 break
             best = found
@@ -146,6 +158,7 @@ class MarkerReader:
         names: Callable[[int], Iterable[str]],
         layouts: Collection[MarkerLayout],
         count: int | None,
+        least: int,
     ) -> ReadBoard | None:
         """Read the first dictionary that shows a board, of those that `names` lists for each
         depth of the pyramid; without neighbours in different rows, markers that seem to agree on
@@ -153,7 +166,8 @@ class MarkerReader:
         is_stated = len({layout.cols for layout in layouts}) == 1
         for depth in reversed(range(len(self._levels))):
             for name in names(depth):
-                readings = identify_board(*self._read_markers(depth, name), layouts, MARKER_LAYOUTS)
+                read = self._read_markers(depth, name)
+                readings = identify_board(*read, layouts, MARKER_LAYOUTS, least)
                 if not readings:
                     continue
                 prints = _describe_dictionary(name)
@@ -165,16 +179,19 @@ class MarkerReader:
                 self.is_undecided = True
         return None
 
-    def _select_likely(self, names: list[str], depth: int) -> list[str]:
-        """Select the dictionaries of which enough quadrilaterals may be markers, and at a finer
-        size, which takes long to read, agree on a board: among thousands some fit by chance."""
-        least = CHARUCO_THRESHOLDS.min_markers
+    def _select_likely(self, names: list[str], least: int, depth: int) -> list[str]:
+        """Select the dictionaries of which enough quadrilaterals may be markers, two of them near
+        each other where two are enough, and at a finer size, which takes long to read, agree on a
+        board: among thousands some fit by chance."""
         if depth == len(self._levels) - 1:
             coarsest = self._find_candidates(depth)
-            return [name for name in names if coarsest.count_fitting(name) >= least]
-        return [name for name in names if self._agree_on_board(name, depth)]
+            likely = [name for name in names if coarsest.count_fitting(name) >= least]
+            if least >= CHARUCO_THRESHOLDS.min_markers:
+                return likely
+            return [name for name in likely if are_some_near(coarsest.read_fitting(name)[1])]
+        return [name for name in names if self._agree_on_board(name, least, depth)]
 
-    def _agree_on_board(self, dictionary: str, depth: int) -> bool:
+    def _agree_on_board(self, dictionary: str, least: int, depth: int) -> bool:
         """Return whether quadrilaterals of one of the finer levels may be markers of a dictionary
         that lie as on a board; only if a sample shows two near to each other all are looked for."""
         is_inverted = self._positive is not None
@@ -183,7 +200,7 @@ class MarkerReader:
         if not are_some_near(sampled):
             return False
         read = positive._find_candidates(depth).read_fitting(dictionary, is_inverted)
-        boards = identify_board(*read, MARKER_LAYOUTS, MARKER_LAYOUTS)
+        boards = identify_board(*read, MARKER_LAYOUTS, MARKER_LAYOUTS, least)
         if boards:
             self._boxes[depth, dictionary] = _find_box(boards[0].corners, self._levels[depth].shape)
         return bool(boards)

@@ -86,6 +86,7 @@ def identify_board(
     corners: Array,
     allowed: Collection[Layout],
     known: Collection[Layout],
+    least: int = CHARUCO_THRESHOLDS.min_markers,
 ) -> list[Markers[Layout]]:
     """Find the largest set of markers that agree on a board.
 
@@ -94,12 +95,12 @@ def identify_board(
         corners: (n, 4, 2) px.
         allowed: layouts that the board may have.
         known: all layouts of such boards, with which those allowed are compared.
+        least: number of markers that have to agree.
 
     Returns:
         The markers on each of the layouts that as many pairs agree with, usually one; none if too
         few agree, or more on a layout that is not allowed.
     """
-    least = CHARUCO_THRESHOLDS.min_markers
     if len(numbers) < least:
         return []
     candidates = [*{**dict.fromkeys(known), **dict.fromkeys(allowed)}]

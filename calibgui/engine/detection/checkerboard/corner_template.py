@@ -371,6 +371,18 @@ def is_plain_crossing(corners: OrientedCorners, image: GreyImage, is_printed: bo
     return _measure_dissimilarity(near, crossings) <= limit
 
 
+def find_crossings(corners: OrientedCorners, image: GreyImage, plain: float) -> BoolArray:
+    """Find the corners (n,) that, each by itself, look like a crossing of two edges as far as
+    `plain`, squares, and whose squares have the colours that their places require."""
+    near = corners.shorten_steps(plain)
+    gap, contrast = compare_sectors(image, *near)
+    patches = _compute_patches(image, *near, PATCH_POSITIONS, _LINEAR_LIGHT)
+    crossings = _model_crossings(plain, overlap=False)
+    off = [_measure_dissimilarity(patch, crossings) for patch in patches]
+    alternate = (contrast > 0) & (gap > _THRESHOLDS.min_sector_gap * contrast)
+    return np.asarray(alternate & (np.array(off) <= _THRESHOLDS.max_dissimilarity))
+
+
 def _compute_typical_patch(corners: OrientedCorners, image: GreyImage) -> Array:
     """Compute the median (k,) of the corners' patches, standardised."""
     return _compute_median_patch(_compute_patches(image, *corners, PATCH_POSITIONS, _LINEAR_LIGHT))
