@@ -1,8 +1,9 @@
 """ChArUco boards: a checkerboard with a numbered marker in every white square.
 
 The points are the inner corners of the checkerboard, as on a plain one; the markers tell which is
-which. They come from a dictionary of OpenCV's and are numbered from 0, row by row. With C squares
-in a row and known colours of the squares, the number of a marker tells its square.
+which. They come from a dictionary of OpenCV's and are numbered row by row, from 0 unless several
+boards share a dictionary. With C squares in a row and known colours of the squares, the number of a
+marker tells its square.
 
 Two layouts are in use. Since OpenCV 4.6 the first square is dark on every board. Before, boards
 with an even number of rows of squares began with a white one (``legacy``).
@@ -25,6 +26,9 @@ from calibgui.engine.boards.pattern import Pattern
 from calibgui.engine.boards.printed_pattern import PrintedPattern, PrintedRectangles
 from calibgui.engine.errors import CalibrationError
 
+_FAR_OFF = -1000
+"""Row and column of the squares of markers that are not on the board."""
+
 
 @dataclass(frozen=True, slots=True)
 class MarkerLayout:
@@ -33,12 +37,19 @@ class MarkerLayout:
     cols: int
     """Number of squares in a row."""
     first_dark: bool
-    """True if the first square is dark and the second holds marker 0."""
+    """True if the first square is dark and the second holds the first marker."""
+    first: int = 0
+    """Number of the first marker: several boards may share a dictionary."""
 
     def locate_squares(self, numbers: IntArray) -> IntArray:
-        """Return row and column (n, 2) of the squares that hold the markers `numbers` (n,)."""
-        rows = 2 * (int(numbers.max(initial=0)) // max(self.cols - 1, 1)) + 3
-        return _list_marked_squares(rows, self.cols, self.first_dark)[numbers]
+        """Return row and column (n, 2) of the squares that hold the markers `numbers` (n,), those
+        of numbers before the first far off."""
+        places = numbers - self.first
+        rows = 2 * (int(places.max(initial=0)) // max(self.cols - 1, 1)) + 3
+        squares = _list_marked_squares(rows, self.cols, self.first_dark)[places]
+        if self.first:
+            squares[places < 0] = _FAR_OFF
+        return squares
 
 
 @lru_cache(maxsize=512)

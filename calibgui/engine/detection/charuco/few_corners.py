@@ -5,7 +5,8 @@ Beside a hand or at the end of the image a few markers are seen, and one to five
 them. What a board's corners are else compared with is missing: the typical corner, and a smooth
 map. So each has to stand by itself: it lies where two markers meet, both of which were read, its
 four squares have the colours that its place requires, it looks like a crossing of two edges and not
-only like its neighbours, and the model of one describes it. The markers tell its steps.
+only like its neighbours, and the model of one describes it. The markers tell its steps. The size of
+the board has to be stated: three of markers in any order agree with one of all sizes now and then.
 
 Such corners tell no pose, but two cameras that see the same one have a ray each to it.
 """

@@ -21,12 +21,7 @@ import numpy as np
 import numpy.typing as npt
 
 from calibgui.engine.arrays import Array, BoolArray, GreyImage, GridSize
-from calibgui.engine.boards.charuco import (
-    MARKER_LAYOUTS,
-    Charuco,
-    MarkerLayout,
-    dictionary_family,
-)
+from calibgui.engine.boards.charuco import Charuco, MarkerLayout
 from calibgui.engine.detection import region_of_interest as region
 from calibgui.engine.detection.charuco.assembly import assemble_corners
 from calibgui.engine.detection.charuco.corners_between_markers import (
@@ -46,6 +41,14 @@ from calibgui.engine.detection.charuco.mark_removal import Marks
 from calibgui.engine.detection.charuco.marker_candidates import draw_markers
 from calibgui.engine.detection.charuco.marker_reader import MarkerReader, ReadBoard
 from calibgui.engine.detection.charuco.markers import Markers
+from calibgui.engine.detection.charuco.stated_board import (
+    contradict,
+    count_rows,
+    list_layouts,
+    open_readers,
+    read_board,
+    read_markers,
+)
 from calibgui.engine.detection.charuco.thresholds import CHARUCO_THRESHOLDS
 from calibgui.engine.detection.checkerboard import board_ends
 from calibgui.engine.detection.checkerboard.pyramid_search import (
@@ -55,11 +58,7 @@ from calibgui.engine.detection.checkerboard.pyramid_search import (
 )
 from calibgui.engine.detection.checkerboard.x_corner_fit import XCornerFit
 from calibgui.engine.detection.corners import Corners, RejectedCorner
-from calibgui.engine.detection.detector_io import (
-    check_grey_levels,
-    convert_for_reading,
-    invert_levels,
-)
+from calibgui.engine.detection.detector_io import check_grey_levels
 from calibgui.engine.detection.lattice import Lattice
 from calibgui.engine.errors import NoBoardError, UnknownPartError
 
@@ -81,6 +80,8 @@ class _FoundBoard(NamedTuple):
     pattern: Charuco
     """As the image shows it."""
     marks: Marks
+    first: int = 0
+    """Number of its first marker."""
 
 
 class _LocatedBoard(NamedTuple):
@@ -112,7 +113,7 @@ def find_charuco(
     """Locate the inner corners of a ChArUco board in an image; see ``find_corners``."""
     grey = check_grey_levels(image)
     outline = None if roi is None else region.check_outline(roi)
-    readers = _open_readers(grey, outline)
+    readers = open_readers(grey, outline)
     fit: XCornerFit | None = None
     try:
         board = _find_board(grey, pattern, grid_size, outline, readers)
@@ -122,28 +123,26 @@ def find_charuco(
             rejected += more
         require_enough_corners(lattice)
     except NoBoardError:
+        if grid_size is None:
+            raise
         few = _find_few_corners(grey, pattern, grid_size, readers, method)
         if few is None:
             raise
         board, fit = few
         lattice, rejected = board.lattice, board.rejected
-    return assemble_corners(grey, lattice, fit, outline, rejected, board.pattern)
+    corners = assemble_corners(grey, lattice, fit, outline, rejected, board.pattern)
+    if not board.first:
+        return corners
+    return replace(corners, remark=f"The board's markers are numbered from {board.first} on.")
 
 
 def _find_few_corners(
-    grey: GreyImage,
-    pattern: Charuco,
-    grid_size: GridSize | None,
-    readers: list[MarkerReader],
-    method: str,
+    grey: GreyImage, pattern: Charuco, grid_size: GridSize, readers: list[MarkerReader], method: str
 ) -> tuple[_FoundBoard, XCornerFit | None] | None:
-    """Find corners between the markers that were read which are too few to be a board's, and fit
-    them if the `method` says so; of a stated size two markers do. None if there are none."""
-    counts = [CHARUCO_THRESHOLDS.min_markers]
-    if grid_size is not None:
-        counts.append(CHARUCO_THRESHOLDS.min_markers_if_stated)
-    for least in counts:
-        read = _read_markers(pattern, readers, grid_size, least)
+    """Find corners between markers that were read, two of which are enough, where they are too few
+    to be a board's, and fit them if the `method` says so. None if there are none."""
+    for least in (CHARUCO_THRESHOLDS.min_markers, CHARUCO_THRESHOLDS.min_markers_if_stated):
+        read = read_markers(pattern, readers, grid_size, least)
         if read is not None:
             return _locate_between(grey, pattern, grid_size, *read, method)
     return None
@@ -152,17 +151,16 @@ def _find_few_corners(
 def _locate_between(
     grey: GreyImage,
     pattern: Charuco,
-    grid_size: GridSize | None,
+    grid_size: GridSize,
     board: ReadBoard,
     is_inverted: bool,
     method: str,
 ) -> tuple[_FoundBoard, XCornerFit | None] | None:
     """Locate the corners between markers that were read; see `_find_few_corners`."""
-    if len(board.readings) > 1 or _contradict(board.readings[0], pattern, grid_size) is not None:
+    if len(board.readings) > 1 or contradict(board.readings[0], pattern, grid_size) is not None:
         return None
     markers, fit = board.readings[0], None
-    size = _find_size(markers, grid_size)
-    lattice = locate_few_corners(grey, markers, size, is_inverted=is_inverted)
+    lattice = locate_few_corners(grey, markers, grid_size, is_inverted=is_inverted)
     if method == "edges":
         lattice, fit = fit_few_corners(grey, lattice, _measure_plain_part(markers))
     if not len(lattice):
@@ -206,7 +204,7 @@ def _find_by_markers(
     Raises:
         NoBoardError: if too few are read, or they are of another board.
     """
-    read, is_inverted = _read_board(pattern, readers, grid_size)
+    read, is_inverted = read_board(pattern, readers, grid_size)
     located = _choose_reading(grey, read.readings, grid_size, is_inverted=is_inverted)
     lattice, rejected = located.lattice, located.rejected
     board = _describe_board(read.dictionary, pattern, located.markers, lattice, rejected)
@@ -229,7 +227,8 @@ def _describe_board(
     layout, side = markers.layout, markers.side
     legacy = stated.legacy if stated.legacy is not None else not layout.first_dark
     marks = _list_marks(dictionary, layout, side, lattice.shape)
-    return _FoundBoard(lattice, rejected, Charuco(dictionary, side, legacy), marks)
+    pattern = Charuco(dictionary, side, legacy)
+    return _FoundBoard(lattice, rejected, pattern, marks, layout.first)
 
 
 def _find_by_lattice(
@@ -278,7 +277,7 @@ def _list_stated_boards(
     pattern: Charuco, dictionary: str, grid_size: GridSize
 ) -> Iterator[tuple[MarkedBoard, Charuco]]:
     """List the boards that a pattern may be, printed dark on bright or inversely."""
-    for layout in _list_layouts(pattern, grid_size):
+    for layout in list_layouts(pattern, grid_size):
         for side in _SIDES if pattern.marker is None else (pattern.marker,):
             marks = _list_marks(dictionary, layout, side, grid_size)
             for first_dark in (layout.first_dark, not layout.first_dark):
@@ -289,8 +288,8 @@ def _list_stated_boards(
 def _list_marks(dictionary: str, layout: MarkerLayout, side: float, grid_size: GridSize) -> Marks:
     """List the markers that are printed in the squares of a board."""
     rows, cols = grid_size
-    cells = draw_markers(dictionary)[: (rows + 1) * (cols + 1) // 2]
-    squares = layout.locate_squares(np.arange(len(cells))) - 1
+    cells = draw_markers(dictionary)[layout.first :][: (rows + 1) * (cols + 1) // 2]
+    squares = layout.locate_squares(layout.first + np.arange(len(cells))) - 1
     return Marks(squares, cells, (1 - side) / 2)
 
 
@@ -318,7 +317,7 @@ def _find_size(markers: Markers[MarkerLayout], stated: GridSize | None) -> GridS
     """Return the stated size of a board, or else the least that holds its markers."""
     if stated is not None:
         return stated
-    rows, _ = np.max(markers.squares, axis=0).tolist()
+    rows = count_rows(markers)
     # An even number of rows of squares, if the board begins with a white square.
     rows += not markers.layout.first_dark and rows % 2 == 0
     return rows, markers.layout.cols - 1
@@ -370,139 +369,3 @@ def _choose_reading(
                 " its left or right border.",
             )
     return boards[0]
-
-
-def _open_readers(grey: GreyImage, outline: Array | None) -> list[MarkerReader]:
-    """Return readers of the markers in an image and in its negative, which remember them."""
-    image = convert_for_reading(grey)
-    positive = MarkerReader(image, outline)
-    return [positive, MarkerReader(invert_levels(image), outline, positive)]
-
-
-def _read_board(
-    pattern: Charuco, readers: list[MarkerReader], grid_size: GridSize | None
-) -> tuple[ReadBoard, bool]:
-    """Read the dictionary and the board's markers in an image and its negative.
-
-    Only what agrees with the statements in `pattern` and `grid_size` is accepted.
-
-    Returns:
-        The board, and whether it is printed bright on dark.
-
-    Raises:
-        NoBoardError: if there is no such board; the message names the one that is there instead.
-    """
-    read = _read_markers(pattern, readers, grid_size, CHARUCO_THRESHOLDS.min_markers)
-    if read is None:
-        raise _explain_missing_board(pattern, readers, grid_size)
-    if (contradiction := _contradict(read[0].readings[0], pattern, grid_size)) is not None:
-        raise contradiction
-    return read
-
-
-def _read_markers(
-    pattern: Charuco, readers: list[MarkerReader], grid_size: GridSize | None, least: int
-) -> tuple[ReadBoard, bool] | None:
-    """Read the markers of a board on which at least so many agree, and tell whether it is printed
-    bright on dark; None if there is no such board."""
-    layouts = _list_layouts(pattern, grid_size)
-    count = None if grid_size is None else (grid_size[0] + 1) * (grid_size[1] + 1) // 2
-    for is_inverted, reader in enumerate(readers):
-        found = (
-            reader.read_dictionary(pattern.dictionary, layouts, count, least)
-            if pattern.dictionary
-            else reader.search_dictionaries(layouts, count, least)
-        )
-        if found is not None:
-            return found, bool(is_inverted)
-    return None
-
-
-def _contradict(
-    markers: Markers[MarkerLayout], pattern: Charuco, grid_size: GridSize | None
-) -> NoBoardError | None:
-    """Return the error that says in what the markers read do not agree with what is stated."""
-    if (
-        pattern.marker is not None
-        and abs(markers.side - pattern.marker) > CHARUCO_THRESHOLDS.max_side_difference
-    ):
-        return NoBoardError(
-            f"The markers are {markers.side:.2f} of a square, not {pattern.marker:.2f}.",
-            "State the sides of marker and square as measured, or leave the marker's out.",
-        )
-    rows, _ = np.max(markers.squares, axis=0).tolist()
-    if grid_size is not None and rows > grid_size[0]:
-        return _explain_other_size(markers, grid_size)
-    return None
-
-
-def _list_layouts(pattern: Charuco, grid_size: GridSize | None) -> list[MarkerLayout]:
-    """List the layouts that agree with what is stated."""
-    if grid_size is None:
-        return [
-            layout for layout in MARKER_LAYOUTS if layout.first_dark or pattern.legacy is not False
-        ]
-    if pattern.legacy is not None:
-        return [MarkerLayout(grid_size[1] + 1, pattern.is_first_square_dark(grid_size))]
-    both = (True, False) if (grid_size[0] + 1) % 2 == 0 else (True,)
-    return [MarkerLayout(grid_size[1] + 1, dark) for dark in both]
-
-
-def _explain_missing_board(
-    pattern: Charuco, readers: list[MarkerReader], grid_size: GridSize | None
-) -> NoBoardError:
-    """Return the error that says what the image shows instead of the stated board."""
-    found = None
-    is_anything_stated = pattern != Charuco() or grid_size is not None
-    for reader in readers if is_anything_stated else ():
-        if pattern.dictionary:
-            found = found or reader.read_dictionary(pattern.dictionary, MARKER_LAYOUTS)
-        found = found or reader.search_dictionaries(MARKER_LAYOUTS)
-    if found is None and any(reader.is_undecided for reader in readers):
-        return UnknownPartError(
-            "The markers seen do not tell how many squares the board has in a row.",
-            "State its rows and columns, or show more of it.",
-        )
-    if found is None:
-        return NoBoardError(
-            "No ChArUco board was found.",
-            "Take the picture again: sharp, evenly lit and near enough for its markers to be read;"
-            " state dictionary and size, or leave them out.",
-        )
-    dictionary, markers = found.dictionary, found.readings[0]
-    if pattern.dictionary and dictionary_family(dictionary) != dictionary_family(
-        pattern.dictionary
-    ):
-        return NoBoardError(
-            f"The markers are of {dictionary}, not of {pattern.dictionary}.",
-            "State that dictionary, or leave it out.",
-        )
-    rows, _ = np.max(markers.squares, axis=0).tolist()
-    if grid_size is not None and (markers.layout.cols - 1 != grid_size[1] or rows > grid_size[0]):
-        return _explain_other_size(markers, grid_size)
-    return NoBoardError(
-        "The first square of this board is "
-        + ("dark." if markers.layout.first_dark else "white, as before OpenCV 4.6."),
-        "State the other layout, or leave it out.",
-    )
-
-
-def _explain_other_size(markers: Markers[MarkerLayout], stated: GridSize) -> NoBoardError:
-    """Return the error that says which size was found instead of the stated one, or that the
-    markers are those of a board of that size that does not begin with number 0."""
-    rows, _ = np.max(markers.squares, axis=0).tolist()
-    cols = markers.layout.cols - 1
-    last = (stated[0] + 1) * (stated[1] + 1) // 2 - 1
-    low, high = int(markers.numbers.min()), int(markers.numbers.max())
-    are_of_later_board = cols == stated[1] and np.ptp(markers.squares[:, 0]) <= stated[0]
-    if are_of_later_board and low > 0 and high > last:
-        return NoBoardError(
-            f"The markers read are numbers {low} to {high}; a board of {stated[0]} x {stated[1]} "
-            f"inner corners has 0 to {last}, so that this one is numbered from another.",
-            "Leave the size out: its rows are then counted as if the numbers began with 0.",
-        )
-    return NoBoardError(
-        f"This board has at least {rows} rows and exactly {cols} columns of inner corners, "
-        f"not {stated[0]} x {stated[1]}.",
-        "State the number of inner corners, rows x columns, or leave it out.",
-    )

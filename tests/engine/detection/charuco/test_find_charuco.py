@@ -168,18 +168,43 @@ def test_markers_of_any_family_of_apriltags_are_read_unstated(family: str) -> No
     _assert_right(scene, corners)
 
 
-def test_numbers_that_do_not_begin_with_0_are_named() -> None:
+def _draw_numbered(size: tuple[int, int], first: int, is_legacy: bool = False) -> GreyImage:
+    """Draw a board of inner corners of 50 px whose markers are numbered from another than 0."""
+    rows, cols = size[0] + 1, size[1] + 1
+    dictionary = cv2.aruco.getPredefinedDictionary(cv2.aruco.DICT_4X4_250)
+    numbers = first + np.arange(rows * cols // 2)
+    drawn = cv2.aruco.CharucoBoard((cols, rows), 1.0, 0.72, dictionary, numbers)
+    drawn.setLegacyPattern(is_legacy)
+    image = drawn.generateImage((50 * cols + 80, 50 * rows + 80), marginSize=40)
+    return cv2.GaussianBlur(image, (0, 0), 0.8)
+
+
+@pytest.mark.parametrize("first", [24, 29])
+@pytest.mark.parametrize(
+    ("size", "is_legacy"), [((5, 7), False), ((5, 7), True), ((5, 6), False), ((5, 6), True)]
+)
+@pytest.mark.parametrize("is_stated", [False, True])
+def test_numbers_that_do_not_begin_with_0(
+    size: tuple[int, int], is_legacy: bool, first: int, is_stated: bool
+) -> None:
     """Several boards of one dictionary are made so; OpenCV is told the numbers."""
-    dictionary = cv2.aruco.getPredefinedDictionary(cv2.aruco.DICT_4X4_50)
-    drawn = cv2.aruco.CharucoBoard((8, 6), 1.0, 0.72, dictionary, np.arange(24, 48))
-    image = cv2.GaussianBlur(drawn.generateImage((640, 480), marginSize=40), (0, 0), 0.8)
-    for stated in Charuco(), Charuco("DICT_4X4_50"):
-        with pytest.raises(NoBoardError, match=r"24 to 47; .* 5 x 7 .* 0 to 23"):
-            find_corners(image, (5, 7), pattern=stated)
-    corners = find_corners(image, pattern=Charuco())  # as the hint says
+    image = _draw_numbered(size, first, is_legacy)
+    pattern = Charuco("DICT_4X4_250", 0.72, is_legacy) if is_stated else Charuco()
+    corners = find_corners(image, size, pattern=pattern)
+    assert corners.complete
+    np.testing.assert_allclose(corners.uv, 89.5 + 50.0 * corners.grid[:, ::-1], atol=0.05)
+    assert corners.remark == f"The board's markers are numbered from {first} on."
+
+
+def test_a_part_that_may_begin_with_several_numbers_is_named() -> None:
+    image = _draw_numbered((5, 7), 24)
+    image[:180] = 255
+    with pytest.raises(NoBoardError, match=r"36 to 47; .* 5 x 7 .* 0 to 23"):
+        find_corners(image, (5, 7), pattern=Charuco())
+    corners = find_corners(_draw_numbered((5, 7), 24), pattern=Charuco())  # as the hint says
     assert len(corners) == 35
     with pytest.raises(NoBoardError, match="exactly 7 columns"):
-        find_corners(image, (5, 6), pattern=Charuco())
+        find_corners(_draw_numbered((5, 7), 24), (5, 6), pattern=Charuco())
 
 
 def test_dim_pictures_are_read() -> None:
