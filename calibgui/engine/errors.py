@@ -34,6 +34,17 @@ class UnknownPartError(NoBoardError):
     """An error: marks of a board were read, but they do not tell its corners in this image."""
 
 
+class MirroredError(NoBoardError):
+    """An error: the marks on a board can be read in a mirror only."""
+
+    def __init__(self) -> None:
+        super().__init__(
+            "The board is mirrored here: left is right.",
+            "Turn mirroring off in the camera or in the program that takes the pictures, or print "
+            "the board unmirrored, and take it again.",
+        )
+
+
 class WriteError(CalibrationError):
     """An error: the disk or the system refuses to write a file."""
 

@@ -27,17 +27,14 @@ from calibgui.engine import detection
 from calibgui.engine.arrays import Array, GridSize, Size
 from calibgui.engine.boards import CHECKERBOARD, Board, Pattern
 from calibgui.engine.detection import METHODS, Corners
-from calibgui.engine.errors import CalibrationError, NoBoardError
+from calibgui.engine.errors import CalibrationError, MirroredError, NoBoardError
 from calibgui.engine.images import Image, mirror_orientation, read_image
 
 _MIN_PARTS = 3
 """Number of photographs in which the largest part of a board has one size, from which it counts as
 the board: something covers some corners in each of them. Parts that the image cuts, or that end
 where something begins, are of many sizes."""
-_MIRRORED = (
-    "The board is mirrored here: left is right. Turn mirroring off in the camera or in the program "
-    "that takes the pictures, and take it again."
-)
+_MIRRORED = str(MirroredError())
 """Reason why a board with marks is not found in a mirrored photograph."""
 Progress = Callable[[int, int, View], None]
 """Function that is called with the number of finished images, of all images, and the last view."""
@@ -233,7 +230,13 @@ def _name_mirrored(
     No mark on a board survives that its picture is mirrored, as programs for video calls do.
     """
     named = list(views)
-    lost = [k for k, v in enumerate(named) if v.status is ViewStatus.NO_BOARD and v.roi is None]
+    lost = [
+        k
+        for k, view in enumerate(named)
+        if view.status is ViewStatus.NO_BOARD
+        and view.roi is None
+        and not view.reason.startswith(_MIRRORED)
+    ]
     mirror_images = [
         replace(named[k], orientation=mirror_orientation(named[k].orientation or 1)) for k in lost
     ]

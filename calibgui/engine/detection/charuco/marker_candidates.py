@@ -32,38 +32,50 @@ class MarkerCandidates:
         self._image = image
         self._quads = quads
         self._cells: dict[int, BoolArray] = {}
-        self._matches: dict[tuple[str, bool], tuple[IntArray, IntArray]] = {}
+        self._matches: dict[tuple[str, bool, bool], tuple[IntArray, IntArray]] = {}
 
     def count_fitting(self, dictionary: str, is_inverted: bool = False) -> int:
         """Count the quadrilaterals that may be markers of a dictionary, or, `is_inverted`, markers
         printed bright on dark: the dark around these has an inner edge."""
         return len(self._match_dictionary(dictionary, is_inverted)[0])
 
-    def read_fitting(self, dictionary: str, is_inverted: bool = False) -> tuple[IntArray, Array]:
-        """Read the quadrilaterals that may be markers, as `count_fitting`, each once.
+    def read_fitting(
+        self, dictionary: str, is_inverted: bool = False, is_mirrored: bool = False
+    ) -> tuple[IntArray, Array]:
+        """Read the quadrilaterals that may be markers, as `count_fitting`, each once; or,
+        `is_mirrored`, what may be markers in a mirror.
 
         Returns:
             Numbers (n,) and corners (n, 4, 2) px, clockwise as printed from the upper left.
         """
-        which, best = self._match_dictionary(dictionary, is_inverted)
+        which, best = self._match_dictionary(dictionary, is_inverted, is_mirrored)
         numbers, turns = np.divmod(best, 4)
         turned = (np.arange(4) - turns[:, None]) % 4
+        if is_mirrored:
+            turned = -turned % 4
         return drop_repeated(numbers, self._quads[which[:, None], turned])
 
-    def _match_dictionary(self, dictionary: str, is_inverted: bool) -> tuple[IntArray, IntArray]:
+    def _match_dictionary(
+        self, dictionary: str, is_inverted: bool, is_mirrored: bool = False
+    ) -> tuple[IntArray, IntArray]:
         """Find the quadrilaterals (n,) that may be markers, and the turned markers (n,), as
         `_encode_markers` lists them, that they are most alike; once."""
-        if (dictionary, is_inverted) not in self._matches:
-            self._matches[dictionary, is_inverted] = self._match_cells(dictionary, is_inverted)
-        return self._matches[dictionary, is_inverted]
+        key = dictionary, is_inverted, is_mirrored
+        if key not in self._matches:
+            self._matches[key] = self._match_cells(*key)
+        return self._matches[key]
 
-    def _match_cells(self, dictionary: str, is_inverted: bool) -> tuple[IntArray, IntArray]:
+    def _match_cells(
+        self, dictionary: str, is_inverted: bool, is_mirrored: bool
+    ) -> tuple[IntArray, IntArray]:
         """Compare the cells of all quadrilaterals with a dictionary; see `_match_dictionary`."""
         codes, correctable = _encode_markers(dictionary)
         k = int(np.sqrt(codes.shape[1]))
         if k not in self._cells:
             self._cells[k] = find_dark_cells(self._image, self._quads, k + 2)
         dark = ~self._cells[k] if is_inverted else self._cells[k]
+        if is_mirrored:
+            dark = dark.swapaxes(1, 2)
         inner = dark[:, 1:-1, 1:-1]
         bright = (k + 2) ** 2 - k * k - (dark.sum(axis=(1, 2)) - inner.sum(axis=(1, 2)))
         which = np.flatnonzero(bright <= CHARUCO_THRESHOLDS.max_border_error_share * k * k)

@@ -148,6 +148,17 @@ class MarkerReader:
             best = found
         return best
 
+    def is_mirrored(self, dictionary: str | None) -> bool:
+        """Return whether quadrilaterals of the coarsest level may be markers of a dictionary, or of
+        any, in a mirror, and lie as on a board."""
+        coarsest = self._find_candidates(len(self._levels) - 1)
+        for name in [dictionary] if dictionary else _list_family_members(2):
+            read = coarsest.read_fitting(name, is_mirrored=True)
+            boards = identify_board(*read, MARKER_LAYOUTS, MARKER_LAYOUTS)
+            if boards and tell_rows_apart(boards[0].squares, MARKER_NEIGHBOURS):
+                return True
+        return False
+
     def _may_show_more(self, dictionary: str, board: ReadBoard) -> bool:
         """Return whether more quadrilaterals may be markers of a dictionary than were read."""
         coarsest = self._find_candidates(len(self._levels) - 1)

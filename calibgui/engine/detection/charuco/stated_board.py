@@ -21,7 +21,7 @@ from calibgui.engine.detection.charuco.marker_reader import MarkerReader, ReadBo
 from calibgui.engine.detection.charuco.markers import Markers
 from calibgui.engine.detection.charuco.thresholds import CHARUCO_THRESHOLDS
 from calibgui.engine.detection.detector_io import convert_for_reading, invert_levels
-from calibgui.engine.errors import NoBoardError, UnknownPartError
+from calibgui.engine.errors import MirroredError, NoBoardError, UnknownPartError
 
 
 def open_readers(grey: GreyImage, outline: Array | None) -> list[MarkerReader]:
@@ -142,6 +142,8 @@ def _explain_missing_board(
             "The markers seen do not tell how many squares the board has in a row.",
             "State its rows and columns, or show more of it.",
         )
+    if found is None and any(reader.is_mirrored(pattern.dictionary) for reader in readers):
+        return MirroredError()
     if found is None:
         return NoBoardError(
             "No ChArUco board was found.",

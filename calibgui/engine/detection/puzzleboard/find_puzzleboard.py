@@ -51,7 +51,7 @@ from calibgui.engine.detection.puzzleboard.place_decoding import (
     is_certain,
     may_be_dots,
 )
-from calibgui.engine.errors import NoBoardError
+from calibgui.engine.errors import MirroredError, NoBoardError
 
 _MAX_SHOWN_LINES = 6
 """Greatest number of rows, and of columns, of a lattice without dots that are verified to say that
@@ -186,10 +186,7 @@ def _explain_missing_board(
     """Return the error that says what an image shows instead of a PuzzleBoard that can be read:
     of boards without dots the one of the longest edges, if it is a board."""
     if any(each.is_mirrored for each in placed):
-        return NoBoardError(
-            "This picture shows the PuzzleBoard mirrored.",
-            "Switch off the mirroring in the camera's settings, and take the picture again.",
-        )
+        return MirroredError()
     # Those of many corners that are sparse are a texture's.
     least = THRESHOLDS.search.min_filled_in_texture
     seen = [each.board.lattice for each in placed if not is_scattered(each.board.lattice, least)]

@@ -19,7 +19,7 @@ from calibgui.engine.camera.camera import Camera
 from calibgui.engine.detection.charuco.markers import identify_board
 from calibgui.engine.detection.corners import Corners
 from calibgui.engine.detection.find_corners import find_corners
-from calibgui.engine.errors import CalibrationError, NoBoardError
+from calibgui.engine.errors import CalibrationError, MirroredError, NoBoardError
 from calibgui.engine.images.reading import read_image
 from tests.engine.detection.conftest import Scene
 from tests.scenes.perspective import photograph_pattern
@@ -166,6 +166,19 @@ def test_markers_of_any_family_of_apriltags_are_read_unstated(family: str) -> No
     assert isinstance(corners.pattern, Charuco)
     assert corners.pattern.dictionary == pattern.dictionary
     _assert_right(scene, corners)
+
+
+@pytest.mark.parametrize("is_inverted", [False, True])
+@pytest.mark.parametrize(
+    ("pattern", "size"),
+    [(Charuco(), None), (Charuco(), (5, 8)), (_WHITE_FIRST.board.pattern, (5, 8))],
+)
+def test_a_mirrored_board_is_told(
+    pattern: Charuco, size: tuple[int, int] | None, is_inverted: bool
+) -> None:
+    image = _WHITE_FIRST.image()[:, ::-1]
+    with pytest.raises(MirroredError, match="left is right"):
+        find_corners(255 - image if is_inverted else image, size, pattern=pattern)
 
 
 def _draw_numbered(size: tuple[int, int], first: int, is_legacy: bool = False) -> GreyImage:
