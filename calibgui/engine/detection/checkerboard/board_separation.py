@@ -9,6 +9,12 @@ one of the maps expects. These two maps are rigid, a homography under a lens: wa
 a board that is curled, or that a shaken camera shows in waves, would else be cut, since a map that
 bends as well follows any few lines.
 
+Two boards that lie edge to edge have lines so nearly in common that one map that bends follows all.
+Only the edge model tells them, after the fit: at the line where they meet it leaves more
+unexplained than at those beside it, since the squares on either side are not each other's, and the
+corners there lie on the map of neither board (`cut_at_seam`). A board printed on two sheets breaks
+between its corners, which lie on the map of one or the other, and stays whole.
+
 What a board has grown into shows otherwise. From the largest rectangle without a gap that lies on
 one map on, line by line, those corners are taken that lie where the map of the others expects them.
 What this leaves is a board if it lies on a smooth map and is seen to end on all four sides.
@@ -124,15 +130,68 @@ def _list_cuts(lattice: Lattice) -> Iterator[tuple[Lattice, Lattice]]:
         rows = turned.shape[0]
         for row in range(MIN_LINES, rows - MIN_LINES + 1):
             for left_out in (0, 1):
-                start = row + left_out
-                parts = (
-                    drop_isolated_and_crop(Lattice(turned.uv[:row], turned.dark)),
-                    drop_isolated_and_crop(
-                        Lattice(turned.uv[start:], turned.dark ^ bool(start % 2))
-                    ),
-                )
+                parts = _split_lattice(turned, row, row + left_out)
                 if all(map(is_large_enough, parts)):
                     yield turn_lattice(parts[0], -quarters), turn_lattice(parts[1], -quarters)
+
+
+def _split_lattice(lattice: Lattice, end: int, start: int) -> tuple[Lattice, Lattice]:
+    """Split a lattice into its rows before `end` and those from `start` on."""
+    return (
+        drop_isolated_and_crop(Lattice(lattice.uv[:end], lattice.dark)),
+        drop_isolated_and_crop(Lattice(lattice.uv[start:], lattice.dark ^ bool(start % 2))),
+    )
+
+
+def cut_at_seam(lattice: Lattice, unexplained: Array) -> tuple[Lattice, Lattice] | None:
+    """Cut a lattice along a line at which two boards lie edge to edge, which is left out; None if
+    there is no such line.
+
+    Args:
+        lattice: n corners, as the edge model places them.
+        unexplained: (n,) what the model leaves unexplained there, over the contrast.
+    """
+    excess = np.full(lattice.shape, np.nan)
+    excess[lattice.found] = unexplained
+    misfit = _measure_misfit([lattice])
+    for quarters in (0, 1):
+        turned, relative = turn_lattice(lattice, quarters), np.rot90(excess, quarters)
+        for row in range(MIN_LINES, len(relative) - MIN_LINES):
+            parts = _split_lattice(turned, row, row + 1)
+            if _is_described_worse(relative[row - 1 : row + 2]) and _are_apart(
+                turned, row, parts, misfit
+            ):
+                return turn_lattice(parts[0], -quarters), turn_lattice(parts[1], -quarters)
+    return None
+
+
+def _is_described_worse(unexplained: Array) -> bool:
+    """Return whether the middle one of three lines (3, m) leaves more unexplained than both others,
+    at nearly all of its corners."""
+    ratio = unexplained[1] / np.fmax(unexplained[0], unexplained[2])
+    ratio = ratio[np.isfinite(ratio)]
+    if len(ratio) < MIN_LINES:
+        return False
+    return bool(
+        np.median(ratio) > THRESHOLDS.separation.min_seam_excess
+        and np.mean(ratio > 1) > THRESHOLDS.separation.min_seam_corners
+    )
+
+
+def _are_apart(lattice: Lattice, row: int, parts: tuple[Lattice, Lattice], misfit: float) -> bool:
+    """Return whether the `parts` before and behind a row lie on maps of their own, as all corners
+    lie on one map only to a much larger `misfit`, steps, and those of the row on neither."""
+    if not all(map(is_large_enough, parts)):
+        return False
+    limits = THRESHOLDS.separation
+    apart = max(_measure_misfit(list(parts)), _NEGLIGIBLE_MISFIT)
+    if misfit < limits.min_seam_misfit_ratio * apart:
+        return False
+    return all(
+        _measure_misfit(list(_split_lattice(lattice, cut, cut)))
+        > limits.min_row_misfit_ratio * apart
+        for cut in (row, row + 1)
+    )
 
 
 def _find_rigid_core(lattice: Lattice) -> Lattice:

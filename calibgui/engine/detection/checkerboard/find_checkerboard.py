@@ -32,7 +32,7 @@ from calibgui.engine.detection.checkerboard import (
     harris,
     verification,
 )
-from calibgui.engine.detection.checkerboard.board_separation import separate_boards
+from calibgui.engine.detection.checkerboard.board_separation import cut_at_seam, separate_boards
 from calibgui.engine.detection.checkerboard.numbering import (
     Numbering,
     is_relative,
@@ -176,7 +176,9 @@ def _find_wanted_board(
             if candidate not in tried:
                 same = find_same(candidate, (each for each in tried if _is_refused(tried[each])))
                 tried[candidate] = (
-                    _verify_parts(grey, candidate, method) if same is None else tried[same]
+                    _verify_parts(grey, candidate, grid_size, method)
+                    if same is None
+                    else tried[same]
                 )
         results = (result for candidate in candidates for result in tried[candidate])
         boards = [board for board in results if isinstance(board, RefinedBoard)]
@@ -236,17 +238,42 @@ def _is_refused(results: list[RefinedBoard | Refusal]) -> bool:
 
 
 def _verify_parts(
-    grey: GreyImage, candidate: Candidate, method: str
+    grey: GreyImage, candidate: Candidate, grid_size: GridSize | None, method: str
 ) -> list[RefinedBoard | Refusal]:
-    """Take a candidate apart where it is cut by a crease, and verify the parts."""
-    parts = separate_boards(candidate.lattice, grey)
-    results = [_verify_lattice(grey, part, candidate.others, method) for part in parts]
-    if len(parts) == 1:
+    """Take a candidate apart where it is cut by a crease or a seam, and verify the parts."""
+    results = [
+        result
+        for part in separate_boards(candidate.lattice, grey)
+        for result in _verify_seamed(grey, part, candidate.others, grid_size, method)
+    ]
+    if len(results) == 1:
         return results
     shape = candidate.lattice.shape
     return [
         replace(each, cut_from=shape) if isinstance(each, RefinedBoard) else each
         for each in results
+    ]
+
+
+def _verify_seamed(
+    grey: GreyImage, lattice: Lattice, others: int, grid_size: GridSize | None, method: str
+) -> list[RefinedBoard | Refusal]:
+    """Return the boards that a lattice is, or why it is none: more than one where boards lie edge
+    to edge, unless together they are of the stated size, as one that is printed on several sheets.
+    """
+    board = _verify_lattice(grey, lattice, others, method)
+    if isinstance(board, Refusal) or board.fit is None:
+        return [board]
+    if grid_size is not None and sorted(grid_size) == sorted(board.lattice.shape):
+        return [board]
+    uv, fit = board.lattice.uv.copy(), board.fit
+    uv[board.lattice.found] = fit.uv
+    fitted = Lattice(uv, board.lattice.dark)
+    parts = cut_at_seam(fitted, fit.residual / fit.contrast)
+    if parts is None:
+        return [board]
+    return [
+        result for part in parts for result in _verify_seamed(grey, part, others, grid_size, method)
     ]
 
 

@@ -208,6 +208,17 @@ class SeparationThresholds:
     """Rms distance of a cut, over that of the best, up to which the number of corners decides."""
     max_gaps: float = 1 / 3
     """Share of a border line's places without a corner, beyond which the line is ragged."""
+    min_seam_excess: float = 1.4
+    """Least median ratio of what the edge model leaves unexplained at the corners of a line to what
+    it leaves at those beside it, if two boards meet in the line ..."""
+    min_seam_corners: float = 0.7
+    """... share of its corners that have more than those beside them ..."""
+    min_seam_misfit_ratio: float = 3.0
+    """... rms distance of all corners from one map, over that from the maps of both boards ..."""
+    min_row_misfit_ratio: float = 1.3
+    """... and the same with the line taken for one board's. Boards that lie 0.02 to 0.1 squares
+    apart have 1.4 to 4, 3.9 to 60 and 1.3 to 24; lines of 250 boards under all of the troubles
+    never had all of it."""
     max_lines: int = 20
     """Number of lines along the shorter side beyond which no cut is tried: it bounds the time."""
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from calibgui.engine.detection.checkerboard.board_separation import separate_boards
+from calibgui.engine.detection.checkerboard.board_separation import cut_at_seam, separate_boards
 from calibgui.engine.detection.find_corners import find_corners
 from calibgui.engine.detection.lattice import Lattice
 from calibgui.engine.errors import NoBoardError
@@ -111,3 +111,60 @@ def test_a_texture_in_which_corners_coincide_is_refused() -> None:
     """The misfit of its parts is not a number; no cut was the best of those, and that an error."""
     with pytest.raises(NoBoardError):
         find_corners(draw_without_board(500960))
+
+
+GAP = 0.05
+"""Distance of two boards that lie edge to edge, squares."""
+
+
+def place_edge_to_edge(seam: float) -> tuple[Array, Array]:
+    """Corners of a board of 5 x 5, a line, and of a second such board; and what the edge model
+    leaves unexplained there. The line lies at the share `seam` of the gap, 0.5 being where boards
+    that lie edge to edge show one."""
+    conditions = Conditions(grid_size=(5, 11), square=22.0, tilt=20.0, turn=15.0, parts=1)
+    uv = draw(conditions, 3).uv + np.random.default_rng(0).normal(0, 0.02, (5, 11, 2))
+    step = uv[:, 6] - uv[:, 5]
+    uv[:, 6:] += GAP * step[:, None]
+    uv[:, 5] += seam * GAP * step
+    unexplained = np.full((5, 11), 0.01)
+    unexplained[:, 5] = 0.02
+    return uv, unexplained
+
+
+def test_boards_that_lie_edge_to_edge_are_cut_apart() -> None:
+    uv, unexplained = place_edge_to_edge(0.5)
+    parts = cut_at_seam(Lattice(uv, True), unexplained.ravel())
+    assert parts is not None
+    assert [(part.shape, part.dark) for part in parts] == [((5, 5), True), ((5, 5), True)]
+    # A line that is described no worse than others is a bend.
+    assert cut_at_seam(Lattice(uv, True), np.full(55, 0.01)) is None
+
+
+@pytest.mark.parametrize("seam", [0.0, 1.0])
+def test_a_board_of_two_sheets_is_not_cut(seam: float) -> None:
+    """Its corners are those of the one sheet or of the other."""
+    uv, unexplained = place_edge_to_edge(seam)
+    assert cut_at_seam(Lattice(uv, True), unexplained.ravel()) is None
+
+
+def test_boards_that_lie_edge_to_edge_are_found_one_by_one() -> None:
+    """Unless the size of both together is stated: a large board is printed on several sheets."""
+    conditions = Conditions(
+        grid_size=(5, 4), square=32.0, turn=4.0, centre=(-80.0, 0.0), quiet=GAP / 2
+    )
+    scene = draw(conditions, 3, _lay_copy_beside)
+    image = scene.photograph(3)
+    corners = find_corners(image)
+    assert corners.shape == (4, 5)
+    assert corners.remark
+    assert len(corners.others) == 1
+    assert len(find_corners(image, grid_size=(5, 9)).uv) == 45
+
+
+def _lay_copy_beside(paint: Array, x: Array, y: Array) -> Array:
+    """Lay a board beside that of 5 x 4 corners."""
+    across = x - 5 - GAP
+    is_board = (across > -1) & (across < 4) & (y > -1) & (y < 5)
+    is_dark = is_board & ((np.floor(across) + np.floor(y)) % 2 == 1)
+    is_sheet = (across > -1 - GAP / 2) & (across < 4.5) & (y > -1.5) & (y < 5.5) & (x > 4)
+    return np.where(is_sheet, np.where(is_dark, 0.0, 1.0), paint)
