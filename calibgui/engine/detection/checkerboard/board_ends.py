@@ -54,6 +54,11 @@ def find_ends(lattice: Lattice, image: GreyImage) -> Sides:
     return top, right, bottom, left
 
 
+def is_whole(lattice: Lattice, image: GreyImage) -> bool:
+    """Return whether a lattice has no gap and the image shows that the board ends on all sides."""
+    return bool(lattice.found.all()) and all(find_ends(lattice, image))
+
+
 def find_continuing_sides(lattice: Lattice, image: GreyImage) -> Sides:
     """Find the sides of a lattice beyond which a line of squares goes on alternating as its own do,
     though none of its corners were taken: where the board is seen to end, it does not."""

@@ -27,7 +27,7 @@ from collections.abc import Callable, Iterator
 import numpy as np
 
 from calibgui.engine import opencv
-from calibgui.engine.arrays import Array, GreyImage, compute_lengths
+from calibgui.engine.arrays import Array, BoolArray, GreyImage, compute_lengths
 from calibgui.engine.detection import grid_map
 from calibgui.engine.detection.checkerboard.board_ends import find_ends
 from calibgui.engine.detection.checkerboard.numbering import turn_lattice
@@ -36,6 +36,7 @@ from calibgui.engine.detection.lattice import (
     MIN_CORNERS,
     MIN_LINES,
     Lattice,
+    add_border,
     crop_lattice,
     drop_isolated_and_crop,
     is_large_enough,
@@ -70,7 +71,10 @@ def separate_boards(lattice: Lattice, image: GreyImage) -> list[Lattice]:
     if is_board and len(lattice) - len(board) < MIN_CORNERS:
         return [board]
     if parts := _cut_at_crease(lattice, misfit):
-        return [piece for part in parts for piece in separate_boards(part, image)]
+        # A board on a floor may be neither of two parts, if these are the floor on both its sides.
+        rest = _subtract(_subtract(lattice, parts[0]), parts[1])
+        pieces = [*parts, rest] if is_large_enough(rest) else parts
+        return [board for piece in pieces for board in separate_boards(piece, image)]
     return [board if is_board else lattice]
 
 
@@ -117,8 +121,7 @@ def _list_cuts(lattice: Lattice) -> Iterator[tuple[Lattice, Lattice]]:
     """List the pairs of lattices, large enough for boards, on both sides of a cut between two lines
     or along one, which is then left out, and the rigid core and that of what is around it."""
     core = _find_rigid_core(lattice)
-    is_around = ~np.isin(lattice.uv[..., 0], core.uv[..., 0])
-    around = drop_isolated_and_crop(lattice.select(is_around))
+    around = _subtract(lattice, core)
     if is_large_enough(core) and is_large_enough(around):
         other = _find_rigid_core(around)
         if is_large_enough(other):
@@ -133,6 +136,12 @@ def _list_cuts(lattice: Lattice) -> Iterator[tuple[Lattice, Lattice]]:
                 parts = _split_lattice(turned, row, row + left_out)
                 if all(map(is_large_enough, parts)):
                     yield turn_lattice(parts[0], -quarters), turn_lattice(parts[1], -quarters)
+
+
+def _subtract(lattice: Lattice, part: Lattice) -> Lattice:
+    """Return what is left of a lattice without the corners of a part of it."""
+    is_left = ~np.isin(lattice.uv[..., 0], part.uv[..., 0])
+    return drop_isolated_and_crop(lattice.select(is_left & lattice.found))
 
 
 def _split_lattice(lattice: Lattice, end: int, start: int) -> tuple[Lattice, Lattice]:
@@ -208,7 +217,11 @@ def _find_core(lattice: Lattice, fit_map: MapFit, max_deviation: float) -> Latti
     max_misfit = THRESHOLDS.separation.max_joint_misfit
     found, spacing = lattice.found, lattice.spacing()
     core = np.zeros(lattice.shape, dtype=np.bool_)
-    rectangles = list_full_rectangles(found)
+    rectangles = [
+        rectangle
+        for mask in (found, _find_even_corners(lattice))
+        for rectangle in list_full_rectangles(mask)
+    ]
     for row, col, rows, cols in sorted(rectangles, key=lambda each: -each[2] * each[3]):
         core[:] = False
         core[row : row + rows, col : col + cols] = True
@@ -229,6 +242,17 @@ def _find_core(lattice: Lattice, fit_map: MapFit, max_deviation: float) -> Latti
         if not core.any():
             break
     return crop_lattice(lattice.select(core))
+
+
+def _find_even_corners(lattice: Lattice) -> BoolArray:
+    """Find the corners (rows, cols) in the middle of their four neighbours, as inside of a board:
+    at its end, the lattice goes on in another pattern's steps."""
+    uv = add_border(lattice.uv, 1)
+    pairs = ((uv[1:-1, :-2], uv[1:-1, 2:]), (uv[:-2, 1:-1], uv[2:, 1:-1]))
+    limit = THRESHOLDS.separation.max_core_deviation * lattice.spacing()
+    return np.logical_and.reduce(
+        [compute_lengths(lattice.uv - (one + other) / 2) < limit for one, other in pairs]
+    )
 
 
 def _drop_ragged_lines(lattice: Lattice) -> Lattice:

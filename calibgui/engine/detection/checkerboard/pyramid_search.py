@@ -305,7 +305,9 @@ def _grow_lattices(
         if is_one_too_many(seed) or any(is_part(seed, other) for other in grown):
             continue
         is_wanted = len(seed) < limits.min_judged_corners or not is_none_wanted(seed)
-        lattice = grow_lattice(seed, nearby, beyond, is_hopeless) if is_wanted else seed
+        # A board that is all there would only grow into the floor or the cloth that it lies on.
+        may_grow = is_wanted and not board_ends.is_whole(seed, smooth)
+        lattice = grow_lattice(seed, nearby, beyond, is_hopeless) if may_grow else seed
         grown.append(seed if lattice is None else lattice)
         if is_one_too_many(grown[-1]):
             continue

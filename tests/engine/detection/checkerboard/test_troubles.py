@@ -55,6 +55,13 @@ def test_one_of_two_walls_is_found_by_its_size(seed: int) -> None:
         assert len(corners) == truth[..., 0].size
 
 
+@pytest.mark.parametrize("seed", [13, 23, 25])
+def test_a_board_is_taken_from_the_chequered_floor_around_it(seed: int) -> None:
+    """Edges lead from the one into the other (13, 25), or the board, which is found whole, grew
+    into the floor (23); the floor lies on both sides of it (25)."""
+    assert find("chequered", seed).whole == 1
+
+
 @pytest.mark.parametrize("seed", [3010, 3012])
 def test_a_board_beyond_the_end_of_another_is_not_joined_to_it(seed: int) -> None:
     """Squares of the same size, two empty columns away, were counted as the board's own."""
