@@ -39,7 +39,6 @@ from calibgui.engine.detection.checkerboard.numbering import (
     list_numberings,
     place_corners,
 )
-from calibgui.engine.detection.checkerboard.pixel_noise import estimate_pixel_noise
 from calibgui.engine.detection.checkerboard.prefilter import Refusal, find_objection
 from calibgui.engine.detection.checkerboard.pyramid_search import (
     Candidate,
@@ -63,6 +62,7 @@ from calibgui.engine.detection.lattice import (
     drop_isolated_and_crop,
     is_large_enough,
 )
+from calibgui.engine.detection.pixel_noise import estimate_pixel_noise
 from calibgui.engine.errors import NoBoardError
 
 _MAX_GAP_ROUNDS = 16

@@ -15,16 +15,30 @@ from calibgui.engine import opencv
 from calibgui.engine.arrays import Array, BoolArray, GreyImage
 from calibgui.engine.detection.circles.thresholds import CIRCLE_THRESHOLDS
 
+FOG_SHARE = 1 / 16
+"""What scatters in a lens and is added to all levels before their logarithm is taken, over the
+brightest: below it lies noise."""
+_STEPS_PER_E = 255 / np.log1p(1 / FOG_SHARE)
+"""Number of steps of the compressed levels by which they differ where light differs by e."""
+
+
+def compress_levels(image: npt.NDArray[np.uint8]) -> npt.NDArray[np.uint8]:
+    """Return the logarithm of an 8-bit image, in 8 bits: there ink differs from paper by as much in
+    a shadow as beside it, and bright discs from dark paper by as much as dark ones from bright."""
+    fog = FOG_SHARE * max(int(image.max()), 1)
+    table = np.minimum(_STEPS_PER_E * np.log1p(np.arange(256) / fog), 255)
+    return np.asarray(np.rint(table).astype(np.uint8)[image])
+
 
 def find_blobs(image: GreyImage, window: int, most: int, *, is_shaded: bool = False) -> Array:
     """Find the centres (n, 2) px of at most `most` parts of an 8-bit image (h, w).
 
-    A part is darker than the mean of the `window` px around, or, if the image `is_shaded`, than the
-    paper beside it, on either side of a shadow's edge.
+    A part is darker than the mean of the `window` px around, or, if the image `is_shaded`, one of
+    `compress_levels`, than the paper beside it, on either side of a shadow's edge.
     """
     limits = CIRCLE_THRESHOLDS
-    share = limits.max_ink_share if is_shaded else None
-    labels, size = opencv.label_dark_parts(image, window, share)
+    depth = round(-_STEPS_PER_E * np.log(limits.max_ink_share)) if is_shaded else None
+    labels, size = opencv.label_dark_parts(image, window, depth)
     area = size[:, 2].astype(np.float64)
     large = area >= limits.min_blob_area
     large &= area > limits.min_box_fill * size[:, 0] * size[:, 1]

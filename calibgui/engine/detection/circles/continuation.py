@@ -14,15 +14,20 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
+import numpy.typing as npt
 
-from calibgui.engine.arrays import Array, BoolArray, GreyImage, IntArray
+from calibgui.engine.arrays import Array, BoolArray, IntArray
 from calibgui.engine.boards.circle_grid import list_grid_indices
+from calibgui.engine.detection.circles.blobs import FOG_SHARE
 from calibgui.engine.detection.circles.thresholds import CIRCLE_THRESHOLDS
 from calibgui.engine.detection.lattice import estimate_steps, predict_places
 from calibgui.engine.images.sampling import sample_image
 
 _CELL_MIDDLES = np.array([(0.5, 0.5), (0.5, -0.5), (-0.5, 0.5), (-0.5, -0.5)])
 """(4, 2) paper around a disc, steps of the lattice."""
+
+_SHADE = 0.5
+"""Least light of paper that lies in no shadow, over that of the grid."""
 
 
 class Continuation(NamedTuple):
@@ -34,15 +39,21 @@ class Continuation(NamedTuple):
     """True if one of them would lie outside of the image."""
     has_discs: bool
     """True if there is a circle in a place of one of them; the others may be covered."""
+    is_shaded: bool
+    """True if it is less than half as bright beside one of them as on the grid: a shadow's edge may
+    pass through the line's circles and hide them."""
 
 
-def find_continuation(centres: Array, image: GreyImage, *, asymmetric: bool) -> Continuation:
-    """Find out whether an image (h, w), ink dark, shows a grid to go on, or to end, on all sides.
+def find_continuation(
+    centres: Array, image: npt.NDArray[np.uint8], *, asymmetric: bool, are_bright: bool = False
+) -> Continuation:
+    """Find out whether an image (h, w) shows a grid to go on, or to end, on all sides.
 
     Args:
         centres: (rows, cols, 2) px, good to a tenth of their distance.
         image: grey levels.
         asymmetric: True if every second row is shifted by half.
+        are_bright: True if the discs are brighter than the paper.
     """
     rows, cols = centres.shape[:2]
     places = _find_lattice_places(list_grid_indices((rows, cols)), asymmetric=asymmetric)
@@ -50,15 +61,25 @@ def find_continuation(centres: Array, image: GreyImage, *, asymmetric: bool) -> 
     uv = np.full((*(places.max(axis=0) - first + 2), 2), np.nan)
     uv[tuple((places - first).T)] = centres.reshape(-1, 2)
     known = np.isfinite(uv[..., 0])
-    difference = _measure_differences(predict_places(uv), estimate_steps(uv), image)
-    limit = CIRCLE_THRESHOLDS.min_relative_contrast * np.nanmedian(difference[known])
-    beyond = ~known & np.isfinite(difference)
-    is_disc = difference[beyond] > limit
+    levels = _sample_cells(predict_places(uv), estimate_steps(uv), image)
+    is_sampled = np.isfinite(levels[..., 0])
+    beyond = ~known & is_sampled
+    is_disc = np.zeros(np.count_nonzero(beyond), dtype=bool)
+    # A shadow leaves discs less contrast, but as much in the logarithm.
+    fog = FOG_SHARE * max(float(np.nanmax(levels)), 1.0)
+    for scale in (levels, np.log1p(levels / fog)):
+        seen = -scale if are_bright else scale
+        difference = np.fmin.reduce(seen[..., 1:], axis=2) - seen[..., 0]
+        limit = CIRCLE_THRESHOLDS.min_relative_contrast * np.nanmedian(difference[known])
+        is_disc |= difference[beyond] > limit
+    light = np.median(np.nanmedian(levels[known & is_sampled, 1:], axis=1))
+    paper = np.nanmin(levels[beyond, 1:], axis=1)
     lines = _find_lines(np.argwhere(beyond) + first, (rows, cols), asymmetric=asymmetric)
     return Continuation(
         any(2 * np.count_nonzero(is_disc[line]) > np.count_nonzero(line) for line in lines),
         not all(line.any() for line in lines),
         any(is_disc[line].any() for line in lines),
+        any(np.median(paper[line]) < _SHADE * light for line in lines if line.any()),
     )
 
 
@@ -84,10 +105,9 @@ def _find_lines(
     return row < 0, row >= rows, x < 0, x >= width
 
 
-def _measure_differences(at: Array, steps: tuple[Array, Array], image: GreyImage) -> Array:
-    """Measure how much darker the image is at places (rows, cols, 2) px than in any of the cells'
-    middles around, grey levels (rows, cols); NaN where the place or most of them is not in the
-    image."""
+def _sample_cells(at: Array, steps: tuple[Array, Array], image: npt.NDArray[np.uint8]) -> Array:
+    """Sample an image at places (rows, cols, 2) px and in the cells' middles around, grey levels
+    (rows, cols, 5); NaN where not in the image, or where the place or most of them are not."""
     right, down = steps
     paper = at[..., None, :] + (
         _CELL_MIDDLES[:, :1] * right[..., None, :] + _CELL_MIDDLES[:, 1:] * down[..., None, :]
@@ -98,4 +118,4 @@ def _measure_differences(at: Array, steps: tuple[Array, Array], image: GreyImage
     inside &= inside[..., :1] & (np.count_nonzero(inside[..., 1:], axis=2, keepdims=True) >= 2)
     levels = np.full(inside.shape, np.nan)
     levels[inside] = sample_image(image, points[inside])
-    return np.asarray(np.fmin.reduce(levels[..., 1:], axis=2) - levels[..., 0])
+    return levels

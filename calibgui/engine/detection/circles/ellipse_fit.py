@@ -33,12 +33,15 @@ from calibgui.engine.arrays import Array, BoolArray, GreyImage, IntArray
 from calibgui.engine.detection.circles.thresholds import CIRCLE_THRESHOLDS
 from calibgui.engine.detection.detector_io import estimate_least_noise
 from calibgui.engine.detection.edge_intensity import compute_edge
+from calibgui.engine.detection.pixel_noise import estimate_noise_at, find_readable
 from calibgui.engine.images.sampling import sample_image
 
 _BAND_HALF_WIDTHS = (3.0, 2.3)
 """Half widths of the bands that are read, in the first step and in later ones, blurs."""
 _GAUSS_NEWTON_STEPS = 6
 """Number of steps."""
+_EVENNESS_STEP = 2
+"""The one of them after which the ellipses are near enough to tell by what light they are seen."""
 _MAX_RELATIVE_STEP = 0.3
 """Greatest change of S in one step, over itself."""
 _MIN_BLUR = 0.3
@@ -59,7 +62,10 @@ _MIN_RHO = 0.3
 _MAX_NEIGHBOUR_ERROR = 0.3
 """Greatest distance of a disc's neighbour from its place, steps."""
 _LEAST_RISE = 0.02
-"""Change of the light from disc to disc below which both sides count alike, half contrasts."""
+"""Change of the light from disc to disc below which both sides count alike, or across a disc below
+which it is not doubted, half contrasts."""
+_PATCH_REACH = 3.0
+"""Greatest distance of a pixel that the noise is read from, px."""
 _INK_REACH = 0.2
 """Distance from the centre within which samples are ink, half distances of neighbours."""
 
@@ -74,6 +80,9 @@ class EllipseFit:
     """(n, 2, 2) of c, px^2."""
     residual: Array
     """(n,) standard deviation of what the model leaves unexplained, grey levels."""
+    noise: Array
+    """(n,) standard deviation of the noise from pixel to pixel on the paper beside, grey levels; 0
+    where that is not told."""
 
     @property
     def uv(self) -> Array:
@@ -89,6 +98,26 @@ class EllipseFit:
     def contrast(self) -> Array:
         """(n,) difference of paper and disc, grey levels."""
         return 2 * abs(self.unknowns[_A])
+
+    @property
+    def are_bright(self) -> bool:
+        """True if most discs are brighter than the paper."""
+        return bool(np.median(self.unknowns[_A]) > 0)
+
+    @property
+    def light(self) -> Array:
+        """(n,) level of the brighter of disc and paper, grey levels."""
+        return self.unknowns[_M] + abs(self.unknowns[_A])
+
+    @property
+    def misfit(self) -> Array:
+        """(n,) standard deviation of what is left unexplained and is no noise, over the contrast.
+
+        Of the noise no more is believed than leaves an edge to be seen: where textures are taken
+        for discs it is their own roughness.
+        """
+        noise = np.minimum(self.noise, CIRCLE_THRESHOLDS.max_noise_share * self.contrast)
+        return np.asarray(np.sqrt(np.maximum(self.residual**2 - noise**2, 0.0)) / self.contrast)
 
     @property
     def spread(self) -> Array:
@@ -111,14 +140,51 @@ def fit_ellipses(
     """
     x = _estimate_start(image, uv, steps, reach, paper)
     gradient, beside = np.zeros_like(uv), _find_neighbours(uv, steps, neighbours)
+    is_even = np.zeros(len(uv), dtype=bool)
     for step in range(_GAUSS_NEWTON_STEPS):
         fit = _take_step(image, x, gradient, _BAND_HALF_WIDTHS[min(step, 1)])
         x = fit.unknowns
         gradient = _estimate_gradient(x[_M], x, beside)
+        if step == _EVENNESS_STEP:
+            is_even = _find_evenly_lit(image, x, gradient)
+        gradient[is_even] = 0.0
     rise = _estimate_gradient(x[_A], x, beside) / x[:, 7:]
+    rise[is_even] = 0.0
     moved = x.copy()
     moved[_C] += x[_BLUR][:, None] ** 2 * rise
-    return replace(fit, unknowns=moved)
+    on_paper = uv[:, None] + (steps @ paper.T).transpose(0, 2, 1)
+    return replace(fit, unknowns=moved, noise=_estimate_noise(image, x, on_paper))
+
+
+def _find_evenly_lit(image: GreyImage, x: Array, gradient: Array) -> BoolArray:
+    """Find the discs (n,) True that even light describes better than the `gradient` (n, 2) that is
+    seen from disc to disc: the edge of a shadow passes beside them."""
+    is_even = np.zeros(len(x), dtype=bool)
+    spread = np.linalg.inv(_assemble_matrix(x[_S]))
+    across = np.sqrt(np.maximum(np.einsum("ni,nij,nj->n", gradient, spread, gradient), 0.0))
+    doubtful = np.flatnonzero(across > _LEAST_RISE * abs(x[_A]))
+    if len(doubtful):
+        x, gradient = x[doubtful], gradient[doubtful]
+        uneven, even = (
+            _take_step(image, x, light, _BAND_HALF_WIDTHS[1]).residual
+            for light in (gradient, np.zeros_like(gradient))
+        )
+        is_even[doubtful] = even < uneven
+    return is_even
+
+
+def _estimate_noise(image: GreyImage, x: Array, on_paper: Array) -> Array:
+    """Estimate the noise (n,) beside discs of which places `on_paper` (n, k, 2) px lie around; 0
+    where they are not all in the image, or the discs' edges so near as to be read with them."""
+    q = on_paper - x[_C][:, None]
+    _, _, rho, slope = _evaluate_conic(x, q[..., 0], q[..., 1])
+    gap = ((rho - 1) * rho / slope).min(axis=1)
+    is_told = find_readable(on_paper, image).all(axis=1)
+    is_told &= gap > _PATCH_REACH + _BAND_HALF_WIDTHS[1] * x[_BLUR]
+    noise = np.zeros(len(x))
+    if is_told.any():
+        noise[is_told] = estimate_noise_at(on_paper[is_told], image)
+    return noise
 
 
 def _estimate_start(image: GreyImage, uv: Array, steps: Array, reach: float, paper: Array) -> Array:
@@ -162,7 +228,7 @@ def _take_step(image: GreyImage, x: Array, gradient: Array, band: float) -> Elli
         inverse = np.linalg.inv(N)[:, :2, :2] / scale[:, :2, None] / scale[:, None, :2]
     moved = x + _limit_step(move / scale, x)
     noise = np.maximum(square, estimate_least_noise(image))
-    return EllipseFit(moved, noise[:, None, None] * inverse, np.sqrt(square))
+    return EllipseFit(moved, noise[:, None, None] * inverse, np.sqrt(square), np.zeros(len(x)))
 
 
 def _is_photograph(image: GreyImage, *_: object) -> bool:
@@ -319,7 +385,7 @@ def _estimate_gradient(values: Array, x: Array, beside: IntArray) -> Array:
     other = way[:, ::-1, ::-1] * np.array([-1.0, 1.0])
     way = np.where(is_known[..., None], way, other)
     way[~is_known.any(axis=1)] = np.eye(2)
-    return np.asarray(np.linalg.solve(way, np.where(is_known, slope, 0.0)[..., None])[..., 0])
+    return np.asarray((np.linalg.pinv(way) @ np.where(is_known, slope, 0.0)[..., None])[..., 0])
 
 
 def _limit_slopes(slope: Array, way: Array, counts: BoolArray, beside: IntArray) -> Array:

@@ -18,6 +18,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from itertools import product
+from typing import NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -28,7 +30,7 @@ from calibgui.engine.boards.circle_grid import Circles, list_grid_indices
 from calibgui.engine.boards.pattern import Symmetry
 from calibgui.engine.detection import region_of_interest as region
 from calibgui.engine.detection.circles import ellipse_fit
-from calibgui.engine.detection.circles.blobs import find_blobs
+from calibgui.engine.detection.circles.blobs import compress_levels, find_blobs
 from calibgui.engine.detection.circles.circle_map import fit_circle_map
 from calibgui.engine.detection.circles.continuation import find_continuation
 from calibgui.engine.detection.circles.ellipse_fit import EllipseFit
@@ -105,7 +107,8 @@ def find_circles(
     """Locate the circles of a grid in an image; see ``find_corners``."""
     grey = check_grey_levels(image)
     outline = None if roi is None else region.check_outline(roi)
-    coarse, has_strays = _find_grid(pattern, stretch_levels(grey), grid_size, outline)
+    levels = stretch_levels(grey)
+    coarse, has_strays = _find_grid(pattern, levels, grid_size, outline)
     is_counted = grid_size is None and outline is None
     grid_size = coarse.shape[0], coarse.shape[1]
     grid = list_grid_indices(grid_size)
@@ -125,7 +128,7 @@ def find_circles(
         tried = ellipse_fit.fit_ellipses(
             grey, first[some], steps[some], pattern.half_distance, paper, neighbours
         )
-        if _measure_misfit(tried) > _MAX_SAMPLE_EXCESS * CIRCLE_THRESHOLDS.max_relative_residual:
+        if np.median(tried.misfit) > _MAX_SAMPLE_EXCESS * CIRCLE_THRESHOLDS.max_misfit:
             raise _distrust(_NO_ELLIPSES)
     fit = ellipse_fit.fit_ellipses(grey, first, steps, pattern.half_distance, paper, neighbours)
     verified = _verify_circles(fit, xy, grey, len(grid))
@@ -145,7 +148,9 @@ def find_circles(
     whole[tuple(places.T)] = verified.uv[order]
     doubts = []
     if is_counted:
-        beyond = find_continuation(coarse, grey, asymmetric=pattern.asymmetric)
+        beyond = find_continuation(
+            coarse, levels, asymmetric=pattern.asymmetric, are_bright=fit.are_bright
+        )
         doubts += [_OPEN] * beyond.is_open + [_BESIDE] * (has_strays and beyond.has_discs)
     if not is_seen.all() and np.any(np.ptp(places[is_good], axis=0) + 1 < grid_size):
         doubts.append(_UNSEEN)
@@ -171,7 +176,10 @@ def find_circles(
 
 
 def _find_grid(
-    pattern: Circles, image: GreyImage, grid_size: GridSize | None, outline: Array | None
+    pattern: Circles,
+    image: npt.NDArray[np.uint8],
+    grid_size: GridSize | None,
+    outline: Array | None,
 ) -> tuple[Array, bool]:
     """Find the circles' centres (rows, cols, 2) px, coarsely, in an 8-bit image (h, w).
 
@@ -192,13 +200,15 @@ def _find_grid(
     )
     largest: LabelledGrid | None = None
     part: LabelledGrid | None = None
-    centres = np.zeros((0, 0, 2))
-    for depth, seen, divisor, is_shaded in _list_searches(levels):
-        is_rare = is_shaded or depth >= len(levels)
+    centres, is_shaded_beyond = np.zeros((0, 0, 2)), False
+    for search in _list_searches(levels):
+        is_rare = search.is_shaded or search.depth >= len(levels)
         if is_rare and grid_size is None and largest is not None and largest.is_full:
-            break
-        window = max(int(min(seen.shape) / divisor), 9)
-        points = find_blobs(seen, window, most, is_shaded=is_shaded)
+            if not is_shaded_beyond:
+                break
+            if not search.is_shaded:
+                continue
+        points = search.find_blobs(most)
         grid = label_grid(points, grid_size, asymmetric=pattern.asymmetric)
         if grid is None:
             continue
@@ -206,10 +216,14 @@ def _find_grid(
         if largest is not None and not is_stated and len(grid) <= len(largest):
             continue
         at = grid.place_points(points)
-        if find_continuation(at, seen, asymmetric=pattern.asymmetric).is_seen:
+        beyond = find_continuation(
+            at, search.photograph, asymmetric=pattern.asymmetric, are_bright=search.is_negative
+        )
+        if beyond.is_seen:
             part = max(part or grid, grid, key=len)
             continue
-        largest, centres = grid, (at + 0.5) * 2**depth - 0.5 + [left, top]
+        is_shaded_beyond = beyond.is_shaded
+        largest, centres = grid, (at + 0.5) * 2**search.depth - 0.5 + [left, top]
         if is_stated:
             break
     if largest is not None and grid_size in (None, largest.places.shape):
@@ -227,24 +241,45 @@ def _find_grid(
     )
 
 
-def _list_searches(levels: list[GreyImage]) -> Iterator[tuple[int, GreyImage, int, bool]]:
-    """List the searches for circles in an image and its halved copies, the coarsest first: depth,
-    image or negative, what its shorter side is divided by for the window, and whether shadows are
-    evened out. That is needed rarely and so comes last, with copies that are coarser still: there
-    the pixels of a screen neither tear the circles apart nor leave specks between them."""
+class _Search(NamedTuple):
+    """A search for circles."""
+
+    depth: int
+    """Number of times that the image was halved."""
+    photograph: npt.NDArray[np.uint8]
+    """(h, w)"""
+    divisor: int
+    """What the image's shorter side is divided by for the window."""
+    is_negative: bool = False
+    """True if circles that are bright are looked for."""
+    is_shaded: bool = False
+    """True if shadows are evened out."""
+
+    def find_blobs(self, most: int) -> Array:
+        """Find the centres (n, 2) px of at most `most` parts that may be circles."""
+        image = compress_levels(self.photograph) if self.is_shaded else self.photograph
+        window = max(int(min(image.shape) / self.divisor), 9)
+        seen = 255 - image if self.is_negative else image
+        return find_blobs(seen, window, most, is_shaded=self.is_shaded)
+
+
+def _list_searches(levels: list[npt.NDArray[np.uint8]]) -> Iterator[_Search]:
+    """List the searches for circles in an image and its halved copies, the coarsest first. Shadows
+    need to be evened out rarely and so come last, with copies that are coarser still: there the
+    pixels of a screen neither tear the circles apart nor leave specks between them."""
     coarsest = len(levels) - 1
     for depth in reversed(range(len(levels))):
         # What the coarsest level does not show is small, and lies in a small window.
         divisors = _WINDOW_DIVISORS if depth == coarsest else _WINDOW_DIVISORS[-1:]
-        for seen in (levels[depth], 255 - levels[depth]):
-            for divisor in divisors:
-                yield depth, seen, divisor, False
+        for is_negative, divisor in product((False, True), divisors):
+            yield _Search(depth, levels[depth], divisor, is_negative)
     smoothed = levels[coarsest]
     for depth in range(len(levels), len(levels) + _SMOOTHED_COPIES):
         smoothed = opencv.halve_image(smoothed)
-        for seen in (smoothed, 255 - smoothed):
-            yield depth, seen, _WINDOW_DIVISORS[0], False
-    yield coarsest, levels[coarsest], _SHADED_DIVISOR, True
+        yield _Search(depth, smoothed, _WINDOW_DIVISORS[0])
+        yield _Search(depth, smoothed, _WINDOW_DIVISORS[0], True)
+    yield _Search(coarsest, levels[coarsest], _SHADED_DIVISOR, False, True)
+    yield _Search(coarsest, levels[coarsest], _SHADED_DIVISOR, True, True)
 
 
 def _number_circles(pattern: Circles, centres: Array, xy: Array, outline: Array | None) -> Array:
@@ -320,8 +355,8 @@ def _verify_circles(fit: EllipseFit, xy: Array, image: GreyImage, count: int) ->
     """Verify the circles that are seen of a grid of `count`, and compute their centres' images.
 
     Every ellipse must lie inside the image, be larger than its blur, be what a circle of the common
-    radius or a mark looks like there, where the others predict it, with a contrast like theirs and
-    no more unexplained.
+    radius or a mark looks like there, where the others predict it, with a contrast like theirs, or
+    like theirs over the light, and no more unexplained.
 
     Raises:
         NoBoardError: if too many fail or are not seen.
@@ -337,14 +372,12 @@ def _verify_circles(fit: EllipseFit, xy: Array, image: GreyImage, count: int) ->
     if np.count_nonzero(~is_sharp) > limits.max_rejected_share * len(good):
         raise _distrust("its circles are too small for how blurred they are")
     good &= is_sharp
-    contrast, residual = fit.contrast, fit.residual
-    sign = np.sign(np.median(fit.unknowns[:, 7]))
-    good &= sign * fit.unknowns[:, 7] > 0
-    good &= contrast > limits.min_relative_contrast * np.median(contrast)
-    good &= residual < np.maximum(
-        limits.max_residual_over_median * np.median(residual),
-        limits.max_relative_residual * contrast,
-    )
+    contrast, misfit = fit.contrast, fit.misfit
+    good &= (fit.unknowns[:, 7] > 0) == fit.are_bright
+    by_light = contrast / np.maximum(fit.light, 1.0)
+    relative = np.maximum(contrast / np.median(contrast), by_light / np.median(by_light))
+    good &= relative > limits.min_relative_contrast
+    good &= misfit < max(limits.max_misfit_over_median * np.median(misfit), limits.max_misfit)
     uv, are_marks = fit.uv, np.zeros_like(good)
     variance = np.einsum("nii->n", fit.covariance) / 2
     for _ in range(_CENTRE_ITERATIONS):
@@ -366,7 +399,7 @@ def _verify_circles(fit: EllipseFit, xy: Array, image: GreyImage, count: int) ->
         good[good] = _find_agreeing(xy[good], uv[good], variance[good])
     if np.count_nonzero(good) < fewest:
         raise _distrust(_TOO_MANY_FAIL)
-    if _measure_misfit(fit) > limits.max_relative_residual:
+    if np.median(misfit) > limits.max_misfit:
         raise _distrust(_NO_ELLIPSES)
     if np.count_nonzero(are_marks & good) > limits.max_marked_share * len(good):
         raise _distrust("too many of its circles are of another size")
@@ -442,11 +475,6 @@ def _widen_covariances(xy: Array, uv: Array, covariance: Array) -> Array:
         if (is_near == was_near).all():
             break
     return covariance + (scatter + aside2 / 2)[:, None, None] * np.eye(2)
-
-
-def _measure_misfit(fit: EllipseFit) -> float:
-    """Measure the median of what ellipses leave unexplained, over their contrast."""
-    return float(np.median(fit.residual / fit.contrast))
 
 
 def _distrust(reason: str) -> NoBoardError:

@@ -51,11 +51,14 @@ class CircleThresholds:
     """Greatest distance of these from their places, along either diagonal, over the distance of
     neighbours there."""
     min_relative_contrast: float = 0.3
-    """Least contrast of a circle over the median."""
-    max_relative_residual: float = 0.12
-    """Greatest residual of a fitted ellipse over its contrast ..."""
-    max_residual_over_median: float = 4.0
-    """... or over the median residual, whichever is more."""
+    """Least contrast of a circle over the median, or of its contrast over its light: a shadow takes
+    as much of both."""
+    max_misfit: float = 0.12
+    """Greatest misfit of a fitted ellipse ..."""
+    max_misfit_over_median: float = 4.0
+    """... or over the median misfit, whichever is more."""
+    max_noise_share: float = 0.25
+    """Greatest noise that counts as such, over the contrast."""
     max_blur_over_axis: float = 0.6
     """Greatest blur of a circle over the shorter semi-axis of its ellipse. Beyond it blur, contrast
     and size are not told apart, and fits run away: they had ratios of 5, centres off by 1 to 2 px.

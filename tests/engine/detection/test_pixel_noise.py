@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from calibgui.engine.detection.checkerboard.find_checkerboard import find_checkerboard
-from calibgui.engine.detection.checkerboard.pixel_noise import estimate_pixel_noise
 from calibgui.engine.detection.lattice import Lattice
+from calibgui.engine.detection.pixel_noise import estimate_pixel_noise
 from tests.scenes.checkerboards import draw
 from tests.scenes.conditions import Conditions
 
