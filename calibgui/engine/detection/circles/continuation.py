@@ -31,7 +31,13 @@ _SHADE = 0.5
 
 
 class Continuation(NamedTuple):
-    """What an image shows of a grid's next lines."""
+    """What an image shows of a grid and its next lines."""
+
+    centres: Array
+    """(rows, cols, 2) px, of the grid's circles, also of those that were not known and are seen;
+    NaN where there is none."""
+    seen: int
+    """Number of places of the grid where a circle is seen."""
 
     is_seen: bool
     """True if there are circles where one of them would be, in most of its places in the image."""
@@ -44,43 +50,75 @@ class Continuation(NamedTuple):
     pass through the line's circles and hide them."""
 
 
+class _Cells(NamedTuple):
+    """The places of a grid and those around it, on the lattice of nearest neighbours."""
+
+    first: IntArray
+    """(2,) the first of them."""
+    at: Array
+    """(m, n, 2) where they are, or would be, px."""
+    known: BoolArray
+    """(m, n) True where a disc is known."""
+    levels: Array
+    """(m, n, 5) grey levels of the place and of paper around it; NaN where not in the image."""
+    are_discs: BoolArray
+    """(m, n) True where a disc is seen."""
+
+
 def find_continuation(
     centres: Array, image: npt.NDArray[np.uint8], *, asymmetric: bool, are_bright: bool = False
 ) -> Continuation:
-    """Find out whether an image (h, w) shows a grid to go on, or to end, on all sides.
+    """Find out whether an image (h, w) shows a grid to go on, or to end, on all sides, and what is
+    seen in its gaps.
 
     Args:
-        centres: (rows, cols, 2) px, good to a tenth of their distance.
+        centres: (rows, cols, 2) px, good to a tenth of their distance; NaN where none is known.
         image: grey levels.
         asymmetric: True if every second row is shifted by half.
         are_bright: True if the discs are brighter than the paper.
     """
-    rows, cols = centres.shape[:2]
-    places = _find_lattice_places(list_grid_indices((rows, cols)), asymmetric=asymmetric)
+    cells = _look_at_cells(centres, image, asymmetric=asymmetric, are_bright=are_bright)
+    is_sampled = np.isfinite(cells.levels[..., 0])
+    beyond = ~cells.known & is_sampled
+    is_disc = cells.are_discs[beyond]
+    light = np.median(np.nanmedian(cells.levels[cells.known & is_sampled, 1:], axis=1))
+    paper = np.nanmin(cells.levels[beyond, 1:], axis=1)
+    places = np.argwhere(beyond) + cells.first
+    lines = _find_lines(places, centres.shape[:2], asymmetric=asymmetric)
+    grid = _find_lattice_places(list_grid_indices(centres.shape[:2]), asymmetric=asymmetric)
+    own = tuple((grid - cells.first).T)
+    is_seen = cells.are_discs[own]
+    filled = np.where(is_seen[:, None], cells.at[own], np.nan).reshape(centres.shape)
+    return Continuation(
+        np.where(np.isfinite(centres), centres, filled),
+        int(np.count_nonzero(is_seen)),
+        any(2 * np.count_nonzero(is_disc[line]) > np.count_nonzero(line) for line in lines),
+        not all(line.any() for line in lines),
+        any(is_disc[line].any() for line in lines),
+        any(np.median(paper[line]) < _SHADE * light for line in lines if line.any()),
+    )
+
+
+def _look_at_cells(
+    centres: Array, image: npt.NDArray[np.uint8], *, asymmetric: bool, are_bright: bool
+) -> _Cells:
+    """Look for discs in the places of a grid and around it; see `find_continuation`."""
+    places = _find_lattice_places(list_grid_indices(centres.shape[:2]), asymmetric=asymmetric)
     first = places.min(axis=0) - 1
     uv = np.full((*(places.max(axis=0) - first + 2), 2), np.nan)
     uv[tuple((places - first).T)] = centres.reshape(-1, 2)
     known = np.isfinite(uv[..., 0])
-    levels = _sample_cells(predict_places(uv), estimate_steps(uv), image)
-    is_sampled = np.isfinite(levels[..., 0])
-    beyond = ~known & is_sampled
-    is_disc = np.zeros(np.count_nonzero(beyond), dtype=bool)
+    at = predict_places(uv)
+    levels = _sample_cells(at, estimate_steps(uv), image)
+    are_discs = np.zeros(known.shape, dtype=bool)
     # A shadow leaves discs less contrast, but as much in the logarithm.
     fog = FOG_SHARE * max(float(np.nanmax(levels)), 1.0)
     for scale in (levels, np.log1p(levels / fog)):
         seen = -scale if are_bright else scale
         difference = np.fmin.reduce(seen[..., 1:], axis=2) - seen[..., 0]
         limit = CIRCLE_THRESHOLDS.min_relative_contrast * np.nanmedian(difference[known])
-        is_disc |= difference[beyond] > limit
-    light = np.median(np.nanmedian(levels[known & is_sampled, 1:], axis=1))
-    paper = np.nanmin(levels[beyond, 1:], axis=1)
-    lines = _find_lines(np.argwhere(beyond) + first, (rows, cols), asymmetric=asymmetric)
-    return Continuation(
-        any(2 * np.count_nonzero(is_disc[line]) > np.count_nonzero(line) for line in lines),
-        not all(line.any() for line in lines),
-        any(is_disc[line].any() for line in lines),
-        any(np.median(paper[line]) < _SHADE * light for line in lines if line.any()),
-    )
+        are_discs |= difference > limit
+    return _Cells(first, at, known, levels, are_discs)
 
 
 def _find_lattice_places(grid: IntArray, *, asymmetric: bool) -> IntArray:

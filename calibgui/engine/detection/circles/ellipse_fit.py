@@ -61,6 +61,8 @@ _MIN_RHO = 0.3
 """Least rho of a pixel that is read: nearer the centre d approximates the distance badly."""
 _MAX_NEIGHBOUR_ERROR = 0.3
 """Greatest distance of a disc's neighbour from its place, steps."""
+_MIN_SINE = 1e-3
+"""Least sine of the angle between the ways to a disc's neighbours."""
 _LEAST_RISE = 0.02
 """Change of the light from disc to disc below which both sides count alike, or across a disc below
 which it is not doubted, half contrasts."""
@@ -385,7 +387,15 @@ def _estimate_gradient(values: Array, x: Array, beside: IntArray) -> Array:
     other = way[:, ::-1, ::-1] * np.array([-1.0, 1.0])
     way = np.where(is_known[..., None], way, other)
     way[~is_known.any(axis=1)] = np.eye(2)
-    return np.asarray((np.linalg.pinv(way) @ np.where(is_known, slope, 0.0)[..., None])[..., 0])
+    slope = np.where(is_known, slope, 0.0)
+    # Both ways may lead to one disc, where something covers the others: then nothing is told.
+    (a, b), (c, d) = way.transpose(1, 2, 0)
+    det = a * d - b * c
+    is_told = abs(det) > _MIN_SINE * np.hypot(a, b) * np.hypot(c, d)
+    across = np.stack(
+        [d * slope[:, 0] - b * slope[:, 1], a * slope[:, 1] - c * slope[:, 0]], axis=1
+    )
+    return np.where(is_told[:, None], across, 0.0) / np.where(is_told, det, 1.0)[:, None]
 
 
 def _limit_slopes(slope: Array, way: Array, counts: BoolArray, beside: IntArray) -> Array:

@@ -32,7 +32,7 @@ from calibgui.engine.detection import region_of_interest as region
 from calibgui.engine.detection.circles import ellipse_fit
 from calibgui.engine.detection.circles.blobs import compress_levels, find_blobs
 from calibgui.engine.detection.circles.circle_map import fit_circle_map
-from calibgui.engine.detection.circles.continuation import find_continuation
+from calibgui.engine.detection.circles.continuation import Continuation, find_continuation
 from calibgui.engine.detection.circles.ellipse_fit import EllipseFit
 from calibgui.engine.detection.circles.grid_labelling import LabelledGrid, label_grid
 from calibgui.engine.detection.circles.thresholds import CIRCLE_THRESHOLDS
@@ -198,22 +198,17 @@ def _find_grid(
     most = (
         CIRCLE_THRESHOLDS.max_blobs if grid_size is None else 2 * grid_size[0] * grid_size[1] + 60
     )
-    largest: LabelledGrid | None = None
+    largest: _FoundGrid | None = None
     part: LabelledGrid | None = None
-    centres, is_shaded_beyond = np.zeros((0, 0, 2)), False
     for search in _list_searches(levels):
-        is_rare = search.is_shaded or search.depth >= len(levels)
-        if is_rare and grid_size is None and largest is not None and largest.is_full:
-            if not is_shaded_beyond:
-                break
-            if not search.is_shaded:
-                continue
+        if largest is not None and _is_needless(search, largest, len(levels), grid_size):
+            continue
         points = search.find_blobs(most)
         grid = label_grid(points, grid_size, asymmetric=pattern.asymmetric)
         if grid is None:
             continue
         is_stated = grid.is_full and grid.places.shape == grid_size
-        if largest is not None and not is_stated and len(grid) <= len(largest):
+        if largest is not None and not is_stated and largest.has_all_of(grid):
             continue
         at = grid.place_points(points)
         beyond = find_continuation(
@@ -222,16 +217,18 @@ def _find_grid(
         if beyond.is_seen:
             part = max(part or grid, grid, key=len)
             continue
-        is_shaded_beyond = beyond.is_shaded
-        largest, centres = grid, (at + 0.5) * 2**search.depth - 0.5 + [left, top]
+        found = _FoundGrid(grid, search, beyond)
+        if largest is None or is_stated or found.excess > largest.excess:
+            largest = found
         if is_stated:
             break
-    if largest is not None and grid_size in (None, largest.places.shape):
-        return centres, largest.left_out > 0
+    if largest is not None and grid_size in (None, largest.grid.places.shape):
+        centres = (largest.beyond.centres + 0.5) * 2**largest.search.depth - 0.5 + [left, top]
+        return centres, largest.grid.left_out > 0
     which = "" if grid_size is None else f"{grid_size[0]} x {grid_size[1]} "
     instead = ""
     if largest is not None:
-        instead = ", but one of {} x {}".format(*largest.places.shape)
+        instead = ", but one of {} x {}".format(*largest.grid.places.shape)
     elif part is not None:
         instead = ", but {} x {} circles of a larger one".format(*part.places.shape)
     raise NoBoardError(
@@ -261,6 +258,37 @@ class _Search(NamedTuple):
         window = max(int(min(image.shape) / self.divisor), 9)
         seen = 255 - image if self.is_negative else image
         return find_blobs(seen, window, most, is_shaded=self.is_shaded)
+
+
+class _FoundGrid(NamedTuple):
+    """A grid that a search has found."""
+
+    grid: LabelledGrid
+    search: _Search
+    beyond: Continuation
+
+    @property
+    def excess(self) -> int:
+        """Number of its places where a circle is seen, less those where none is: a grid with many
+        gaps along its border may be another one, turned."""
+        places = self.grid.places.size
+        return places if self.grid.is_full else 2 * self.beyond.seen - places
+
+    def has_all_of(self, grid: LabelledGrid) -> bool:
+        """Return whether another grid is of the same size and has no more circles."""
+        return self.grid.places.shape == grid.places.shape and len(self.grid) >= len(grid)
+
+
+def _is_needless(
+    search: _Search, found: _FoundGrid, copies: int, grid_size: GridSize | None
+) -> bool:
+    """Return whether a search would not find more than was `found`, in an image of as many halved
+    `copies`: what is rare is looked for where gaps are left, or may be hidden by a shadow."""
+    if not (search.is_shaded or search.depth >= copies):
+        return False
+    is_whole = grid_size is None and found.grid.is_full
+    is_hidden = search.is_shaded and found.beyond.is_shaded
+    return (is_whole and not is_hidden) or search.is_negative != found.search.is_negative
 
 
 def _list_searches(levels: list[npt.NDArray[np.uint8]]) -> Iterator[_Search]:
