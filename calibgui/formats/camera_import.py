@@ -1,5 +1,7 @@
 """Reading the camera of a file of another program, whichever it is: `read_camera`.
 
+`read_result_file` reads a result, and says of the others that they are none.
+
 The format is recognised by the file's content, because suffixes do not tell: ".yaml" is OpenCV's,
 ROS's and Kalibr's, ".json" ours, Basalt's and OpenCV's, ".txt" anybody's.
 """
@@ -9,6 +11,7 @@ from __future__ import annotations
 import os
 import re
 
+from calibgui.dataset import Result
 from calibgui.engine.arrays import Size
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.files import describe_read_error, read_regular
@@ -42,12 +45,26 @@ IMPORTERS: tuple[Importer, ...] = tuple(
     )
 )
 """The formats that cameras are read from, in the order in which files are tried."""
+_NAME_ITS_RESULT = "Name the result.json of the calibration that it was written from."
 _WITHOUT_CAMERA = (
-    (re.compile("<lensdatabase"), "is a lensfun database, which holds no camera in pixels."),
-    (re.compile(make_mark("(opencv-)?python")), "is a script in Python, which is not run."),
-    (re.compile(f"{make_mark(CORNERS)}|\\Aimage,row,col,"), "holds corners, but no camera."),
+    (
+        re.compile("<lensdatabase"),
+        "is a lensfun database, which holds no camera in pixels.",
+        _NAME_ITS_RESULT,
+    ),
+    (
+        re.compile(make_mark("(opencv-)?python")),
+        "is a script in Python, which is not run.",
+        _NAME_ITS_RESULT,
+    ),
+    (
+        re.compile(f"{make_mark(CORNERS)}|\\Aimage,row,col,"),
+        "holds corners, but no camera.",
+        "Calibrate them first: `calibgui calibrate -o` writes a result.json.",
+    ),
 )
-"""Patterns of files that this program writes and reads no camera from, and what these are."""
+"""Patterns of files that this program writes and reads no camera from, what these are, and what to
+do instead."""
 MAX_FILE_SIZE = 64 << 20
 """Size of the largest files that are read, bytes: results and mrcal's models hold all corners."""
 
@@ -68,13 +85,9 @@ def read_camera(
             something in it is wrong; the message says what can be read.
     """
     source = CameraText(_read_text(path), os.fspath(path), name, size)
-    for pattern, what in _WITHOUT_CAMERA:
-        if pattern.search(source.text):
-            source.fail(what, "Name the result.json of the calibration that it was written from.")
-    for importer in IMPORTERS:
-        if importer.signature.search(source.text):
-            break
-    else:
+    _refuse_without_camera(source)
+    importer = _find_importer(source.text)
+    if importer is None:
         if source.file.lower().endswith(".json") or not source.text.strip():
             parse_json(source.text, source.file)  # says where it is damaged
         source.fail(
@@ -86,6 +99,48 @@ def read_camera(
             f"holds one camera without a name ({importer.title}).", f"Leave the name {name!r} out."
         )
     return importer.read(source)
+
+
+def read_result_file(path: str | os.PathLike[str]) -> Result:
+    """Read a result.json.
+
+    Raises:
+        CalibrationError: as `result_json.read_result`; if the file is a camera of another program,
+            or another one that this program writes, the message says so.
+    """
+    try:
+        return result_json.read_result(path)
+    except CalibrationError as error:
+        _refuse_other_file(path, error)
+        raise
+
+
+def _refuse_other_file(path: str | os.PathLike[str], error: CalibrationError) -> None:
+    """Raise a CalibrationError if the file, which is no result by `error`, is a known other one."""
+    try:
+        source = CameraText(_read_text(path), os.fspath(path))
+    except CalibrationError:
+        return
+    _refuse_without_camera(source)
+    importer = _find_importer(source.text)
+    if importer not in (None, result_json.IMPORTER):
+        raise CalibrationError(
+            f"{source.file} holds a camera only ({importer.title}): neither corners, nor the poses "
+            "and uncertainties that come from them.",
+            f"{_NAME_ITS_RESULT} `calibgui calibrate -o` writes it.",
+        ) from error
+
+
+def _refuse_without_camera(source: CameraText) -> None:
+    """Raise a CalibrationError if the file is a known one that holds no camera."""
+    for pattern, what, hint in _WITHOUT_CAMERA:
+        if pattern.search(source.text):
+            source.fail(what, hint)
+
+
+def _find_importer(text: str) -> Importer | None:
+    """Return the format that a text is of; None if it is none that cameras are read from."""
+    return next((one for one in IMPORTERS if one.signature.search(text)), None)
 
 
 def _read_text(path: str | os.PathLike[str]) -> str:

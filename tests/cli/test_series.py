@@ -118,6 +118,23 @@ def test_files_without_a_value_are_named(folder: Path) -> None:
         read_series([folder / "a.json"], Scalar.FOCUS)
 
 
+@pytest.mark.parametrize(
+    ("name", "suffix", "what"),
+    [
+        ("ros", ".yaml", r"holds a camera only \(ROS camera_info\): neither corners, nor"),
+        ("lensfun", ".xml", "is a lensfun database"),
+    ],
+)
+def test_another_file_is_named_and_which_one_to_give_instead(
+    folder: Path, result_file: Path, name: str, suffix: str, what: str
+) -> None:
+    file = folder / f"camera{suffix}"
+    assert main(["convert", str(result_file), "--export", f"{name}={file}", "-q"]) == 0
+    with pytest.raises(CalibrationError, match=rf"camera\{suffix} {what}") as caught:
+        read_series([file], Scalar.TEMPERATURE, folder / "values.csv")
+    assert "result.json of the calibration that it was written from" in caught.value.hint
+
+
 def test_focal_lengths_are_read_from_photographs(folder: Path) -> None:
     content = json.loads((folder / "a.json").read_text())
     exif = Image.Exif()

@@ -27,8 +27,8 @@ from calibgui.engine.errors import CalibrationError
 from calibgui.engine.images import read_image_header
 from calibgui.formats import Exporter, ExportReport
 from calibgui.formats.camera_conversion import export_camera
+from calibgui.formats.camera_import import read_result_file
 from calibgui.formats.csv_table import read_csv_rows
-from calibgui.formats.result_json import read_result
 
 _SECONDS_OF_DAY = 86400.0
 _FEW_DAYS = 5.0
@@ -156,7 +156,7 @@ def read_series(
     table = {} if values is None else _read_values(values, scalar)
     found = []
     for path in paths:
-        result = read_result(path)
+        result = read_result_file(path)
         try:
             if values is not None:
                 value = _find_value(table, path, values)

@@ -12,7 +12,7 @@ from calibgui.app.projects.project import Project
 from calibgui.dataset import Result
 from calibgui.engine.calibration import METHODS, Cost, recover_arguments
 from calibgui.engine.camera import find_model
-from calibgui.formats.result_json import read_result
+from calibgui.formats.camera_import import read_result_file
 
 
 def make_project(path: Path, name: str) -> Project:
@@ -25,7 +25,7 @@ def make_project(path: Path, name: str) -> Project:
     Raises:
         CalibrationError: if it cannot be read, or is no result.
     """
-    result = read_result(path)
+    result = read_result_file(path)
     views = tuple(
         view if is_remote(view.image) else replace(view, image=str(path.parent / view.image))
         for view in result.views
