@@ -103,7 +103,7 @@ class RadialHomography:
             e: (n, 2) px from the centre.
             w: (n,) their last coordinates, negative where they lie beyond 90 degrees.
         """
-        return self.centre + (self._invert_lens(e, w) if self.coefficients.any() else e)
+        return self.centre + self._invert_lens(e, w)
 
     def differentiate(self, cells: Array) -> tuple[Array, Array]:
         """Compute first and second derivatives (n, 2, 2) of `locate` by column and by row.
@@ -124,12 +124,12 @@ class RadialHomography:
         1_ij being 1 where i = j and else 0. From E(D(e)) = e follow D' = E'^-1 and
         D'' = -D' E''(D', D').
         """
-        return _differentiate_lens(
-            self._invert_lens(e, w) if self.coefficients.any() else e, self.coefficients
-        )
+        return _differentiate_lens(self._invert_lens(e, w), self.coefficients)
 
     def _invert_lens(self, e: Array, w: Array) -> Array:
         """Compute d (n, 2) px from the centre, where it shows ideal points: `_invert_lens`."""
+        if not self.coefficients.any():
+            return e
         return _invert_lens(e, w, self.coefficients, _INVERSION_STEPS)
 
 
