@@ -41,7 +41,8 @@ def describe_check(
         [name, str(view.used), str(view.left_out), f"{view.rms:.3f}" if view.used else ""]
         for name, view in zip(names, check.views, strict=True)
     ]
-    rows.append(["all", str(check.count), "", f"{check.rms:.3f}"])
+    lost = sum(view.left_out for view in check.views)
+    rows.append(["all", str(check.count), str(lost), f"{check.rms:.3f}"])
     table = align_columns([["picture", points, "left out", "rms, px"], *rows], left=(0,))
     left_out = [
         f"{name} is left out: {view.reason}."
@@ -58,7 +59,7 @@ def describe_check(
             [f"change of the camera, px rms at the {points}", _format_change(check)],
             ["  with the rotation that new poses hide, px rms", f"{check.whole_change:.3f}"],
             ["change of the image's scale, %", _format_percent(check)],
-            ["what change and board leave, px along each axis", f"{check.noise:.3f}"],
+            ["noise beside change, board and poses, px along each axis", f"{check.noise:.3f}"],
         ],
         left=(0, 1),
     )

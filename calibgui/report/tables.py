@@ -204,7 +204,7 @@ def list_unused_views(all_views: Iterable[View]) -> str:
     names: dict[str, list[str]] = {}
     for view in all_views:
         if not view.usable:
-            reason = view.why_unused or "Left out by choice."
+            reason = (view.why_unused or "By choice.").removeprefix("Left out: ")
             # Reading errors name the file already.
             named = reason.startswith(view.image)
             names.setdefault(reason, []).extend([] if named else [view.name])

@@ -92,3 +92,8 @@ def test_remarks() -> None:
     assert "The board is bent or twisted, by 0.200 ± 0.030 mm" in words(replace(GOOD, bend=0.2))
     assert "Is this the right file" in words(replace(GOOD, noise=3.0))
     assert "states no standard deviations" in words(replace(GOOD, has_covariance=False))
+
+
+def test_all_pictures_have_their_corners_and_those_left_out_counted() -> None:
+    assert "all 108 112 0.210" in words(GOOD)
+    assert "noise beside change, board and poses, px along each axis 0.150" in words(GOOD)

@@ -97,7 +97,7 @@ def test_a_long_name_is_shortened_in_its_middle(result: Result) -> None:
 
 def test_every_image_left_out_has_its_reason(result: Result) -> None:
     text = " ".join(" ".join(lines(tables.list_unused_views(result.views))).split())
-    assert "view2.png: Left out by choice." in text
+    assert "view2.png: By choice." in text
     assert "blank.png: No checkerboard was found. No checkerboard" in text
     assert tables.list_unused_views([view for view in result.views if view.usable]) == ""
 
@@ -106,11 +106,13 @@ def test_images_left_out_for_the_same_reason_share_it() -> None:
     reason = "This board has 7 x 10 inner corners, not 6 x 9."
     views = [View(f"a/{k}.png", ViewStatus.NO_BOARD, reason) for k in range(14)]
     views.append(View("a/dark.png", ViewStatus.NO_BOARD, "Too dark."))
+    views.append(View("a/bent.png", ViewStatus.FOUND, "Left out: it does not fit.", enabled=False))
     assert lines(tables.list_unused_views(views)) == [
         "Left out",
         "  0.png, 1.png, 2.png, 3.png, 4.png, 5.png, and 8 more: This board has 7 x 10",
         "    inner corners, not 6 x 9.",
         "  dark.png: Too dark.",
+        "  bent.png: it does not fit.",
     ]
 
 
