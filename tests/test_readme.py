@@ -18,6 +18,7 @@ from calibgui.engine.assessment.choices import method_comparison
 from calibgui.engine.assessment.choices.lens_choice import choose_lens
 from calibgui.engine.boards import KINDS
 from calibgui.formats import EXPORTERS
+from tests.faults.causes import CLEAN, FAULTS
 
 ROOT = Path(__file__).resolve().parents[1]
 README = (ROOT / "README.md").read_text(encoding="utf-8")
@@ -117,6 +118,30 @@ def test_every_method_is_in_the_table() -> None:
     named = set(re.findall(r"`([\w-]+)`", rows))
     methods = set(method_comparison.list_compared_methods()) - {method_comparison.AS_PRINTED}
     assert methods <= named
+
+
+def test_the_table_of_faults_is_that_of_the_campaign_and_adds_up() -> None:
+    """Every fault has its row, whose shares are whole draws; what is said of all is their sum."""
+    (command,) = re.findall(r"`python -m tests\.faults (.*?)` injects (\d+) causes", README)
+    draws = int(re.findall(r"--draws (\d+)", command[0])[0])
+    table = README[README.index("| fault | named |") :].partition("\n\n")[0]
+    rows = [[cell.strip(" *") for cell in line.split("|")[1:-1]] for line in table.splitlines()[2:]]
+    names = [name for name in FAULTS if name != CLEAN]
+    assert [row[0] for row in rows] == [*names, "all", CLEAN]
+    assert int(command[1]) == len(names)
+    shares = {row[0]: [float(cell.rstrip("%")) / 100 for cell in row[1:5]] for row in rows[:-1]}
+    counts = [round(draws * sum(shares[name][k] for name in names)) for k in range(4)]
+    assert all(round(sum(draws * share for share in shares[name])) == draws for name in names)
+    assert shares["all"] == [round(count / draws / len(names), 2) for count in counts]
+    stated = re.search(
+        r"Of (\d+) faults (\d+) are named, (\d+) are harmless, (\S+) (?:is|are) given another "
+        r"cause, (\S+) (?:is|are) wrong in silence",
+        README,
+    )
+    assert stated is not None
+    words = ["none", "one", "two", "three", "four", "five", "six"]
+    numbers = [int(t) if t.isdigit() else words.index(t) for t in stated.groups()]
+    assert numbers == [draws * len(names), *counts]
 
 
 def test_files_named_exist() -> None:

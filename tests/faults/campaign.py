@@ -120,32 +120,45 @@ def count_verdicts(answers: Iterable[Answer]) -> Counter[Verdict]:
 def make_table(
     answers: list[Answer], peers: Mapping[str, tuple[float, float]] | None = None
 ) -> str:
-    """Make a table in Markdown: a row for each fault, one for all of them, one for clean sets.
+    """Make the README's table in Markdown: a row for each fault, one for all, one for clean sets.
+
+    A clean set has no cause: another one is named where it raises an alarm.
 
     Args:
         answers: the answers.
-        peers: for each fault the shares of wrong answers of OpenCV and mrcal.
+        peers: for each fault the shares of wrong answers of OpenCV and mrcal, NaN where none ends.
     """
-    head = ["cause", "draws", "right", "wrong", "silent, harmless", "SILENT WRONG", "false alarm"]
+    head = ["fault", "named", "harmless, not named", "another cause named", "wrong in silence"]
     head += [] if peers is None else ["OpenCV wrong", "mrcal wrong"]
     rows = [head, ["---", *["--:"] * (len(head) - 1)]]
     names = list(dict.fromkeys(answer.fault for answer in answers))
     faults = [name for name in names if name != CLEAN]
     for title, chosen in [
         *((name, [name]) for name in faults),
-        ("**all causes**", faults),
+        ("**all**", faults),
         *((name, [name]) for name in names if name == CLEAN),
     ]:
-        row = _make_row(title, [answer for answer in answers if answer.fault in chosen])
+        if not chosen:
+            continue
+        shares = _compute_shares([answer for answer in answers if answer.fault in chosen])
         if peers is not None:
-            row += [f"{share:.0%}" for share in np.mean([peers[name] for name in chosen], axis=0)]
-        rows.append(row)
+            shares += [
+                _compute_mean(each) for each in zip(*(peers[name] for name in chosen), strict=True)
+            ]
+        rows.append([title, *("-" if np.isnan(share) else f"{share:.0%}" for share in shares)])
     return "\n".join(f"| {' | '.join(row)} |" for row in rows)
 
 
-def _make_row(name: str, answers: list[Answer]) -> list[str]:
-    counts = count_verdicts(answers)
-    cells = [
-        f"{counts[verdict] / len(answers):.0%}" if counts[verdict] else "" for verdict in Verdict
-    ]
-    return [name, str(len(answers)), *cells]
+def _compute_mean(shares: Iterable[float]) -> float:
+    """Compute the mean of those that are not NaN; NaN if all are."""
+    known = [share for share in shares if not np.isnan(share)]
+    return float(np.mean(known)) if known else np.nan
+
+
+def _compute_shares(answers: list[Answer]) -> list[float]:
+    """Compute the shares of a row of answers; NaN for the name of the fault of clean sets."""
+    counts, is_clean = count_verdicts(answers), answers[0].fault == CLEAN
+    named, harmless = counts[Verdict.RIGHT], counts[Verdict.HARMLESS]
+    wrong = counts[Verdict.WRONG] + counts[Verdict.FALSE_ALARM]
+    found = [np.nan, named] if is_clean else [named, harmless]
+    return [count / len(answers) for count in [*found, wrong, counts[Verdict.SILENT]]]

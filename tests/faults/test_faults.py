@@ -5,7 +5,14 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from tests.faults.campaign import Verdict, count_verdicts, judge_causes, run_campaign
+from tests.faults.campaign import (
+    Answer,
+    Verdict,
+    count_verdicts,
+    judge_causes,
+    make_table,
+    run_campaign,
+)
 from tests.faults.causes import CLEAN, FAULTS
 
 _DRAWS = 2
@@ -58,3 +65,21 @@ def test_seed_repeats_a_draw_and_makes_usable_views(name: str) -> None:
         np.testing.assert_array_equal(view.uv, same.uv)
         assert len(view.uv) == len(view.xy) >= 8
         assert np.isfinite(view.uv).all()
+
+
+def test_the_table_has_the_shares_of_each_fault_and_of_all() -> None:
+    said = {"bow": [Verdict.RIGHT, Verdict.HARMLESS], "blur": [Verdict.WRONG, Verdict.SILENT]}
+    said[CLEAN] = [Verdict.RIGHT, Verdict.FALSE_ALARM]
+    answers = [
+        Answer(name, k, verdict, "", (), 1.0)
+        for name, verdicts in said.items()
+        for k, verdict in enumerate(verdicts)
+    ]
+    peers = {"bow": (1.0, 0.5), "blur": (0.0, np.nan), CLEAN: (0.1, 0.1)}
+    _, _, *rows = make_table(answers, peers).splitlines()
+    assert rows == [
+        "| bow | 50% | 50% | 0% | 0% | 100% | 50% |",
+        "| blur | 0% | 0% | 50% | 50% | 0% | - |",
+        "| **all** | 25% | 25% | 25% | 25% | 50% | 50% |",
+        "| clean | - | 50% | 50% | 0% | 10% | 10% |",
+    ]
