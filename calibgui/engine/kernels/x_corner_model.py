@@ -18,7 +18,14 @@ from calibgui.engine.arrays import Array, GreyImage
 from calibgui.engine.kernels.common import (
     compiled,
     compiled_part,
+    make_contiguous,
     make_read_only,
+)
+from calibgui.engine.kernels.edge_bands import (
+    bound_offsets,
+    bound_pixels,
+    point_edges,
+    read_bands,
 )
 from calibgui.engine.kernels.edge_intensity import BLOCK, fill_edge
 
@@ -50,7 +57,6 @@ _ENOUGH_PIXELS = 4096
 class _Support(Protocol):
     """The methods of ``EdgeSupport`` that are used here."""
 
-    def pack(self) -> Array: ...
     def bound_reach(self) -> int: ...
 
 
@@ -64,6 +70,8 @@ class _Model(Protocol):
     @property
     def square_height(self) -> Array: ...
     @property
+    def arm(self) -> Array: ...
+    @property
     def curvature(self) -> Array: ...
     @property
     def ink_spread(self) -> Array: ...
@@ -75,116 +83,9 @@ class _Model(Protocol):
     def blur_gradient(self) -> Array: ...
     @property
     def height_gradient(self) -> Array: ...
-    def tangents(self) -> Array: ...
-    def normals(self) -> Array: ...
-    def pixel_half_widths(self) -> Array | None: ...
+    def is_sharp(self) -> bool: ...
+    def compute_band_widths(self) -> Array: ...
     def find_support(self) -> _Support: ...
-
-
-_OrientedBand = tuple[float, float, float, float, float, float, float]
-"""Tangent, normal, half the curvature, arm and width of an edge, along and across the axis that it
-is nearer to."""
-
-
-def _bound_pixels(bands: Array) -> int:
-    """Bound the number of pixels of a corner in `bands` (n, 2, 7), laid out as `_read` says."""
-    # Of an area at most as many pixels more than its size as columns cross it.
-    arm, width = bands[..., 5], bands[..., 6]
-    return int(np.ceil(np.sum((2 * arm + 3) * (2 * width + 3), axis=1).max()))
-
-
-def _bound_offsets(bands: Array) -> int:
-    """Bound the distance of pixels along u or v from the one at their corner, px."""
-    slant, arm, width = abs(bands[..., :2]).max(axis=2), bands[..., 5], bands[..., 6]
-    along, across = np.ceil(arm * slant + width), np.ceil(width / slant + 0.5)
-    return int(along.max() + across.max())
-
-
-@compiled_part
-def _orient_band(band: Array, flat: bool, width: float) -> _OrientedBand:
-    """Return one edge's numbers but with that width, u and v exchanged if it is not flat."""
-    bend, arm = band[4] / 2, band[5]
-    if flat:
-        return band[0], band[1], band[2], band[3], bend, arm, width
-    return band[1], band[0], band[3], band[2], bend, arm, width
-
-
-@compiled_part
-def _contains(x: float, y: float, edge: _OrientedBand) -> bool:
-    """Return whether the offset (x, y) from a corner lies in the band of an edge."""
-    tx, ty, nx, ny, bend, arm, width = edge
-    s = tx * x + ty * y
-    d = nx * x + ny * y - bend * s * s
-    return abs(d) <= width and abs(s) <= arm
-
-
-@compiled_part
-def _may_meet(x: float, first: float, last: float, edge: _OrientedBand) -> bool:
-    """Return whether offsets (x, first) to (x, last) may lie in the band of an edge: they do not
-    where both ends are on one side of it by more than its arc rises over its chord."""
-    tx, ty, nx, ny, bend, _, width = edge
-    s, t = tx * x + ty * first, tx * x + ty * last
-    d, e = nx * x + ny * first - bend * s * s, nx * x + ny * last - bend * t * t
-    reach = width + abs(bend) * (s - t) ** 2 / 4
-    return min(d, e) <= reach and max(d, e) >= -reach
-
-
-@compiled_part
-def _read_band(
-    image: GreyImage,
-    flat: bool,
-    cx: float,
-    cy: float,
-    edge: _OrientedBand,
-    done: _OrientedBand,
-    x_offset: _Ints,
-    y_offset: _Ints,
-    grey: _Floats,
-) -> int:
-    """Read the pixels of an edge's band that are not in the one `done`; return their number.
-
-    All lies in the frame of the bands, whose x and y are the image's u and v if the edge is flat,
-    otherwise v and u. (The transposed image would be another type, compiled by itself.)"""
-    tx, ty, _, ny, bend, arm, width = edge
-    height, breadth = image.shape if flat else image.shape[::-1]
-    x0, y0 = int(np.rint(cx)), int(np.rint(cy))
-    slope, bow = ty / tx, bend * ny / (tx * tx)
-    along = int(np.ceil(arm * abs(tx) + width))
-    across = int(np.ceil(width / abs(tx) + 0.5))
-    count = 0
-    for x in range(max(x0 - along, 1), min(x0 + along, breadth - 2) + 1):
-        dx = x - cx
-        middle = int(np.rint(cy + slope * dx + bow * dx * dx))
-        first, last = max(middle - across, 1), min(middle + across, height - 2)
-        # A band meets a column in one piece.
-        while first <= last and not _contains(dx, first - cy, edge):
-            first += 1
-        while first < last and not _contains(dx, last - cy, edge):
-            last -= 1
-        is_free = not _may_meet(dx, first - cy, last - cy, done)
-        for y in range(first, last + 1):
-            if is_free or not _contains(dx, y - cy, done):
-                x_offset[count], y_offset[count] = x - x0, y - y0
-                grey[count] = image[y, x] if flat else image[x, y]
-                count += 1
-    return count
-
-
-@compiled_part
-def _read(image: GreyImage, uv: Array, bands: Array, offset: _Ints, grey: _Floats) -> int:
-    """Fill offset (2, room), counted from the pixel at the corner uv (2,), and grey (room,) with
-    the pixels of its bands (2, 7), each once; return their number. A band is an edge's tangent,
-    normal, curvature, arm and width."""
-    u, v = offset
-    begin = 0
-    for i in range(2):
-        flat = abs(bands[i, 0]) >= abs(bands[i, 1])
-        edge = _orient_band(bands[i], flat, bands[i, 6])
-        done = _orient_band(bands[0], flat, bands[0, 6] if i else -1.0)
-        free = grey[begin:]
-        cx, cy, x, y = (uv[0], uv[1], u, v) if flat else (uv[1], uv[0], v, u)
-        begin += _read_band(image, flat, cx, cy, edge, done, x[begin:], y[begin:], free)
-    return begin
 
 
 @compiled_part
@@ -410,111 +311,124 @@ def _thin_out(offset: _Ints, residual: _Floats, mu: int, mv: int) -> int:
 
 @compiled_part
 def _measure_odd_part(
-    offset: _Ints, residual: _Floats, mu: int, mv: int, square: _Floats, out: Array
+    offset: _Ints, residual: _Floats, mu: int, mv: int, reach: int, square: _Floats, out: Array
 ) -> None:
     """Fill out (2,) as ``_measure_odd_part`` of the reference for one corner, about which offsets
-    of pixels are mirrored to (mu, mv) less them; square (side, side) is full of NaN, before and
-    after. What it does not need of offset and residual is lost."""
-    reach, pixels = square.shape[0] // 2, range(_thin_out(offset, residual, mu, mv))
+    of pixels are mirrored to (mu, mv) less them, none by more than `reach`.
+
+    square ((2 reach + 1)^2,) is full of NaN, before and after. What it does not need of offset and
+    residual is lost."""
+    pixels, side = range(_thin_out(offset, residual, mu, mv)), 2 * reach + 1
+    place = offset[0]
     for p in pixels:
-        square[offset[1, p] + reach, offset[0, p] + reach] = residual[p]
+        place[p] += reach + (offset[1, p] + reach) * side
+        square[np.uintp(place[p])] = residual[p]
+    total = pairs = 0.0
+    mirror = mu + 2 * reach + (mv + 2 * reach) * side
     for p in pixels:
-        u, v = offset[0, p], offset[1, p]
         # Of a pair the upper pixel is passed over, or the left one.
-        if 2 * v < mv or (2 * v == mv and 2 * u <= mu):
-            continue
-        if max(abs(mu - u), abs(mv - v)) > reach:
-            continue
-        opposite = square[mv - v + reach, mu - u + reach]
-        if not np.isnan(opposite):
-            out[0] += (residual[p] - opposite) ** 2 / 2
-            out[1] += 1
+        if 2 * place[p] > mirror:
+            opposite = square[np.uintp(mirror - place[p])]
+            if not np.isnan(opposite):
+                total += (residual[p] - opposite) ** 2 / 2
+                pairs += 1
+    out[0], out[1] = total, pairs
     for p in pixels:
-        square[offset[1, p] + reach, offset[0, p] + reach] = np.nan
+        square[np.uintp(place[p])] = np.nan
 
 
 @compiled
 def _accumulate(
     image: GreyImage,
-    uv: Array,
+    unknowns: Array,
     bands: Array,
-    room: int,
-    centre: Array,
     near: _Floats,
-    square: _Floats,
+    is_sharp: bool,
     out: Array,
     odd: Array,
     scores: Array,
 ) -> None:
     """Fill out (n, columns, columns) and, unless they are empty, odd (n, 2) and scores
-    (n, 2, 2, k)."""
+    (n, 2, 2, k).
+
+    What follows from the directions among the unknowns (n, 9) is filled into bands (n, 2, 7) and
+    near (n, 33)."""
+    n, frame = unknowns.shape[0], np.empty(8)
+    for i in range(n):
+        point_edges(unknowns[i], frame)
+        for edge in range(2):
+            for k in range(2):
+                bands[i, edge, k] = frame[2 * edge + k]
+                bands[i, edge, 2 + k] = frame[4 + 2 * edge + k]
+        for k in range(8):
+            near[i, k] = frame[k]
+        for k in range(2):
+            half = max(abs(frame[4 + 2 * k]), abs(frame[5 + 2 * k])) / 2
+            near[i, 31 + k] = half if is_sharp else 0.0
+    # The pixel opposite one read may lie one farther away.
+    room, reach = bound_pixels(bands), bound_offsets(bands) + 1
+    square = np.full((2 * reach + 1) ** 2 if odd.shape[0] else 0, _F(np.nan))
     offset, grey = np.empty((2, room), dtype=np.int32), np.empty(room, dtype=_F)
     w = np.empty(_ROWS * BLOCK, dtype=_F)
     u, v = np.empty(BLOCK, dtype=_F), np.empty(BLOCK, dtype=_F)
-    for i in range(uv.shape[0]):
-        count = _read(image, uv[i], bands[i], offset, grey)
-        du, dv = np.rint(uv[i, 0]) - centre[i, 0], np.rint(uv[i, 1]) - centre[i, 1]
+    for i in range(n):
+        place = unknowns[i, 0:2]
+        count = read_bands(image, place, bands[i], offset, grey)
+        du, dv = np.rint(place[0]) - place[0], np.rint(place[1]) - place[1]
         pixels = offset[:, :count], grey[:count]
         _add_corner(*pixels, _F(du), _F(dv), near[i], w, u, v, out[i], scores[i])
         if odd.shape[0]:
-            _measure_odd_part(*pixels, int(np.rint(-2 * du)), int(np.rint(-2 * dv)), square, odd[i])
+            mirror = int(np.rint(-2 * du)), int(np.rint(-2 * dv))
+            _measure_odd_part(*pixels, *mirror, reach, square, odd[i])
 
 
-def accumulate_normal_equations(
-    image: GreyImage, read: _Model, model: _Model, odd: bool
-) -> tuple[Array, Array]:
+def accumulate_normal_equations(image: GreyImage, model: _Model, odd: bool) -> tuple[Array, Array]:
     """Compute ``accumulate_normal_equations`` of the reference."""
-    n = len(model.unknowns)
-    uv, centre = (np.ascontiguousarray(x.unknowns[:, 0:2]) for x in (read, model))
-    bands, near = read.find_support().pack(), _pack_model(model)
-    side = 2 * _bound_offsets(bands) + 1 if odd else 0
-    columns = _LIT_COLUMNS if odd else _COLUMNS
+    n, columns = len(model.unknowns), _LIT_COLUMNS if odd else _COLUMNS
     out, odd_part = np.zeros((n, columns, columns)), np.zeros((n if odd else 0, 2))
-    square = np.full((side, side), np.nan, dtype=_F)
-    room = _bound_pixels(bands)
-    image = make_read_only(image)
-    scores = np.empty((n, 2, 2, 0))
-    _accumulate(image, uv, bands, room, centre, near.astype(_F), square, out, odd_part, scores)
+    _run(image, model, out, odd_part, np.empty((n, 2, 2, 0)))
     return out, odd_part
 
 
 def accumulate_scores(image: GreyImage, model: _Model) -> Array:
     """Compute ``accumulate_scores`` of the reference."""
     n = len(model.unknowns)
-    uv, support = np.ascontiguousarray(model.unknowns[:, 0:2]), model.find_support()
-    bands, near = support.pack(), _pack_model(model).astype(_F)
-    out, odd_part, square = np.empty((n, 0, 0)), np.empty((0, 2)), np.empty((0, 0), dtype=_F)
-    scores = np.zeros((n, 2, 2, support.bound_reach() + 1))
-    room, image = _bound_pixels(bands), make_read_only(image)
-    _accumulate(image, uv, bands, room, uv, near, square, out, odd_part, scores)
+    scores = np.zeros((n, 2, 2, model.find_support().bound_reach() + 1))
+    _run(image, model, np.empty((n, 0, 0)), np.empty((0, 2)), scores)
     return scores
 
 
-def _pack_model(model: _Model) -> Array:
+def _run(image: GreyImage, model: _Model, out: Array, odd: Array, scores: Array) -> None:
+    """Run the kernel."""
+    bands = np.empty((len(model.unknowns), 2, 7))
+    bands[..., 4], bands[..., 5] = model.curvature, model.arm
+    bands[..., 6] = model.compute_band_widths()
+    _accumulate(
+        make_read_only(image),
+        make_contiguous(model.unknowns),
+        bands,
+        _pack_model(model),
+        model.is_sharp(),
+        out,
+        odd,
+        scores,
+    )
+
+
+def _pack_model(model: _Model) -> _Floats:
     """Pack the model at n corners (n, 33).
 
     In this order: t_1, t_2, n_1, n_2, kappa_1 / 2, kappa_2 / 2; blur and height of edges 1 and 2
     (s_1, s_2, their gradients); m and gm; a and ga; rho, p, growth of the squares (+, +) over the
-    height of a square, half widths of the pixel across edges 1 and 2 or 0.
+    height of a square, half widths of the pixel across edges 1 and 2 or 0. The directions, and what
+    follows from them, are left to the kernel.
     """
     x, n = model.unknowns, len(model.unknowns)
-    box = model.pixel_half_widths()
-    return np.column_stack(
-        [
-            model.tangents().reshape(n, 4),
-            model.normals().reshape(n, 4),
-            model.curvature / 2,
-            x[:, 4:6],
-            model.blur_gradient.reshape(n, 4),
-            model.square_height,
-            model.height_gradient.reshape(n, 4),
-            x[:, 6],
-            model.level_gradient,
-            x[:, 7],
-            model.contrast_gradient,
-            x[:, 8],
-            model.sign,
-            model.sign * model.ink_spread,
-            np.zeros((n, 2)) if box is None else box,
-        ]
-    )
+    near = np.empty((n, 33), dtype=_F)
+    near[:, 8:10], near[:, 10:12] = model.curvature / 2, x[:, 4:6]
+    near[:, 12:16], near[:, 16:18] = model.blur_gradient.reshape(n, 4), model.square_height
+    near[:, 18:22] = model.height_gradient.reshape(n, 4)
+    near[:, 22], near[:, 23:25] = x[:, 6], model.level_gradient
+    near[:, 25], near[:, 26:28] = x[:, 7], model.contrast_gradient
+    near[:, 28], near[:, 29], near[:, 30] = x[:, 8], model.sign, model.sign * model.ink_spread
+    return near

@@ -116,7 +116,7 @@ def test_the_same_pairs_of_pixels_tell_the_noise(arm: float, thinned: int) -> No
         height_gradient=np.zeros((n, 2, 2)),
     )
     image = rng.integers(0, 256, (2100, 2100), dtype=np.uint8)
-    arguments = image, model, model, True
+    arguments = image, model, True
     products, compiled = accumulate_normal_equations.kernel(*arguments)
     _, readable = accumulate_normal_equations.reference(*arguments)
     np.testing.assert_allclose(compiled[:, 0], readable[:, 0], rtol=5e-3)  # pixels at the borders
@@ -144,14 +144,12 @@ def test_support_holds_every_pixel_once_and_within_its_bounds(bent: float, longe
         width=rng.uniform(0.7, np.maximum(arm / 2, 1.0)),
     )
     image = rng.integers(0, 256, (300, 300), dtype=np.uint8)
-    compiled = import_module("calibgui.engine.kernels.x_corner_model")
-    packed, read = support.pack(), make_callable(compiled._read)
+    compiled = import_module("calibgui.engine.kernels.edge_bands")
+    packed, read = support.pack(), make_callable(compiled.read_bands)
+    bounds = make_callable(compiled.bound_pixels), make_callable(compiled.bound_offsets)
     readable, _, counts = support.read(image)
     for i in range(n):
-        most, farthest = (
-            compiled._bound_pixels(packed[i : i + 1]),
-            compiled._bound_offsets(packed[i : i + 1]),
-        )
+        most, farthest = (bound(packed[i : i + 1]) for bound in bounds)
         offset, grey = np.zeros((2, most), np.int32), np.zeros(most, np.float32)
         number = read(image, support.uv[i], packed[i], offset, grey)
         assert number <= most
@@ -163,3 +161,30 @@ def test_support_holds_every_pixel_once_and_within_its_bounds(bent: float, longe
         if not bent:  # the readable ones in float32
             others = set(map(tuple, readable[i][counts[i] > 0].tolist()))
             assert len(seen ^ others) <= 1
+
+
+def test_nothing_is_read_at_a_corner_that_is_not_finite() -> None:
+    image = np.random.default_rng(0).integers(0, 256, (100, 100), dtype=np.uint8)
+    unknowns = np.tile([50.0, 50.0, 0.2, np.pi / 2, 2.0, 2.0, 100.0, 50.0, 0.0], (3, 1))
+    unknowns[0, 0], unknowns[1, 4] = np.nan, np.inf
+    model = XCornerModel(
+        unknowns=unknowns,
+        sign=np.ones(3),
+        square_height=np.full((3, 2), 20.0),
+        arm=np.full((3, 2), 10.0),
+        plain_width=np.full((3, 2), np.inf),
+        curvature=np.zeros((3, 2)),
+        ink_spread=np.zeros(3),
+        level_gradient=np.zeros((3, 2)),
+        contrast_gradient=np.zeros((3, 2)),
+        blur_gradient=np.zeros((3, 2, 2)),
+        height_gradient=np.zeros((3, 2, 2)),
+    )
+    products, odd_part = accumulate_normal_equations.kernel(image, model, True)
+    alone = model.select(np.array([2]))
+    expected, expected_odd = accumulate_normal_equations.kernel(image, alone, True)
+    assert not products[:2].any()
+    assert not odd_part[:2].any()
+    np.testing.assert_array_equal(products[2:], expected)
+    np.testing.assert_array_equal(odd_part[2:], expected_odd)
+    assert expected_odd[0, 1] > 50

@@ -141,7 +141,7 @@ def _fit_arms(
     """
     model = replace(model, arm=arm)
     for _ in range(_STEPS):
-        products, _ = accumulate_normal_equations(image, model, model, odd=True)
+        products, _ = accumulate_normal_equations(image, model, odd=True)
         model, inverse, _ = take_lit_step(model, products)
     free = np.maximum(products[:, 6, 6] - UNKNOWNS - _GRADIENTS, 1)
     square = products[:, UNKNOWNS, UNKNOWNS] / free

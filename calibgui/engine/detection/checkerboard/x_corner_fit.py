@@ -189,7 +189,7 @@ def fit_x_corners(
         known = sigma if is_long else np.inf
         followed = board.follow_edges(_list_edges(near), known) if is_next_large else None
         model = _update_priors(near, board, arm, followed)
-    products, odd_part = accumulate_normal_equations(image, model, model, odd=True)
+    products, odd_part = accumulate_normal_equations(image, model, odd=True)
     before = model
     model, inverse, square = take_step(before, products)
     least_noise = estimate_least_noise(image)
@@ -247,7 +247,7 @@ def _approach(image: GreyImage, model: XCornerModel) -> tuple[XCornerModel, floa
     """Return the model after a step from what is near the corners, and their standard deviation,
     px."""
     near = replace(model, arm=np.minimum(model.arm, _THRESHOLDS.max_near_arm))
-    products, _ = accumulate_normal_equations(image, near, near, odd=False)
+    products, _ = accumulate_normal_equations(image, near, odd=False)
     stepped, inverse, square = take_step(near, products)
     return stepped, _average_sigma(square[:, None, None] * inverse)
 

@@ -54,7 +54,7 @@ _BAND_BLURS, _BAND_MARGIN = 2.3, 0.7
 _ENOUGH_PIXELS = 4096
 """Number of pixels that tell a corner's noise to 2 %."""
 C, THETA, BLUR = np.s_[:, 0:2], np.s_[:, 2:4], np.s_[:, 4:6]
-M, A, RHO = np.s_[:, 6], np.s_[:, 7], np.s_[:, 8]
+M, A, RHO, LIGHT = np.s_[:, 6], np.s_[:, 7], np.s_[:, 8], np.s_[:, 6:8]
 """Columns of the unknowns."""
 UNKNOWNS = 9
 """Number of unknowns of a corner."""
@@ -197,21 +197,27 @@ class XCornerModel:
     def pixel_half_widths(self) -> Array | None:
         """Compute the half widths (n, 2) px of a pixel across edges 1 and 2; None if the blur is so
         large that its shape does not matter."""
-        if compute_median(self.unknowns[BLUR].ravel()) >= _MAX_SHARP_BLUR:
-            return None
-        return np.asarray(abs(self.normals()).max(axis=2) / 2)
+        return np.asarray(abs(self.normals()).max(axis=2) / 2) if self.is_sharp() else None
+
+    def is_sharp(self) -> bool:
+        """Return whether the blur is so small that the pixel's shape matters."""
+        return bool(compute_median(self.unknowns[BLUR].ravel()) < _MAX_SHARP_BLUR)
+
+    def compute_band_widths(self) -> Array:
+        """Compute how far (n, 2) px the bands of edges 1 and 2 reach across them to both sides."""
+        grown = abs(self.ink_spread)[:, None] * self.square_height
+        width = _BAND_BLURS * self.unknowns[BLUR] + _BAND_MARGIN + grown
+        return np.minimum(width, self.plain_width)
 
     def find_support(self) -> EdgeSupport:
         """Find the pixels to read."""
-        grown = abs(self.ink_spread)[:, None] * self.square_height
-        width = _BAND_BLURS * self.unknowns[BLUR] + _BAND_MARGIN + grown
         return EdgeSupport(
             self.unknowns[C],
             self.tangents(),
             self.normals(),
             self.curvature,
             self.arm,
-            np.minimum(width, self.plain_width),
+            self.compute_band_widths(),
         )
 
 
@@ -239,7 +245,7 @@ class _Window:
 
 @kernels.with_kernel("x_corner_model", "accumulate_normal_equations")
 def accumulate_normal_equations(
-    image: GreyImage, read: XCornerModel, model: XCornerModel, odd: bool
+    image: GreyImage, model: XCornerModel, odd: bool
 ) -> tuple[Array, Array]:
     """Accumulate the products of the columns [J r]: derivatives of the model by the unknowns, and
     the residual, what the model leaves unexplained.
@@ -249,8 +255,7 @@ def accumulate_normal_equations(
 
     Args:
         image: (h, w) grey levels.
-        read: the model whose support is read, near `model`.
-        model: the model.
+        model: the model, whose own support is read.
         odd: whether the odd part of r is wanted too, and the columns of the derivatives by gm and
             ga, which follow r.
 
@@ -260,9 +265,9 @@ def accumulate_normal_equations(
     """
     n, columns = len(model.unknowns), UNKNOWNS + (5 if odd else 1)
     N, differences = np.empty((n, columns, columns)), np.empty((n if odd else 0, 2))
-    for index in _divide_corners(read):
+    for index in _divide_corners(model):
         portion = model.select(index)
-        window = _Window(*read.select(index).find_support().read(image))
+        window = _Window(*portion.find_support().read(image))
         J = _compute_columns(portion, window)
         if odd:
             differences[index] = _measure_odd_part(portion.unknowns[C], window, J[:, UNKNOWNS])
@@ -306,10 +311,10 @@ def accumulate_scores(image: GreyImage, model: XCornerModel) -> Array:
     return sums
 
 
-def _divide_corners(read: XCornerModel) -> list[IntArray]:
+def _divide_corners(model: XCornerModel) -> list[IntArray]:
     """Divide the corners into portions whose bands are of about one size."""
-    order = np.argsort(read.arm.sum(axis=1), kind="stable")
-    largest = read.select(order[-1:]).find_support()
+    order = np.argsort(model.arm.sum(axis=1), kind="stable")
+    largest = model.select(order[-1:]).find_support()
     total = len(order) * (largest.count_pixels(0) + largest.count_pixels(1))
     return np.array_split(order, np.clip(total // _MAX_PIXELS_AT_ONCE, 1, len(order)))
 
