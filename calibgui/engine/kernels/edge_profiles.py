@@ -4,15 +4,16 @@ from __future__ import annotations
 
 import numpy as np
 
-from calibgui.engine.arrays import Array, GreyImage
+from calibgui.engine.arrays import Array, GreyImage, Int32Array
 from calibgui.engine.kernels.common import (
     bilinear,
     compiled,
     compiled_part,
-    interpolate,
     make_contiguous,
     make_read_only,
 )
+
+_NEXT = np.uintp(1)
 
 
 @compiled_part
@@ -24,25 +25,42 @@ def _sample_profile(
     s: float,
     middle: float,
     half: float,
-    grey: Array,
+    pixel: Int32Array,
+    w: Array,
 ) -> None:
-    """Fill grey with the levels s steps along an edge, from middle - half to middle + half steps
-    across it."""
+    """Fill the last row of w (7, n) with the levels s steps along an edge, from middle - half to
+    middle + half steps across it.
+
+    Inside the image only the pixels are read one by one: the places in pixel (2, n) and between the
+    pixels, and the levels from these, become vector instructions. All rows are in one array, so
+    that the compiler sees that none overlap."""
     height, width = image.shape
-    n = grey.shape[0]
+    n = pixel.shape[0] // 2
+    grey = w[6 * n :]
     step, first = 2 * half / (n - 1), middle - half
     du, dv = step * across[0], step * across[1]
     u, v = uv[0] + s * along[0] + first * across[0], uv[1] + s * along[1] + first * across[1]
     far_u, far_v = u + (n - 1) * du, v + (n - 1) * dv
     inside = 0 <= min(u, far_u) and max(u, far_u) < width - 1
-    if inside and 0 <= min(v, far_v) and max(v, far_v) < height - 1:
-        for j in range(n):
-            p, q = u + j * du, v + j * dv
-            c, r = int(p), int(q)
-            grey[j] = interpolate(image, c, r, p - c, q - r)
-    else:
+    if not (inside and 0 <= min(v, far_v) and max(v, far_v) < height - 1):
         for j in range(n):
             grey[j] = bilinear(image, u + j * du, v + j * dv)
+        return
+    for j in range(n):
+        x, y = u + j * du, v + j * dv
+        left, above = np.int32(x), np.int32(y)
+        pixel[j], pixel[n + j] = left, above
+        w[j], w[n + j] = x - left, y - above
+    for j in range(n):
+        # Numbers without a sign are not asked whether they count from the end.
+        column, row = np.uintp(np.uint32(pixel[j])), np.uintp(np.uint32(pixel[n + j]))
+        w[2 * n + j], w[3 * n + j] = image[row, column], image[row, column + _NEXT]
+        w[4 * n + j], w[5 * n + j] = image[row + _NEXT, column], image[row + _NEXT, column + _NEXT]
+    for j in range(n):
+        a, b = w[j], w[n + j]
+        upper = (1 - a) * w[2 * n + j] + a * w[3 * n + j]
+        lower = (1 - a) * w[4 * n + j] + a * w[5 * n + j]
+        w[6 * n + j] = (1 - b) * upper + b * lower
 
 
 @compiled
@@ -59,18 +77,21 @@ def _fill_ends(
     last: Array,
     total: Array,
 ) -> None:
-    """Add to first, last and total (n, k)."""
-    grey = np.empty(samples)
+    """Fill first, last and total (n, k)."""
+    pixel, w = np.empty(2 * samples, np.int32), np.empty(7 * samples)
+    grey = w[6 * samples :]
     for i in range(uv.shape[0]):
         place, right, down = uv[i], along[i], across[i]
         for k in range(s.shape[0]):
-            _sample_profile(image, place, right, down, s[k], 0.0, reach, grey)
-            total[i, k] = -(grey[0] + grey[samples - 1]) / 2
+            _sample_profile(image, place, right, down, s[k], 0.0, reach, pixel, w)
+            low = high = 0.0
+            sum_of_all = -(grey[0] + grey[samples - 1]) / 2
             for j in range(samples):
-                total[i, k] += grey[j]
+                sum_of_all += grey[j]
             for j in range(ends):
-                first[i, k] += grey[j] / ends
-                last[i, k] += grey[samples - 1 - j] / ends
+                low += grey[j]
+                high += grey[samples - 1 - j]
+            first[i, k], last[i, k], total[i, k] = low / ends, high / ends, sum_of_all
 
 
 @compiled_part
@@ -104,7 +125,8 @@ def _describe_profiles(
     out: Array,
 ) -> None:
     """Fill out (5, n); ends (3, n, k) are the results of `_measure_ends`."""
-    grey, k = np.empty(samples), len(s)
+    pixel, w = np.empty(2 * samples, np.int32), np.empty(7 * samples)
+    grey, k = w[6 * samples :], len(s)
     growth, counts, low, high = np.empty(k), np.empty(k), np.empty(k), np.empty(k)
     for i in range(len(uv)):
         place, right, down = uv[i], along[i], across[i]
@@ -120,10 +142,12 @@ def _describe_profiles(
             integral = (total / (samples - 1) - first) / rise * 2 * reach
             growth[j] = (reach - integral) * turn
             middle = min(max(reach - integral, close - reach), reach - close)
-            _sample_profile(image, place, right, down, s[j], middle, close, grey)
-            counts[j] = 0.0
+            _sample_profile(image, place, right, down, s[j], middle, close, pixel, w)
+            count = 0
             for g in grey:
-                counts[j] += 0.25 < (g - first) / rise < 0.75
+                share = (g - first) / rise
+                count += (share > 0.25) & (share < 0.75)
+            counts[j] = count
         out[0, i] = out[1, i] = 0.0 if is_clear else np.nan
         for j in range(k):
             out[0, i] += growth[j] / k
@@ -147,7 +171,7 @@ def measure_ends(
     ends: int,
 ) -> Array:
     """Compute ``_measure_ends`` of the reference."""
-    out = np.zeros((3, len(uv), len(s)))
+    out = np.empty((3, len(uv), len(s)))
     image, (uv, along, across) = make_read_only(image), map(make_contiguous, (uv, along, across))
     _fill_ends(image, uv, along, across, s, reach, samples, ends, out[0], out[1], out[2])
     return out

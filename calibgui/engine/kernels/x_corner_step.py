@@ -80,24 +80,26 @@ def _step(
     """Fill stepped (n, m), inverse (n, 2, 2) and square (n,); typical is the median of the mean
     squares of the residuals."""
     m = x.shape[1]
-    L, g, step, unit = np.empty((m, m)), np.empty(m), np.empty(m), np.empty(m)
+    L, g, step = np.empty((m, m)), np.empty(m), np.empty(m)
     expected = np.empty(x.shape[0])
     _fill_blur_difference(x, expected)
     for i in range(x.shape[0]):
+        # c stands last, and unknown k in place k - 2.
         for j in range(m):
-            g[j] = products[i, order[j], order[m]]
+            row = order[(j + 2) % m]
+            g[j] = products[i, row, order[m]]
             for k in range(m):
-                L[j, k] = products[i, order[j], order[k]]
+                L[j, k] = products[i, row, order[(k + 2) % m]]
         total, count = products[i, order[m], order[m]], max(products[i, 6, 6], 1.0)
         s1, s2, rho = x[i, 4], x[i, 5], x[i, 8]
         weight = total / count / rho_sigma**2
-        L[8, 8] += weight
-        g[8] -= weight * (np.cos(x[i, 2] - x[i, 3]) + rho)
+        L[6, 6] += weight
+        g[6] -= weight * (np.cos(x[i, 2] - x[i, 3]) + rho)
         weight = typical / (blur_difference_sigma**2 * (s1 * s1 + s2 * s2) / 2)
         lack = expected[i] - (s1 - s2)
-        L[4, 4], L[5, 5] = L[4, 4] + weight, L[5, 5] + weight
-        L[4, 5], L[5, 4] = L[4, 5] - weight, L[5, 4] - weight
-        g[4], g[5] = g[4] + weight * lack, g[5] - weight * lack
+        L[2, 2], L[3, 3] = L[2, 2] + weight, L[3, 3] + weight
+        L[2, 3], L[3, 2] = L[2, 3] - weight, L[3, 2] - weight
+        g[2], g[3] = g[2] + weight * lack, g[3] - weight * lack
         largest = 1e-300
         for k in range(m):
             largest = max(largest, L[k, k])
@@ -106,22 +108,21 @@ def _step(
             step[k] = g[k]
         factor(L)
         substitute(L, step)
-        for axis in range(2):
-            unit[:] = 0
-            unit[axis] = 1
-            substitute(L, unit)
-            inverse[i, axis, 0], inverse[i, axis, 1] = unit[0], unit[1]
+        # The last part of the inverse follows from the last factors alone.
+        a, b, shared = L[m - 2, m - 2], L[m - 1, m - 1], L[m - 1, m - 2]
+        inverse[i, 0, 0], inverse[i, 1, 1] = 1 / a + shared * shared / b, 1 / b
+        inverse[i, 0, 1] = inverse[i, 1, 0] = -shared / b
         for k in range(m):
             total -= step[k] * g[k]
         square[i] = (0.0 if total < 0 else total) / max(count - m, 1.0)
         for k in range(2):
-            step[k] = _limit(step[k], -1.0, 1.0)
-            step[2 + k] = _limit(step[2 + k], -0.1, 0.1)
+            step[m - 2 + k] = _limit(step[m - 2 + k], -1.0, 1.0)
+            step[k] = _limit(step[k], -0.1, 0.1)
             s = x[i, 4 + k]
-            step[4 + k] = _limit(step[4 + k], max(-s / 3, min_blur - s), s / 2)
-        step[8] = _limit(step[8], -max_rho - rho, max_rho - rho)
+            step[2 + k] = _limit(step[2 + k], max(-s / 3, min_blur - s), s / 2)
+        step[6] = _limit(step[6], -max_rho - rho, max_rho - rho)
         for k in range(m):
-            stepped[i, k] = x[i, k] + step[k]
+            stepped[i, (k + 2) % m] = x[i, (k + 2) % m] + step[k]
 
 
 def step_unknowns(
