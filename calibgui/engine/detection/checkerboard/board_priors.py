@@ -26,6 +26,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from calibgui.engine import kernels
 from calibgui.engine.arrays import (
     Array,
     BoolArray,
@@ -33,6 +34,7 @@ from calibgui.engine.arrays import (
     IntArray,
     compute_lengths,
     compute_median,
+    invert_2x2,
 )
 from calibgui.engine.detection import grid_map
 from calibgui.engine.detection.checkerboard.edge_bend import ReadEdges
@@ -60,6 +62,9 @@ class _Terms(NamedTuple):
     """(3, m) numbers of corners that follow each other in a row or a column."""
     counts: IntArray
     """(degrees,) numbers of the terms that make up the polynomials of one degree after another."""
+    spreads: Array
+    """(degrees, n, 2, 2) sums, over the terms of these, of the products of their derivatives by
+    column and by row."""
 
 
 @lru_cache(maxsize=4)
@@ -87,13 +92,18 @@ def _compute_terms(shape: GridSize, found: bytes) -> _Terms:
         degree, np.unique(degree[degree <= _THRESHOLDS.max_degree]), side="right"
     )
     inverse = np.linalg.inv(R)
-    derivatives = [
-        grid_map.compute_polynomial_terms(table, powers, half, order) @ inverse for order in _ORDERS
-    ]
+    derivatives = np.stack(
+        [
+            grid_map.compute_polynomial_terms(table, powers, half, order) @ inverse
+            for order in _ORDERS
+        ]
+    )
+    products = derivatives[:2, None] * derivatives[:2]
+    spreads = np.cumsum(products, axis=3)[..., counts - 1].transpose(3, 2, 0, 1)
     neighbours = _list_neighbours(shape, at)
     triples = neighbours[1:4].reshape(3, -1)
     triples = triples[:, (triples < len(at)).all(axis=0)]
-    return _Terms(Q, np.stack(derivatives), neighbours, triples, counts)
+    return _Terms(Q, derivatives, neighbours, triples, counts, np.ascontiguousarray(spreads))
 
 
 def _list_neighbours(shape: GridSize, at: IntArray) -> IntArray:
@@ -132,7 +142,7 @@ class BoardPriors:
         """
         flat = grid_map.fit_radial_homography(self._cells, uv)
         first, second = flat.differentiate(self._cells)
-        weights, _ = self._fit_polynomials(uv - flat.locate(self._cells))
+        weights, _, _ = self._fit_polynomials(uv - flat.locate(self._cells))
         rest = (self._terms.derivatives @ weights).transpose(1, 0, 2)
         steps = first + rest[:, :2]
         return steps, compute_curvatures(steps, second + rest[:, 2:])
@@ -148,7 +158,7 @@ class BoardPriors:
             return fit_edge_map(self._found, edges, sigma)
         if np.isfinite(sigma):
             flat = grid_map.fit_radial_homography(self._cells, edges.uv)
-            _, misses = self._fit_polynomials(edges.uv - flat.locate(self._cells))
+            _, _, misses = self._fit_polynomials(edges.uv - flat.locate(self._cells))
             if np.mean(misses**2) > (_THRESHOLDS.max_told_misfit * sigma) ** 2:
                 return fit_edge_map(self._found, edges, sigma)
         return self._bend_edges(edges)
@@ -164,7 +174,7 @@ class BoardPriors:
         Args:
             steps: (n, 2, 2) to the next column and row, px.
         """
-        weights, misfit = self._fit_polynomials(values)
+        weights, _, misfit = self._fit_polynomials(values)
         slopes = (self._terms.derivatives[:2] @ weights).transpose(1, 0, 2)
         is_broken = find_broken(misfit, self._estimate_noise(values))
         if is_broken.any():
@@ -173,26 +183,24 @@ class BoardPriors:
             slopes = np.where(is_broken, np.nan_to_num(lesser), slopes)
         return _solve_steps(steps, slopes).transpose(0, 2, 1)
 
-    def estimate_gradient_covariance(self, steps: Array, values: Array) -> Array:
-        """Estimate the covariance (n, 2, 2) over the image, per px^2, that the gradient of `values`
-        (n,) has from their scatter about the polynomial, or where they break from that of their
-        differences.
+    def estimate_gradient_covariances(self, steps: Array, values: Array) -> Array:
+        """Estimate the covariances (k, n, 2, 2) over the image, per px^2, that the gradients of
+        `values` (n, k) have from their scatter about the polynomials, or where they break from that
+        of their differences.
 
         Args:
             steps: (n, 2, 2) to the next column and row, px.
         """
-        Q, derivatives = self._terms.orthonormal, self._terms.derivatives
-        weights = Q.T @ values
-        counts, misfit = self._choose_counts(values[:, None], weights[:, None])
-        noise = self._estimate_noise(values[:, None])
-        if find_broken(misfit, noise).any():
-            slopes = np.linalg.inv(steps)
-            return np.asarray(2 * noise**2 * slopes @ slopes.transpose(0, 2, 1))
-        count = int(counts[0])
-        rss = np.sum((values - Q[:, :count] @ weights[:count]) ** 2)
-        variance = rss / max(len(values) - count, 1)
-        slopes = _solve_steps(steps, derivatives[:2, :, :count].transpose(1, 0, 2))
-        return np.asarray(variance * slopes @ slopes.transpose(0, 2, 1))
+        weights, degrees, misfit = self._fit_polynomials(values)
+        noise = self._estimate_noise(values)
+        inverse = invert_2x2(steps)
+        rss = np.sum((values - self._terms.orthonormal @ weights) ** 2, axis=0)
+        variance = rss / np.maximum(len(values) - self._terms.counts[degrees], 1)
+        spreads = variance[:, None, None, None] * self._terms.spreads[degrees]
+        is_broken = find_broken(misfit, noise)
+        # The difference of two neighbours.
+        spreads[is_broken] = 2 * noise[is_broken, None, None, None] ** 2 * np.eye(2)
+        return np.asarray(inverse @ spreads @ inverse.transpose(0, 2, 1))
 
     def _estimate_noise(self, values: Array) -> Array:
         """Estimate the noise (k,) of `values` (n, k) from their differences along the lines."""
@@ -209,30 +217,40 @@ class BoardPriors:
         start, end = np.isnan(before), np.isnan(after)
         return np.where(start, later, before), np.where(end, earlier, after)
 
-    def _fit_polynomials(self, values: Array) -> tuple[Array, Array]:
+    def _fit_polynomials(self, values: Array) -> tuple[Array, IntArray, Array]:
         """Fit polynomials to `values` (n, k).
 
         Returns:
-            (terms, k) the weights of their terms, and (k,) the rms by which they would miss a value
-            left out.
+            (terms, k) the weights of their terms, (k,) their degrees, and (k,) the rms by which
+            they would miss a value left out.
         """
-        weights = self._terms.orthonormal.T @ values
-        best, misfit = self._choose_counts(values, weights)
-        weights[np.arange(len(weights))[:, None] >= best] = 0.0
-        return weights, misfit
-
-    def _choose_counts(self, values: Array, weights: Array) -> tuple[IntArray, Array]:
-        """Choose how many terms, of `weights` (terms, k), the polynomials of `values` (n, k) have.
-
-        Returns:
-            (k,) the numbers, and (k,) the rms by which the polynomials would miss a value left out.
-        """
-        counts = self._terms.counts
+        weights, counts = self._terms.orthonormal.T @ values, self._terms.counts
+        degrees, misfit = _choose_degrees(values, weights, counts, _THRESHOLDS.term_cost)
         # Dropping the last terms leaves the others' weights on Q unchanged.
-        explained = np.cumsum(weights**2, axis=0)[counts - 1]
-        rss = np.maximum(np.sum(values**2, axis=0) - explained, 0.0)
-        score = rss / (1 - _THRESHOLDS.term_cost * counts[:, None] / (len(values) + 1)) ** 2
-        return counts[np.argmin(score, axis=0)], np.sqrt(score.min(axis=0) / len(values))
+        weights[np.arange(len(weights))[:, None] >= counts[degrees]] = 0.0
+        return weights, degrees, misfit
+
+
+@kernels.with_kernel("board_priors", "choose_degrees")
+def _choose_degrees(
+    values: Array, weights: Array, counts: IntArray, term_cost: float
+) -> tuple[IntArray, Array]:
+    """Choose the degrees of polynomials by generalised cross-validation.
+
+    Args:
+        values: (n, k) that they are fitted to.
+        weights: (terms, k) of orthonormal terms.
+        counts: (degrees,) numbers of terms that make up the polynomials of each degree.
+        term_cost: how much of a value a term costs.
+
+    Returns:
+        (k,) the places of the degrees among those counted, and (k,) the rms by which the
+        polynomials would miss a value left out.
+    """
+    explained = np.cumsum(weights**2, axis=0)[counts - 1]
+    rss = np.maximum(np.sum(values**2, axis=0) - explained, 0.0)
+    score = rss / (1 - term_cost * counts[:, None] / (len(values) + 1)) ** 2
+    return np.argmin(score, axis=0), np.sqrt(score.min(axis=0) / len(values))
 
 
 def find_broken(misfit: Array, noise: Array) -> BoolArray:

@@ -176,7 +176,7 @@ class NearPriors(BoardPriors):
             polynomials.append(_Polynomial(terms, inverse, np.stack(derivatives, axis=1), share))
         return polynomials
 
-    def estimate_gradient_covariance(self, steps: Array, values: Array) -> Array:
-        """Return zeros (n, 2, 2): over the short arms that are read here it does not matter."""
-        del values
-        return np.zeros_like(steps)
+    def estimate_gradient_covariances(self, steps: Array, values: Array) -> Array:
+        """Return zeros (k, n, 2, 2) for `values` (n, k): over the short arms that are read here it
+        does not matter."""
+        return np.zeros((values.shape[1], *steps.shape))

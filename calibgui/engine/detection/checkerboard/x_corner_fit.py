@@ -51,6 +51,7 @@ from calibgui.engine.arrays import (
     Size,
     compute_lengths,
     compute_median,
+    invert_2x2,
 )
 from calibgui.engine.detection.checkerboard import edge_profiles
 from calibgui.engine.detection.checkerboard.board_priors import BoardPriors, PredictedBoardPriors
@@ -67,6 +68,7 @@ from calibgui.engine.detection.checkerboard.flat_squares import read_flat_square
 from calibgui.engine.detection.checkerboard.local_light import find_uneven_light, fit_local_light
 from calibgui.engine.detection.checkerboard.x_corner_model import (
     BLUR,
+    LIGHT,
     MIN_BLUR,
     RHO,
     THETA,
@@ -207,13 +209,13 @@ def fit_x_corners(
         followed = board.follow_edges(edges, _average_sigma(covariance) if is_told else np.inf)
         better = _update_priors(model, board, arm, followed)
         bend = followed.bend - edges.measure_bend(edges.curvature)
-        lights = [
-            board.estimate_gradient_covariance(followed.steps, model.unknowns[of]) for of in (M, A)
-        ]
+        of_level, of_contrast = board.estimate_gradient_covariances(
+            followed.steps, model.unknowns[LIGHT]
+        )
         if is_plain:
-            told = products + _weigh_gradients(before, better, lights, noise, products)
+            told = _add_gradients(before, better, (of_level, of_contrast), noise, products)
             model, opened, _ = take_lit_step(before, told)
-            opening = np.trace(opened, axis1=1, axis2=2) / np.trace(inverse, axis1=1, axis2=2)
+            opening = _compute_traces(opened) / _compute_traces(inverse)
             at = np.flatnonzero(opening > 1 + _THRESHOLDS.max_open_light)
             if len(at):
                 told[at] += read_flat_squares(image, before.select(at), noise[at])
@@ -223,7 +225,7 @@ def fit_x_corners(
         else:
             model = _correct_for_light_told(model, inverse, better, edges)
             model = _correct_for_bend(model, better, edges, bend)
-            covariance = covariance + _compute_light_covariance(model, inverse, edges, lights[0])
+            covariance = covariance + _compute_light_covariance(model, inverse, edges, of_level)
         by_bend = _compute_bend_covariance(model, followed.variance)
     growth = estimate_growth(image, model, noise, ~uneven)
     covariance = growth * covariance
@@ -254,7 +256,12 @@ def _approach(image: GreyImage, model: XCornerModel) -> tuple[XCornerModel, floa
 
 def _average_sigma(covariance: Array) -> float:
     """Average the standard deviations, px, of corners of `covariance` (n, 2, 2)."""
-    return float(np.sqrt(compute_median(np.trace(covariance, axis1=1, axis2=2)) / 2))
+    return float(np.sqrt(compute_median(_compute_traces(covariance)) / 2))
+
+
+def _compute_traces(matrices: Array) -> Array:
+    """Compute the traces (n,) of matrices (n, 2, 2)."""
+    return np.asarray(matrices[:, 0, 0] + matrices[:, 1, 1])
 
 
 def _estimate_start(
@@ -340,7 +347,7 @@ def _list_edges(model: XCornerModel, size: Size | None = None) -> ReadEdges:
 def _compute_bend_covariance(model: XCornerModel, variance: Array) -> Array:
     """Compute what the `variance` (n, 2) px^2 of the edges' bends adds to the covariance (n, 2, 2)
     of the corners."""
-    moved = np.linalg.inv(model.normals())
+    moved = invert_2x2(model.normals())
     return np.asarray((moved * variance[:, None]) @ moved.transpose(0, 2, 1))
 
 
@@ -357,15 +364,14 @@ def _compute_light_covariance(
     return np.asarray(moved @ gradient @ moved.transpose(0, 2, 1))
 
 
-def _weigh_gradients(
+def _add_gradients(
     before: XCornerModel,
     better: XCornerModel,
-    covariances: list[Array],
+    covariances: tuple[Array, Array],
     noise: Array,
     products: Array,
 ) -> Array:
-    """Compute what the board as a whole tells of the light's gradients, as products (n, 14, 14) to
-    be added to those of the pixels.
+    """Add what the board as a whole tells of the light's gradients to the products of the pixels.
 
     It counts at most as a hundred times the pixels that are read at a corner: far more would be
     lost to rounding.
@@ -376,22 +382,26 @@ def _weigh_gradients(
         covariances: of these gm and ga, (n, 2, 2).
         noise: (n,) square of the noise, grey levels^2.
         products: (n, 14, 14) of the pixels.
+
+    Returns:
+        (n, 14, 14) the products of both.
     """
-    weights = np.zeros_like(products)
+    told = products.copy()
     lacks = (
         better.level_gradient - before.level_gradient,
         better.contrast_gradient - before.contrast_gradient,
     )
     for i, (lack, covariance) in enumerate(zip(lacks, covariances, strict=True)):
         at = slice(UNKNOWNS + 1 + 2 * i, UNKNOWNS + 3 + 2 * i)
-        pixels = np.trace(products[:, at, at], axis1=1, axis2=2)
+        pixels = _compute_traces(products[:, at, at])
         least = noise / (_MAX_BOARD_WEIGHT * np.maximum(pixels, 1e-300))
         bounded = covariance + least[:, None, None] * np.eye(2)
-        weight = noise[:, None, None] * np.linalg.inv(bounded)
+        weight = noise[:, None, None] * invert_2x2(bounded)
         pull = np.einsum("nij,nj->ni", weight, lack)
-        weights[:, at, at] = weight
-        weights[:, at, UNKNOWNS] = weights[:, UNKNOWNS, at] = pull
-    return weights
+        told[:, at, at] += weight
+        told[:, at, UNKNOWNS] += pull
+        told[:, UNKNOWNS, at] += pull
+    return told
 
 
 def _update_priors(
@@ -468,7 +478,7 @@ def _correct_for_bend(
     """Return the `better` model with the unknowns and the light of `model`, and its corners where
     they would be had the edges been taken to be bent aside by `bend` (n, 2) px more."""
     unknowns = model.unknowns.copy()
-    unknowns[C] -= np.linalg.solve(edges.normals, bend[..., None])[..., 0]
+    unknowns[C] -= np.einsum("nij,nj->ni", invert_2x2(edges.normals), bend)
     return replace(
         better,
         unknowns=unknowns,

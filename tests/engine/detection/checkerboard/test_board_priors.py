@@ -60,7 +60,8 @@ def test_gradients_scatter_as_their_covariance_says(degree: int) -> None:
     for _ in range(300):
         values = smooth + 0.05 * rng.standard_normal(len(smooth))
         error = priors.estimate_gradients(steps, values[:, None])[:, 0] - right
-        inverse = np.linalg.inv(priors.estimate_gradient_covariance(steps, values))
+        (covariance,) = priors.estimate_gradient_covariances(steps, values[:, None])
+        inverse = np.linalg.inv(covariance)
         deviations.append(np.mean(np.einsum("ni,nij,nj->n", error, inverse, error) / 2))
     assert 0.8 < np.mean(deviations) < 1.25
 
@@ -72,9 +73,14 @@ def test_the_break_of_light_does_not_widen_gradients_elsewhere() -> None:
     noise = 0.3 * np.random.default_rng(2).standard_normal(len(cell))
     values = np.where(cell @ [1.0, 0.4] > 5.3, 60.0, 100.0) + noise
     steps = np.tile(20 * np.eye(2), (len(cell), 1, 1))
-    covariance = BoardPriors(found).estimate_gradient_covariance(steps, values)
+    even = 100 + noise
+    covariances = BoardPriors(found).estimate_gradient_covariances(
+        steps, np.column_stack([values, even])
+    )
     expected = 2 * (0.3 / 20) ** 2
-    np.testing.assert_allclose(covariance, np.tile(expected * np.eye(2), (70, 1, 1)), atol=expected)
+    pair = np.tile(expected * np.eye(2), (70, 1, 1))
+    np.testing.assert_allclose(covariances[0], pair, atol=expected)
+    assert np.trace(covariances[1], axis1=1, axis2=2).max() < expected  # nothing breaks there
 
 
 def test_light_that_breaks_does_not_ring_between_uneven_lines() -> None:
