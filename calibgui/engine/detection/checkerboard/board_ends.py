@@ -16,6 +16,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from calibgui.engine import kernels
 from calibgui.engine.arrays import Array, BoolArray, GreyImage
 from calibgui.engine.detection import grid_map
 from calibgui.engine.detection.checkerboard.corner_template import estimate_contrast, orient_corners
@@ -209,14 +210,33 @@ def _measure_differences_above(lattice: Lattice, image: GreyImage, offsets: Arra
     right, down = (step[0] for step in estimate_steps(uv))
     usable = np.isfinite(place + right + down).all(axis=1) & are_in_image(place, image.shape)
     left_is_dark = lattice.dark ^ (np.arange(len(place)) % 2 == 0)
+    sign = np.where(left_is_dark, 1.0, -1.0)[usable]
+    return sign * _compare_squares(image, place[usable], right[usable], down[usable], offsets)
+
+
+@kernels.with_kernel("board_ends", "compare_squares")
+def _compare_squares(
+    image: GreyImage, place: Array, right: Array, down: Array, offsets: Array
+) -> Array:
+    """Compare the squares to either side of places on a line.
+
+    Args:
+        image: (h, w) grey levels.
+        place: (n, 2) px.
+        right, down: (n, 2) steps along the line and across it, px.
+        offsets: (m, 2) steps along and across to what is compared.
+
+    Returns:
+        (2, m, n) grey levels of the square after less those of the one before, in front of the line
+        and, the other way round, behind it; NaN where one of them is not in the image.
+    """
     along, across = offsets.T[..., None, None]
-    right, down = along * right[usable], across * down[usable]
-    squares = place[usable] + np.stack([down, -down])
+    right, down = along * right, across * down
+    squares = place + np.stack([down, -down])
     at = np.stack([squares + right, squares - right])
     inside = ((at >= 0) & (at <= np.array(image.shape[::-1]) - 1.0)).all(axis=-1)
     levels = np.where(inside, sample_image(image, at), np.nan)
-    sign = np.where(left_is_dark, 1.0, -1.0)[usable] * np.array([1.0, -1.0])[:, None, None]
-    return np.asarray(sign * (levels[0] - levels[1]))
+    return np.asarray((levels[0] - levels[1]) * np.array([1.0, -1.0])[:, None, None])
 
 
 def _compute_square_difference(lattice: Lattice, image: GreyImage) -> float:
