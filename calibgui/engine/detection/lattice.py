@@ -45,6 +45,8 @@ class Lattice:
     """True if the square before cell (0, 0), above its row and left of its column, is dark."""
     _steps: tuple[Array, Array] | None = field(default=None, init=False, repr=False)
     """The steps to the next column and row, once they were asked for; see `steps`."""
+    _found: BoolArray | None = field(default=None, init=False, repr=False)
+    """The mask of the corners, once it was asked for; it is not handed out."""
 
     @property
     def shape(self) -> tuple[int, int]:
@@ -53,15 +55,22 @@ class Lattice:
     @property
     def found(self) -> BoolArray:
         """(rows, cols) mask of the corners; a new array each time."""
-        return np.isfinite(self.uv[..., 0])
+        return self._mask_corners().copy()
 
     def __len__(self) -> int:
-        return int(np.count_nonzero(self.found))
+        return int(np.count_nonzero(self._mask_corners()))
+
+    def _mask_corners(self) -> BoolArray:
+        """Return the mask of the corners, made once, that must not be changed."""
+        if self._found is None:
+            object.__setattr__(self, "_found", np.isfinite(self.uv[..., 0]))
+        assert self._found is not None
+        return self._found
 
     def select(self, mask: BoolArray) -> Lattice:
         """Return the lattice with the corners under a mask (rows, cols) only: itself, with
         the steps that it knows, if these are all."""
-        if mask[self.found].all():
+        if mask[self._mask_corners()].all():
             return self
         return Lattice(np.where(mask[..., None], self.uv, np.nan), self.dark)
 
@@ -90,7 +99,7 @@ def trim_lattice(lattice: Lattice) -> Lattice | None:
     """Drop the corners off their neighbours' prediction, those that are isolated and empty border
     lines; return None if no full cell is left."""
     lattice = lattice.select(~_find_strays(lattice))
-    return drop_isolated_and_crop(lattice) if find_closed_corners(lattice).any() else None
+    return drop_isolated_and_crop(lattice) if _find_closed_cells(lattice.found).any() else None
 
 
 def _find_strays(lattice: Lattice) -> BoolArray:
@@ -105,12 +114,18 @@ def _find_strays(lattice: Lattice) -> BoolArray:
 def find_closed_corners(lattice: Lattice) -> BoolArray:
     """Return a mask (rows, cols) of the corners that close a cell with three others."""
     found = lattice.found
-    cell = found[:-1, :-1] & found[1:, :-1] & found[:-1, 1:] & found[1:, 1:]
+    cell = _find_closed_cells(found)
     closed = np.zeros_like(found)
     for row in (np.s_[:-1], np.s_[1:]):
         for col in (np.s_[:-1], np.s_[1:]):
             closed[row, col] |= cell
     return closed
+
+
+def _find_closed_cells(found: BoolArray) -> BoolArray:
+    """Return a mask (rows - 1, cols - 1) of the cells whose four corners are `found`
+    (rows, cols)."""
+    return np.asarray(found[:-1, :-1] & found[1:, :-1] & found[:-1, 1:] & found[1:, 1:])
 
 
 def is_large_enough(lattice: Lattice) -> bool:

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from calibgui.engine.arrays import Array, BoolArray, GreyImage
+from calibgui.engine.arrays import Array, BoolArray, GreyImage, compute_median
 from calibgui.engine.detection.lattice import Lattice
 
 _GAIN = 6.0
@@ -48,5 +48,5 @@ def estimate_noise_at(places: Array, image: GreyImage) -> Array:
     near = np.arange(-2, 3)
     values = image[v + near[:, None], u + near].astype(np.float64)
     differences = np.abs(np.diff(np.diff(values, 2, axis=-2), 2, axis=-1))
-    median = np.median(differences, axis=(-3, -2, -1))
-    return np.asarray(median / (_NORMAL_MEDIAN * _GAIN))
+    median = compute_median(differences.reshape(*places.shape[:-2], -1))
+    return median / (_NORMAL_MEDIAN * _GAIN)

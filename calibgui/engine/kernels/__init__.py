@@ -107,7 +107,9 @@ class Kernelled(Generic[_P, _T]):
     def __call__(self, *args: _P.args, **kwargs: _P.kwargs) -> _T:
         """Call the kernel if numba is installed and it serves the arguments, else the reference."""
         is_served = COMPILED and (self._serves is None or self._serves(*args, **kwargs))
-        if is_served and (self._kernel is not None or can_compile()):
+        if is_served and self._kernel is not None:
+            return self._kernel(*args, **kwargs)
+        if is_served and can_compile():
             return self.kernel(*args, **kwargs)
         return self.reference(*args, **kwargs)
 

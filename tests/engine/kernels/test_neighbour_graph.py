@@ -102,3 +102,11 @@ def test_the_same_walks(monkeypatch: pytest.MonkeyPatch) -> None:
     for a, b in zip(compiled, readable, strict=True):
         for x, y in zip(a, b, strict=True):
             np.testing.assert_array_equal(x, y)
+
+
+def test_of_junctions_in_one_place_the_first_is_laid_out() -> None:
+    uv = np.arange(10.0).reshape(5, 2)
+    placed = np.array([(0, 0, 0), (0, 1, 0), (1, 0, 1), (0, 1, 0), (1, 0, 1)], np.int32)
+    lattice = neighbour_graph._lay_out(uv, placed, (2, 2))
+    np.testing.assert_array_equal(lattice.uv, [[uv[0], uv[1]], [uv[2], [np.nan, np.nan]]])
+    assert lattice.dark  # as three of the five say

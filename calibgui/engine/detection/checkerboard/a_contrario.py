@@ -15,6 +15,7 @@ is no evidence: ragged parts of almost any size hang together by chance.
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 
 from calibgui.engine.arrays import BoolArray
 from calibgui.engine.detection.checkerboard.thresholds import THRESHOLDS
@@ -32,16 +33,18 @@ def is_meaningful(found: BoolArray, others: int) -> bool:
         found: (rows, cols) mask of its corners.
         others: number J of corners seen in the image that are not its own; 0 counts as 1.
     """
-    return math.log2(max(others, 1)) < bound_log_others(found)
+    log_others = math.log2(max(others, 1))
+    # A board tells by its first few lines.
+    return any(log_others < bound for bound in _list_bounds(found))
 
 
 def bound_log_others(found: BoolArray) -> float:
     """Return the binary logarithm of the number J of other corners in the image below which chance
     does not explain a lattice of the corners `found` (rows, cols)."""
-    return max(
-        (
-            _MOST + (height + 1) * (width + 1) - 4 - math.log2(height * width)
-            for _, _, height, width in list_full_rectangles(found)
-        ),
-        default=-math.inf,
-    )
+    return max(_list_bounds(found), default=-math.inf)
+
+
+def _list_bounds(found: BoolArray) -> Iterator[float]:
+    """List the bounds, as `bound_log_others`, of each of the rectangles in a lattice."""
+    for _, _, height, width in list_full_rectangles(found):
+        yield _MOST + (height + 1) * (width + 1) - 4 - math.log2(height * width)

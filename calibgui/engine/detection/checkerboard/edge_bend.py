@@ -57,6 +57,9 @@ def clip_arms(uv: Array, tangents: Array, arm: Array, size: Size) -> tuple[Array
         (n, 2) middles and (n, 2) half lengths, px, of what is left.
     """
     last = np.array(size) - 2.0
+    to_border = np.minimum(uv - 1.0, last - uv)
+    if (abs(tangents) * arm[..., None] <= to_border[:, None]).all():
+        return np.zeros_like(arm), arm  # most boards lie in the image with all of their squares
     with np.errstate(divide="ignore", invalid="ignore"):
         ends = np.stack([(1.0 - uv)[:, None] / tangents, (last - uv)[:, None] / tangents])
     ends = np.where(np.isfinite(ends), ends, np.array([-np.inf, np.inf]).reshape(2, 1, 1, 1))

@@ -33,6 +33,10 @@ from calibgui.engine.detection.lattice import (
     trim_lattice,
 )
 
+_MARGIN = 1 + 1e-9
+"""Factor of a distance within which points are looked up that are then measured in steps, which
+rounds otherwise."""
+
 
 def grow_lattice(
     lattice: Lattice,
@@ -91,13 +95,16 @@ class PointIndex:
 
     def exceeds(self, lattice: Lattice) -> bool:
         """Return whether there are others than the corners of a lattice."""
+        if len(self.uv) > len(lattice):
+            return True
         if self._tree is None:
             return False
         _, corners = self._tree.query(lattice.uv[lattice.found])
         return len(np.unique(corners)) < len(self.uv)
 
-    def pair_nearest(self, uv: Array) -> tuple[IntArray, IntArray]:
-        """Pair each of the positions `uv` (n, 2) px with the few points nearest to it.
+    def pair_nearest(self, uv: Array, farthest: float) -> tuple[IntArray, IntArray]:
+        """Pair each of the positions `uv` (n, 2) px with the few points nearest to it, none of them
+        as far away as `farthest`, px.
 
         Returns:
             Indices of positions (m,) and of points (m,).
@@ -105,8 +112,11 @@ class PointIndex:
         if self._tree is None:
             return np.empty(0, np.int64), np.empty(0, np.int64)
         count = min(THRESHOLDS.growth.max_points_per_place, len(self.uv))
-        _, index = self._tree.query(uv, np.arange(1, count + 1))
-        return np.repeat(np.arange(len(uv)), count), np.asarray(index).ravel()
+        ranks = np.arange(1, count + 1)
+        _, index = self._tree.query(uv, ranks, distance_upper_bound=farthest)
+        # Where there is none so near, the index is the number of all.
+        position, rank = np.nonzero(np.asarray(index) < len(self.uv))
+        return position, np.asarray(index)[position, rank]
 
 
 def _predict_by_grid_map(uv: Array) -> Array:
@@ -149,7 +159,9 @@ def _fill_places(
     right, down = estimate_steps(uv)
     known = np.isfinite(predicted + right + down).all(axis=2)
     rows, cols = np.nonzero(~framed.found & known)
-    place, index = points.pair_nearest(predicted[rows, cols])
+    steps = compute_lengths(right[rows, cols]) + compute_lengths(down[rows, cols])
+    farthest = _MARGIN * max_deviation * float(steps.max(initial=0.0))
+    place, index = points.pair_nearest(predicted[rows, cols], farthest)
     r, c = rows[place], cols[place]
     offset = points.uv[index] - predicted[r, c]
     near = measure_in_steps(offset, right[r, c], down[r, c]) < max_deviation

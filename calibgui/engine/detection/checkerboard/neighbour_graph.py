@@ -367,9 +367,9 @@ def _arrange_lattices(uv: Array, nodes: Int32Array, placed: Int32Array) -> list[
 def _lay_out(uv: Array, placed: Int32Array, shape: tuple[int, int]) -> Lattice:
     """Lay out junctions `uv` (m, 2) px by their rows, columns and turns (m, 3); where two have one
     place the first is taken."""
-    rows, cols, _ = placed.T
-    _, first = np.unique(rows * shape[1] + cols, return_index=True)
+    rows, cols, _ = placed[::-1].T
     dense = np.full((*shape, 2), np.nan)
-    dense[rows[first], cols[first]] = uv[first]
+    dense[rows, cols] = uv[::-1]  # the first is written last
     # At an even turn slot 0 points along a row, and the squares (+, +) and (-, -) are dark.
-    return Lattice(dense, dark=bool(np.mean(placed.sum(axis=1) % 2) < 0.5))
+    bright = np.count_nonzero(placed.sum(axis=1) % 2)
+    return Lattice(dense, dark=bool(2 * bright < len(placed)))

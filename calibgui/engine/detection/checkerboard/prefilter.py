@@ -113,7 +113,9 @@ def find_objection(
         What speaks against it, the end of a sentence; empty if it could be a board's.
     """
     corners = orient_corners(lattice)
-    corners = corners.select(_compute_areas(corners) > 0)
+    has_area = _compute_areas(corners) > 0
+    if not has_area.all():
+        corners = corners.select(has_area)
     corners = corners.subsample(THRESHOLDS.prefilter.max_tested_corners)
     if not len(corners.uv):
         return "its squares have no area"
@@ -140,10 +142,11 @@ def _judge_edges(
     if _do_edges_bulge(edges):
         return _LIKE_DISCS
     spreads = _list_spreads(edges)
-    is_uneven = not have_same_spread(spreads, limits.max_spread_inside)
+    deviation = _measure_deviation(spreads)
+    is_uneven = deviation > limits.max_spread_inside
     if is_grown and is_uneven and does_pattern_continue(lattice, image):
         return _DOTS_AROUND
-    if have_same_spread(spreads, limits.max_spread) or rise_steadily(spreads, corners.uv):
+    if deviation <= limits.max_spread or rise_steadily(spreads, corners.uv):
         return ""
     return _LIKE_DOTS
 
@@ -241,11 +244,16 @@ def have_same_spread(spreads: Array, max_deviation: float) -> bool:
             it is not known.
         max_deviation: greatest median deviation from the median of their direction, squares.
     """
+    return _measure_deviation(spreads) <= max_deviation
+
+
+def _measure_deviation(spreads: Array) -> float:
+    """Measure the median deviation of spreads (n, 2) squares from the median of their direction; it
+    is endless where those of both directions differ by more than one print's."""
     middles = np.array([_compute_known_median(along) for along in spreads.T])
-    difference = abs(middles[1] - middles[0])
-    return _compute_known_median(abs(spreads - middles)) <= max_deviation and bool(
-        difference <= THRESHOLDS.prefilter.max_direction_difference
-    )
+    if abs(middles[1] - middles[0]) > THRESHOLDS.prefilter.max_direction_difference:
+        return np.inf
+    return _compute_known_median(abs(spreads - middles))
 
 
 def rise_steadily(spreads: Array, uv: Array) -> bool:

@@ -178,10 +178,21 @@ def _measure_range(levels: list[GreyImage]) -> float:
     it does: a coarse level may even out squares that fill the image.
     """
     for level in reversed(levels):
-        low, high = np.percentile(level, _RANGE_PERCENTILES)
+        low, high = _measure_percentiles(level)
         if high > low:
             return float(high - low)
     return float(levels[0].max()) - float(levels[0].min())
+
+
+def _measure_percentiles(level: GreyImage) -> Array:
+    """Measure the `_RANGE_PERCENTILES` of a level, as `np.percentile`. Whole grey levels are
+    counted, in a third of the time that it takes to put them in order."""
+    if level.dtype.kind != "u":
+        return np.asarray(np.percentile(level, _RANGE_PERCENTILES))
+    place = np.array(_RANGE_PERCENTILES) / 100 * (level.size - 1)
+    up_to = np.cumsum(np.bincount(level.ravel()))
+    below, above = np.searchsorted(up_to, [np.floor(place), np.ceil(place)], side="right")
+    return np.asarray(below + (place % 1) * (above - below))
 
 
 def _scale_to_level(uv: Array | None, depth: int) -> Array | None:

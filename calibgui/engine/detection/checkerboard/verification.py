@@ -33,6 +33,7 @@ from calibgui.engine.detection.checkerboard.board_ends import (
 from calibgui.engine.detection.checkerboard.corner_template import (
     compare_light,
     estimate_template,
+    estimate_template_of,
     measure_light,
     orient_corners,
 )
@@ -126,7 +127,7 @@ def _match_template(
     """Return a mask (rows, cols) of the corners that look like the typical one where squares are
     `plain`, see `CornerTemplate.match`."""
     corners = orient_corners(lattice).shorten_steps(plain)
-    template, alike = estimate_template(lattice, image, plain), lattice.found
+    template, alike = estimate_template_of(corners, image), lattice.found
     good, _ = template.match(image, *corners, max_dissimilarity)
     if not good.all():  # a part may lie in shade
         light = measure_light(image, corners)

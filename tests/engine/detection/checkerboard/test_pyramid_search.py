@@ -204,3 +204,12 @@ def test_fragments_of_what_a_coarser_level_shows_are_not_grown(
     monkeypatch.setattr(pyramid_search, "grow_lattice", grow)
     list(pyramid_search.find_candidates(draw_without_board(11), plain=1 / 8))
     assert min(sizes) > 500
+
+
+@pytest.mark.parametrize("kind", [np.uint8, np.uint16, np.float32])
+def test_the_range_of_grey_levels_is_that_of_percentiles(kind: type) -> None:
+    rng = np.random.default_rng(0)
+    for image in (rng.normal(90, 12, (60, 83)).astype(kind), np.full((20, 20), 7, kind)):
+        low, high = pyramid_search._measure_percentiles(image)
+        expected = np.percentile(image, pyramid_search._RANGE_PERCENTILES)
+        np.testing.assert_allclose([low, high], expected, rtol=1e-6)
