@@ -89,6 +89,31 @@ class _LevelContent:
     """True if the lattices that are refused by what is seen at once were dropped."""
 
 
+@dataclass(eq=False, slots=True)
+class _Texture:
+    """What was seen of a texture: it holds any number of sparse lattices, in any level, and all
+    turn out as the first few did."""
+
+    count: int = 0
+    """Number of lattices that were sparse once grown."""
+
+    def is_one_too_many(self, lattice: Lattice) -> bool:
+        """Return whether a lattice is sparse, as enough others were."""
+        return self.count >= THRESHOLDS.search.max_sparse_lattices and _is_sparse(lattice)
+
+    def takes(self, lattice: Lattice | None) -> bool:
+        """Return whether a grown lattice is one too many, or None since it stayed ragged; count
+        these, and others that are sparse."""
+        is_taken = lattice is None or self.is_one_too_many(lattice)
+        self.count += lattice is None or _is_sparse(lattice)
+        return is_taken
+
+
+def _is_sparse(lattice: Lattice) -> bool:
+    """Return whether a lattice fills as little of its rows and columns as those of textures."""
+    return compute_filled_share(lattice) < THRESHOLDS.search.min_filled_in_texture
+
+
 def find_candidates(
     image: GreyImage,
     outline: Array | None = None,
@@ -121,7 +146,7 @@ def find_candidates(
     outlines = [_scale_to_level(outline, k) for k in range(len(levels))]
     candidates: list[Candidate] = []
     waiting: list[tuple[int, _LevelContent]] = []
-    sparse: list[Lattice] = []
+    texture = _Texture()
     shown: tuple[int, list[Array]] | None = None
     for depth in reversed(range(len(levels))):
         content = _analyse_level(
@@ -136,7 +161,7 @@ def find_candidates(
             waiting.append((depth, content))
             continue
         seeds = _drop_fragments(content.lattices, depth, candidates)
-        found = _grow_lattices(content, seeds, sparse, is_sufficient, is_other)
+        found = _grow_lattices(content, seeds, texture, is_sufficient, is_other)
         del content  # its images, while the next level's are made
         candidates = _drop_parts(_carry_down(found, candidates, levels[:depth]) + candidates)
         is_sure = bool(found) and all(_is_surely_complete(new.lattice) for new in found)
@@ -144,14 +169,14 @@ def find_candidates(
             for k, content in waiting:
                 content = replace(content, lattices=_select_missed(content.lattices, k, candidates))
                 if missed := _drop_refused(content).lattices:
-                    found = _grow_lattices(content, missed, sparse, is_sufficient, is_other)
+                    found = _grow_lattices(content, missed, texture, is_sufficient, is_other)
                     candidates = _drop_parts(
                         candidates + _carry_down(found, candidates, levels[:k])
                     )
             waiting = []
             yield candidates
     assert shown is not None  # there is at least one level
-    sparse = []
+    texture = _Texture()
     depth = len(levels) - 1
     while min(levels[depth].shape) > limits.min_parted_level_side:
         content = _analyse_level(
@@ -164,7 +189,7 @@ def find_candidates(
             THRESHOLDS.junctions.parted,
         )
         content = _drop_refused(replace(content, lattices=_select_new(content, *shown)))
-        if found := _grow_lattices(content, content.lattices, sparse, is_sufficient, is_other):
+        if found := _grow_lattices(content, content.lattices, texture, is_sufficient, is_other):
             candidates = _drop_parts(_carry_down(found, candidates, levels[:depth]) + candidates)
             yield candidates
         levels.append(opencv.halve_image(levels[depth]))
@@ -257,7 +282,7 @@ def _refuse(lattice: Lattice, content: _LevelContent) -> bool:
 def _is_chance(lattice: Lattice, junctions: Junctions) -> bool:
     """Return whether a lattice is one of the sparse ones that any texture holds: chance explains it
     beside all the other `junctions`, its own being among them, that are not too faint."""
-    if compute_filled_share(lattice) >= THRESHOLDS.search.min_filled_in_texture:
+    if not _is_sparse(lattice):
         return False
     bound = a_contrario.bound_log_others(lattice.found)
     if math.log2(max(len(junctions) - len(lattice), 1)) < bound:
@@ -275,56 +300,43 @@ def _is_chance(lattice: Lattice, junctions: Junctions) -> bool:
 def _grow_lattices(
     content: _LevelContent,
     seeds: list[Lattice],
-    sparse: list[Lattice],
+    texture: _Texture,
     is_sufficient: Callable[[Lattice], bool],
     is_other: IsOther,
 ) -> list[Candidate]:
     """Grow lattices of one level; return those that are sufficient, largest first.
 
-    A texture holds any number of lattices, and all turn out as the first few did: once these are
-    `sparse`, in whichever level, others that are or become so are left out. Those that are here are
-    added.
+    Those that turn out as of a `texture` are counted there, and left out once these are too many.
     """
     if not seeds:
         return []
-    limits = THRESHOLDS.search
-
-    def is_sparse(lattice: Lattice) -> bool:
-        return compute_filled_share(lattice) < limits.min_filled_in_texture
-
-    def is_one_too_many(lattice: Lattice) -> bool:
-        return len(sparse) >= limits.max_sparse_lattices and is_sparse(lattice)
 
     def is_none_wanted(lattice: Lattice) -> bool:
         return is_other(_place_in_image(lattice, content.depth), content.depth)
 
     def is_hopeless(lattice: Lattice) -> bool:
         return (
-            is_one_too_many(lattice)
+            texture.is_one_too_many(lattice)
             or _is_chance(lattice, content.junctions)
             or prefilter.is_hopeless(lattice, content.image, content.plain)
             or is_none_wanted(lattice)
         )
 
-    smooth = content.saddles.smooth
+    smooth, min_judged = content.saddles.smooth, THRESHOLDS.search.min_judged_corners
     nearby, beyond = (
         PointIndex(smooth, points.uv) for points in (content.saddles, content.junctions)
     )
     grown: list[Lattice] = []
     found: list[Candidate] = []
     for seed in seeds:
-        if is_one_too_many(seed) or any(is_part(seed, other) for other in grown):
+        if texture.is_one_too_many(seed) or any(is_part(seed, other) for other in grown):
             continue
-        is_wanted = len(seed) < limits.min_judged_corners or not is_none_wanted(seed)
+        is_wanted = len(seed) < min_judged or not is_none_wanted(seed)
         # A board that is all there would only grow into the floor or the cloth that it lies on.
         may_grow = is_wanted and not board_ends.is_whole(seed, smooth)
         lattice = grow_lattice(seed, nearby, beyond, is_hopeless) if may_grow else seed
         grown.append(seed if lattice is None else lattice)
-        if is_one_too_many(grown[-1]):
-            continue
-        if lattice is None or is_sparse(lattice):
-            sparse.append(grown[-1])
-        if lattice is None or not is_sufficient(lattice):
+        if texture.takes(lattice) or lattice is None or not is_sufficient(lattice):
             continue
         if lattice is not seed and _refuse(lattice, content):  # the seeds passed that before
             continue
