@@ -177,13 +177,15 @@ def cut_at_seam(lattice: Lattice, unexplained: Array) -> tuple[Lattice, Lattice]
 def _is_described_worse(unexplained: Array) -> bool:
     """Return whether the middle one of three lines (3, m) leaves more unexplained than both others,
     at nearly all of its corners."""
-    ratio = unexplained[1] / np.fmax(unexplained[0], unexplained[2])
-    ratio = ratio[np.isfinite(ratio)]
-    if len(ratio) < MIN_LINES:
+    middle, beside = unexplained[1], np.fmax(unexplained[0], unexplained[2])
+    known = np.isfinite(middle) & np.isfinite(beside)
+    if np.count_nonzero(known) < MIN_LINES:
         return False
+    limits = THRESHOLDS.separation
+    is_more = np.stack([middle > beside, middle > limits.min_seam_excess * beside])[:, known]
     return bool(
-        np.median(ratio) > THRESHOLDS.separation.min_seam_excess
-        and np.mean(ratio > 1) > THRESHOLDS.separation.min_seam_corners
+        is_more[0].mean() > limits.min_seam_corners
+        and is_more[1].mean() > limits.min_excess_corners
     )
 
 

@@ -208,11 +208,13 @@ class SeparationThresholds:
     """Rms distance of a cut, over that of the best, up to which the number of corners decides."""
     max_gaps: float = 1 / 3
     """Share of a border line's places without a corner, beyond which the line is ragged."""
-    min_seam_excess: float = 1.4
-    """Least median ratio of what the edge model leaves unexplained at the corners of a line to what
-    it leaves at those beside it, if two boards meet in the line ..."""
     min_seam_corners: float = 0.7
-    """... share of its corners that have more than those beside them ..."""
+    """Least share of the corners of a line at which the edge model leaves more unexplained than at
+    those beside them, if two boards meet in the line ..."""
+    min_seam_excess: float = 1.4
+    """... and so many times more ..."""
+    min_excess_corners: float = 0.5
+    """... at such a share of them ..."""
     min_seam_misfit_ratio: float = 3.0
     """... rms distance of all corners from one map, over that from the maps of both boards ..."""
     min_row_misfit_ratio: float = 1.3
