@@ -192,6 +192,28 @@ class LightThresholds:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class HardEdgeThresholds:
+    """Thresholds of edges without a grey pixel (`hard_edges`)."""
+
+    read_corners: int = 16
+    """Number of corners that are looked at."""
+    min_distance: int = 2
+    """Least distance from the corner of what is looked at along the edges, px ..."""
+    max_distance: int = 8
+    """... and the greatest."""
+    reach_across: int = 3
+    """Number of pixels to either side of an edge that are looked at, for ink spreads."""
+    max_grey_level: float = 0.8
+    """Greatest distance of a grey pixel's level from the middle one, half contrasts."""
+    min_crossing_share: float = 0.5
+    """Share of the places at which a dark and a bright pixel are seen, below which edges are too
+    wide, or too far away, to tell."""
+    max_grey_share: float = 0.3
+    """Share of those with a grey pixel below which edges are hard. Of boards under all of the
+    troubles it is 0.8 and more, but for "two levels", where it is 0."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class FitThresholds:
     """Every threshold from a lattice of corners to their fit, by its stage."""
 
@@ -202,6 +224,7 @@ class FitThresholds:
     edges: EdgeFitThresholds = field(default_factory=EdgeFitThresholds)
     noise: NoiseThresholds = field(default_factory=NoiseThresholds)
     light: LightThresholds = field(default_factory=LightThresholds)
+    hard_edges: HardEdgeThresholds = field(default_factory=HardEdgeThresholds)
 
 
 FIT_THRESHOLDS = FitThresholds()

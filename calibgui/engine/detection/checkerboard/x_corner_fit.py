@@ -65,6 +65,10 @@ from calibgui.engine.detection.checkerboard.edge_map import EdgeGeometry
 from calibgui.engine.detection.checkerboard.edge_profiles import EdgeProfiles
 from calibgui.engine.detection.checkerboard.fit_thresholds import FIT_THRESHOLDS
 from calibgui.engine.detection.checkerboard.flat_squares import read_flat_squares
+from calibgui.engine.detection.checkerboard.hard_edges import (
+    compute_rounding_variance,
+    has_hard_edges,
+)
 from calibgui.engine.detection.checkerboard.local_light import find_uneven_light, fit_local_light
 from calibgui.engine.detection.checkerboard.x_corner_model import (
     BLUR,
@@ -227,6 +231,8 @@ def fit_x_corners(
             model = _correct_for_bend(model, better, edges, bend)
             covariance = covariance + _compute_light_covariance(model, inverse, edges, of_level)
         by_bend = _compute_bend_covariance(model, followed.variance)
+    if has_hard_edges(image, model):
+        by_bend = by_bend + _compute_bend_covariance(model, compute_rounding_variance(model))
     growth = estimate_growth(image, model, noise, ~uneven)
     covariance = growth * covariance
     residual = np.sqrt(square)

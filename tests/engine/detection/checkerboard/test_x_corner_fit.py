@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+import scipy
 
 from calibgui.engine.detection.corners import find_usable_covariances
 from calibgui.engine.detection.find_corners import find_corners
@@ -125,7 +126,8 @@ def test_a_drawing_without_noise_has_that_of_its_rounded_levels(
 ) -> None:
     """Opposite pixels are equal there: the residual has no odd part at all."""
     dark = np.kron(np.indices((7, 8)).sum(axis=0) % 2, np.ones((square, square))) > 0
-    image = np.pad(np.where(dark, *levels), 2 * square, constant_values=levels[1])
+    drawing = np.pad(np.where(dark, *levels), 2 * square, constant_values=levels[1])
+    image = np.rint(scipy.ndimage.gaussian_filter(drawing.astype(np.float64), 0.6))
     corners = find_corners(image.astype(np.uint8), (6, 7))
     assert corners.complete
     assert corners.cov is not None
