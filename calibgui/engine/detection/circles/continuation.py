@@ -28,6 +28,8 @@ _CELL_MIDDLES = np.array([(0.5, 0.5), (0.5, -0.5), (-0.5, 0.5), (-0.5, -0.5)])
 
 _SHADE = 0.5
 """Least light of paper that lies in no shadow, over that of the grid."""
+_MAX_PAPER_DIFFERENCE = 0.1
+"""Greatest difference of a place from paper beside it, over the contrast, both of logarithms."""
 
 
 class Continuation(NamedTuple):
@@ -36,11 +38,14 @@ class Continuation(NamedTuple):
     centres: Array
     """(rows, cols, 2) px, of the grid's circles, also of those that were not known and are seen;
     NaN where there is none."""
-    seen: int
-    """Number of places of the grid where a circle is seen."""
+    is_seen_at: BoolArray
+    """(rows, cols) True where a circle is seen."""
+    is_in_view: BoolArray
+    """(rows, cols) True where the image shows the place."""
 
-    is_seen: bool
-    """True if there are circles where one of them would be, in most of its places in the image."""
+    goes_on: tuple[bool, ...]
+    """(4,) True if there are circles where the line before the first row, after the last row,
+    before the first and after the last column would be, in most of its places in the image."""
     is_open: bool
     """True if one of them would lie outside of the image."""
     has_discs: bool
@@ -48,6 +53,14 @@ class Continuation(NamedTuple):
     is_shaded: bool
     """True if it is less than half as bright beside one of them as on the grid: a shadow's edge may
     pass through the line's circles and hide them."""
+    ends: tuple[bool, ...]
+    """(4,) True if there is nothing but paper where one of these would be, and most of it is in the
+    image."""
+
+    @property
+    def is_seen(self) -> bool:
+        """True if the grid is seen to go on."""
+        return any(self.goes_on)
 
 
 class _Cells(NamedTuple):
@@ -89,14 +102,37 @@ def find_continuation(
     own = tuple((grid - cells.first).T)
     is_seen = cells.are_discs[own]
     filled = np.where(is_seen[:, None], cells.at[own], np.nan).reshape(centres.shape)
+    is_plain = _find_plain(cells)[beyond]
+    lengths = np.repeat(centres.shape[1::-1], 2)
     return Continuation(
         np.where(np.isfinite(centres), centres, filled),
-        int(np.count_nonzero(is_seen)),
-        any(2 * np.count_nonzero(is_disc[line]) > np.count_nonzero(line) for line in lines),
+        is_seen.reshape(centres.shape[:2]),
+        is_sampled[own].reshape(centres.shape[:2]),
+        tuple(bool(2 * np.count_nonzero(is_disc[line]) > np.count_nonzero(line)) for line in lines),
         not all(line.any() for line in lines),
         any(is_disc[line].any() for line in lines),
         any(np.median(paper[line]) < _SHADE * light for line in lines if line.any()),
+        tuple(
+            bool(2 * np.count_nonzero(line) > length and is_plain[line].all())
+            for line, length in zip(lines, lengths, strict=True)
+        ),
     )
+
+
+def _find_plain(cells: _Cells) -> BoolArray:
+    """Find the places (m, n) True that are as bright as all paper around a disc beside them."""
+    fog = FOG_SHARE * max(float(np.nanmax(cells.levels)), 1.0)
+    scale = np.log1p(cells.levels / fog)
+    around = np.full((*scale.shape[:2], 4), np.nan)
+    around[cells.known] = scale[cells.known, 1:]
+    is_told = cells.known & np.isfinite(cells.levels[..., 0])
+    contrast = np.median(abs(np.nanmedian(around[is_told], axis=1) - scale[is_told, 0]))
+    beside = np.stack([np.roll(around, step, axis) for step in (1, -1) for axis in (0, 1)], axis=2)
+    off = abs(beside - scale[..., :1, None])
+    # What covers the place may reach to some of the paper around the disc beside it.
+    most = np.where(np.isfinite(off), off, -np.inf).max(axis=3)
+    least = np.where(most >= 0, most, np.inf).min(axis=2)
+    return np.asarray(least < _MAX_PAPER_DIFFERENCE * contrast)
 
 
 def _look_at_cells(

@@ -35,6 +35,7 @@ from calibgui.engine.detection.circles.circle_map import fit_circle_map
 from calibgui.engine.detection.circles.continuation import Continuation, find_continuation
 from calibgui.engine.detection.circles.ellipse_fit import EllipseFit
 from calibgui.engine.detection.circles.grid_labelling import LabelledGrid, label_grid
+from calibgui.engine.detection.circles.partial_grid import place_part
 from calibgui.engine.detection.circles.thresholds import CIRCLE_THRESHOLDS
 from calibgui.engine.detection.corners import Corners, find_usable_covariances
 from calibgui.engine.detection.detector_io import check_grey_levels, list_rejected_corners
@@ -108,7 +109,8 @@ def find_circles(
     grey = check_grey_levels(image)
     outline = None if roi is None else region.check_outline(roi)
     levels = stretch_levels(grey)
-    coarse, has_strays = _find_grid(pattern, levels, grid_size, outline)
+    found = _find_grid(pattern, levels, grid_size, outline)
+    coarse = found.centres
     is_counted = grid_size is None and outline is None
     grid_size = coarse.shape[0], coarse.shape[1]
     grid = list_grid_indices(grid_size)
@@ -131,7 +133,7 @@ def find_circles(
         if np.median(tried.misfit) > _MAX_SAMPLE_EXCESS * CIRCLE_THRESHOLDS.max_misfit:
             raise _distrust(_NO_ELLIPSES)
     fit = ellipse_fit.fit_ellipses(grey, first, steps, pattern.half_distance, paper, neighbours)
-    verified = _verify_circles(fit, xy, grey, len(grid))
+    verified = _verify_circles(fit, xy, grey, found.in_view)
     radius = verified.radius
     if (
         pattern.diameter is not None
@@ -151,8 +153,12 @@ def find_circles(
         beyond = find_continuation(
             coarse, levels, asymmetric=pattern.asymmetric, are_bright=fit.are_bright
         )
-        doubts += [_OPEN] * beyond.is_open + [_BESIDE] * (has_strays and beyond.has_discs)
-    if not is_seen.all() and np.any(np.ptp(places[is_good], axis=0) + 1 < grid_size):
+        doubts += [_OPEN] * beyond.is_open + [_BESIDE] * (found.has_strays and beyond.has_discs)
+    if (
+        not is_seen.all()
+        and not found.is_part
+        and np.any(np.ptp(places[is_good], axis=0) + 1 < grid_size)
+    ):
         doubts.append(_UNSEEN)
     return Corners(
         shape=grid_size,
@@ -175,17 +181,26 @@ def find_circles(
     )
 
 
+class _CoarseGrid(NamedTuple):
+    """A grid as it is found before it is measured."""
+
+    centres: Array
+    """(rows, cols, 2) px, NaN where no circle is seen."""
+    in_view: int
+    """Number of its places that the image shows; all, unless its size is stated."""
+    is_part: bool = False
+    """True if it is a part whose place is known."""
+    has_strays: bool = False
+    """True if single discs lie where the grid may go on."""
+
+
 def _find_grid(
     pattern: Circles,
     image: npt.NDArray[np.uint8],
     grid_size: GridSize | None,
     outline: Array | None,
-) -> tuple[Array, bool]:
-    """Find the circles' centres (rows, cols, 2) px, coarsely, in an 8-bit image (h, w).
-
-    Returns:
-        The centres, NaN where none is seen, and whether single discs lie where the grid may go on.
-    """
+) -> _CoarseGrid:
+    """Find a grid, coarsely, in an 8-bit image (h, w)."""
     left, top = 0, 0
     if outline is not None:
         marked = region.enlarge_outline(outline)
@@ -200,10 +215,12 @@ def _find_grid(
     )
     largest: _FoundGrid | None = None
     part: LabelledGrid | None = None
+    others: list[tuple[_Search, Array]] = []
     for search in _list_searches(levels):
         if largest is not None and _is_needless(search, largest, len(levels), grid_size):
             continue
         points = search.find_blobs(most)
+        others.append((search, points))
         grid = label_grid(points, grid_size, asymmetric=pattern.asymmetric)
         if grid is None:
             continue
@@ -224,7 +241,13 @@ def _find_grid(
             break
     if largest is not None and grid_size in (None, largest.grid.places.shape):
         centres = (largest.beyond.centres + 0.5) * 2**largest.search.depth - 0.5 + [left, top]
-        return centres, largest.grid.left_out > 0
+        shown = int(np.count_nonzero(largest.beyond.is_in_view))
+        in_view = largest.grid.places.size if grid_size is None else shown
+        return _CoarseGrid(centres, in_view, has_strays=largest.grid.left_out > 0)
+    if grid_size is not None and not pattern.asymmetric:
+        placed = _place_part(others, grid_size)
+        if placed is not None:
+            return placed._replace(centres=placed.centres + np.array([left, top]))
     which = "" if grid_size is None else f"{grid_size[0]} x {grid_size[1]} "
     instead = ""
     if largest is not None:
@@ -260,6 +283,26 @@ class _Search(NamedTuple):
         return find_blobs(seen, window, most, is_shaded=self.is_shaded)
 
 
+def _place_part(searches: list[tuple[_Search, Array]], grid_size: GridSize) -> _CoarseGrid | None:
+    """Place the part of a grid that one of the searches has shown, with its points (n, 2) px.
+
+    Raises:
+        NoBoardError: if none places it, and one leaves several places.
+    """
+    doubt: NoBoardError | None = None
+    for search, points in searches:
+        try:
+            placed = place_part(points, search.photograph, grid_size, are_bright=search.is_negative)
+        except NoBoardError as error:
+            doubt = error
+            continue
+        if placed is not None:
+            return _CoarseGrid((placed[0] + 0.5) * 2**search.depth - 0.5, placed[1], True)
+    if doubt is not None:
+        raise doubt
+    return None
+
+
 class _FoundGrid(NamedTuple):
     """A grid that a search has found."""
 
@@ -272,7 +315,11 @@ class _FoundGrid(NamedTuple):
         """Number of its places where a circle is seen, less those where none is: a grid with many
         gaps along its border may be another one, turned."""
         places = self.grid.places.size
-        return places if self.grid.is_full else 2 * self.beyond.seen - places
+        return (
+            places
+            if self.grid.is_full
+            else 2 * int(np.count_nonzero(self.beyond.is_seen_at)) - places
+        )
 
     def has_all_of(self, grid: LabelledGrid) -> bool:
         """Return whether another grid is of the same size and has no more circles."""

@@ -22,7 +22,7 @@ import numpy as np
 import scipy
 
 from calibgui.engine import kernels
-from calibgui.engine.arrays import Array, GridSize, IntArray
+from calibgui.engine.arrays import Array, BoolArray, GridSize, IntArray
 from calibgui.engine.detection.circles.lattice_growth import Place, PointLattice, grow_lattice
 from calibgui.engine.detection.circles.thresholds import CIRCLE_THRESHOLDS
 from calibgui.engine.geometry import homography
@@ -35,6 +35,8 @@ _MIN_AROUND = 4
 """Least number of the places `_AROUND` that hold a point."""
 _AROUND = np.array([(-1, 0), (0, -1), (1, 1), (-1, -1), (1, -1), (-1, 1)])
 """(6, 2) coordinates of the places around a seed whose neighbours (1, 0) and (0, 1) are given."""
+_MAX_STRAYS = 2
+"""Greatest number of points on a line that is none of the grid."""
 _SHEARS = tuple(np.array([[1, a], [b, 1]]) for a, b in ((0, 0), (1, 0), (-1, 0), (0, 1), (0, -1)))
 _CORNER = np.array([(0, 0), (1, 0), (0, 1)])
 """(3, 2) places of the points that a lattice starts from."""
@@ -127,6 +129,42 @@ def label_grid(
     if best is None or best.is_continued:
         return None
     return None if _is_continued(best, points, asymmetric=asymmetric) else best
+
+
+def find_lattice(points: Array) -> PointLattice | None:
+    """Find the largest lattice among points (n, 2) px; None if there is none."""
+    if len(points) <= max(_NEIGHBOURS, _MAX_SEEDS):
+        return None
+    tree = scipy.spatial.cKDTree(points)
+    best: PointLattice | None = None
+    for seed in _find_nearest(tree, np.median(points, axis=0), _MAX_SEEDS):
+        if best is not None and seed in best.points:
+            continue
+        for start in _start_lattices(seed, points, tree):
+            lattice = grow_lattice(start, points)
+            if best is None or len(lattice.points) > len(best.points):
+                best = lattice
+    return best
+
+
+def list_boxes(lattice: PointLattice) -> Iterator[IntArray]:
+    """List the grids (rows, cols) that hold all points of a symmetric grid's lattice, in any basis
+    and turn, but for lines that have two or fewer: indices of the points, -1 where none is."""
+    for xy in _shear_places(lattice, asymmetric=False):
+        for turn in _TURNS:
+            x, y = (xy @ turn.T).T
+            kept = _find_common(x) & _find_common(y)
+            if kept.any():
+                x, y = x[kept] - x[kept].min(), y[kept] - y[kept].min()
+                grid = np.full((int(y.max()) + 1, int(x.max()) + 1), -1, dtype=np.int64)
+                grid[y, x] = lattice.points[kept]
+                yield grid
+
+
+def _find_common(line: IntArray) -> BoolArray:
+    """Find the points (n,) True that more than one other shares its line with."""
+    start = line.min()
+    return np.asarray(np.bincount(line - start)[line - start] > _MAX_STRAYS)
 
 
 def _is_continued(grid: LabelledGrid, points: Array, *, asymmetric: bool) -> bool:

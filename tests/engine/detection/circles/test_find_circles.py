@@ -492,10 +492,12 @@ def test_whole_grids_are_told_from_parts_on_each_side(pattern: Circles) -> None:
     image = Scene(Board(7, 6, 26.0, pattern), _SMALL, distance=500.0).image()
     centres = find_corners(image, (7, 6), pattern=pattern).uv.reshape(7, 6, 2)
     whole = find_continuation(centres, image, asymmetric=pattern.asymmetric)
-    assert whole[2:] == (False, False, False, False)
+    assert not whole.is_seen and whole[4:-1] == (False, False, False)
+    assert whole.ends == (True, True, True, True)
     for part in (centres[2:], centres[:-2], centres[:, 1:], centres[:, :-1]):
         seen = find_continuation(part, image, asymmetric=pattern.asymmetric)
-        assert seen[2:] == (True, False, True, False)
+        assert np.count_nonzero(seen.goes_on) == 1 and seen[4:-1] == (False, True, False)
+        assert np.count_nonzero(seen.ends) == 3
 
 
 def _photograph_screen(scene: Scene, seed: int, depth: float) -> GreyImage:
@@ -576,3 +578,43 @@ def test_spots_beside_a_grid_do_not_turn_it() -> None:
         for centre in project_points(at, scene.camera, scene.pose):
             image[np.hypot(u - centre[0], v - centre[1]) < radius] = level
     assert find_corners(image, pattern=Circles(asymmetric=True)).shape == (13, 3)
+
+
+def _photograph_part(cols: int, rows: int = 6) -> tuple[Array, GreyImage]:
+    """Photograph the first columns and the last rows of 6 x 8 circles.
+
+    Returns:
+        (6, 8, 2) px of all circles, and the image.
+    """
+    board = Board(6, 8, 26.0, Circles(False, 0.45))
+    scene = Scene(board, _SMALL, (0.1, 0.1, 0.0), 500.0)
+    uv = project_points(board.points(), scene.camera, scene.pose).reshape(6, 8, 2)
+    right = int(np.mean(uv[:, cols - 1 : cols + 1, 0])) if cols < 8 else None
+    top = int(np.mean(uv[5 - rows : 7 - rows, :, 1])) if rows < 6 else 0
+    return uv - [0, top], np.ascontiguousarray(scene.image()[top:, :right])
+
+
+@pytest.mark.parametrize(("cols", "rows"), [(5, 6), (8, 4), (7, 5)])
+def test_a_part_of_a_grid_of_stated_size_is_placed(cols: int, rows: int) -> None:
+    uv, image = _photograph_part(cols, rows)
+    corners = find_corners(image, (6, 8), pattern=Circles())
+    assert len(corners) >= cols * rows - 2 and not corners.relative
+    at = tuple(corners.grid.T)
+    off = [np.linalg.norm(corners.uv - each[at], axis=1) for each in (uv, uv[::-1, ::-1])]
+    assert min(each.max() for each in off) < 0.1
+
+
+def test_a_part_that_may_have_several_places_is_refused() -> None:
+    """Of 5 x 5 circles in a corner the rows may be the columns."""
+    _, image = _photograph_part(5, 5)
+    with pytest.raises(NoBoardError, match="but not which of them"):
+        find_corners(image, (6, 8), pattern=Circles())
+
+
+def test_what_is_covered_is_no_end_of_a_part() -> None:
+    """The image cuts two columns, and a hand covers the first."""
+    uv, image = _photograph_part(6)
+    for u, v in np.rint(uv[:, 0]).astype(int):
+        image[max(v - 30, 0) : v + 31, max(u - 20, 0) : u + 16] = 90
+    with pytest.raises(NoBoardError):
+        find_corners(image, (6, 8), pattern=Circles())
