@@ -28,7 +28,7 @@ _CELL_MIDDLES = np.array([(0.5, 0.5), (0.5, -0.5), (-0.5, 0.5), (-0.5, -0.5)])
 
 _SHADE = 0.5
 """Least light of paper that lies in no shadow, over that of the grid."""
-_MAX_PAPER_DIFFERENCE = 0.1
+_MAX_PAPER_DIFFERENCE = 0.06
 """Greatest difference of a place from paper beside it, over the contrast, both of logarithms."""
 
 
