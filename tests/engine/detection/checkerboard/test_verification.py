@@ -80,7 +80,7 @@ class TestSoundCorners:
             return np.ones(len(uv), dtype=np.bool_), np.zeros(len(uv))
 
         monkeypatch.setattr(
-            verification, "estimate_template", lambda *_: SimpleNamespace(match=match)
+            verification, "estimate_template_of", lambda *_: SimpleNamespace(match=match)
         )
         moved = move(place(6, 9), (3, 4), (0.0, offset) if along else (offset, 0.0))
         good = verification.find_sound_corners(moved, paint(alternate(6, 9)))
