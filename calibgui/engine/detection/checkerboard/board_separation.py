@@ -162,41 +162,44 @@ def cut_at_seam(lattice: Lattice, unexplained: Array) -> tuple[Lattice, Lattice]
     """
     excess = np.full(lattice.shape, np.nan)
     excess[lattice.found] = unexplained
-    misfit = _measure_misfit([lattice])
     for quarters in (0, 1):
         turned, relative = turn_lattice(lattice, quarters), np.rot90(excess, quarters)
-        for row in range(MIN_LINES, len(relative) - MIN_LINES):
+        for row in _find_lines_described_worse(relative):
             parts = _split_lattice(turned, row, row + 1)
-            if _is_described_worse(relative[row - 1 : row + 2]) and _are_apart(
-                turned, row, parts, misfit
-            ):
+            if _are_apart(turned, row, parts):
                 return turn_lattice(parts[0], -quarters), turn_lattice(parts[1], -quarters)
     return None
 
 
-def _is_described_worse(unexplained: Array) -> bool:
-    """Return whether the middle one of three lines (3, m) leaves more unexplained than both others,
-    at nearly all of its corners."""
-    middle, beside = unexplained[1], np.fmax(unexplained[0], unexplained[2])
+def _find_lines_described_worse(unexplained: Array) -> list[int]:
+    """Find the rows of a lattice (rows, cols), with boards before and behind them, that leave more
+    `unexplained` than both rows beside them at nearly all of their corners."""
+    middle = unexplained[1:-1]
+    beside = np.fmax(unexplained[:-2], unexplained[2:])
     known = np.isfinite(middle) & np.isfinite(beside)
-    if np.count_nonzero(known) < MIN_LINES:
-        return False
+    counts = np.count_nonzero(known, axis=1)
     limits = THRESHOLDS.separation
-    is_more = np.stack([middle > beside, middle > limits.min_seam_excess * beside])[:, known]
-    return bool(
-        is_more[0].mean() > limits.min_seam_corners
-        and is_more[1].mean() > limits.min_excess_corners
+    is_worse = (
+        (counts >= MIN_LINES)
+        & (np.sum(middle > beside, axis=1) > limits.min_seam_corners * counts)
+        & (
+            np.sum(middle > limits.min_seam_excess * beside, axis=1)
+            > limits.min_excess_corners * counts
+        )
     )
+    rows = 1 + np.flatnonzero(is_worse)
+    last = len(unexplained) - MIN_LINES
+    return [int(row) for row in rows if MIN_LINES <= row < last]
 
 
-def _are_apart(lattice: Lattice, row: int, parts: tuple[Lattice, Lattice], misfit: float) -> bool:
-    """Return whether the `parts` before and behind a row lie on maps of their own, as all corners
-    lie on one map only to a much larger `misfit`, steps, and those of the row on neither."""
+def _are_apart(lattice: Lattice, row: int, parts: tuple[Lattice, Lattice]) -> bool:
+    """Return whether the `parts` before and behind a row lie on maps of their own much better than
+    all corners lie on one map, and those of the row on neither."""
     if not all(map(is_large_enough, parts)):
         return False
     limits = THRESHOLDS.separation
     apart = max(_measure_misfit(list(parts)), _NEGLIGIBLE_MISFIT)
-    if misfit < limits.min_seam_misfit_ratio * apart:
+    if _measure_misfit([lattice]) < limits.min_seam_misfit_ratio * apart:
         return False
     return all(
         _measure_misfit(list(_split_lattice(lattice, cut, cut)))
