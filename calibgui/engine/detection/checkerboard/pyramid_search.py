@@ -39,7 +39,12 @@ from calibgui.engine.detection.checkerboard.x_junctions import (
     classify_saddles,
     find_saddles,
 )
-from calibgui.engine.detection.lattice import Lattice, compute_filled_share, is_large_enough
+from calibgui.engine.detection.lattice import (
+    MIN_CORNERS,
+    Lattice,
+    compute_filled_share,
+    is_large_enough,
+)
 from calibgui.engine.detection.region_of_interest import are_inside
 
 _RANGE_PERCENTILES = (0.5, 99.5)
@@ -333,7 +338,8 @@ def _grow_lattices(
             continue
         is_wanted = len(seed) < min_judged or not is_none_wanted(seed)
         # A board that is all there would only grow into the floor or the cloth that it lies on.
-        may_grow = is_wanted and not board_ends.is_whole(seed, smooth)
+        has_floor = len(content.junctions) - len(seed) >= MIN_CORNERS
+        may_grow = is_wanted and not (has_floor and board_ends.is_whole(seed, smooth))
         lattice = grow_lattice(seed, nearby, beyond, is_hopeless) if may_grow else seed
         grown.append(seed if lattice is None else lattice)
         if texture.takes(lattice) or lattice is None or not is_sufficient(lattice):
