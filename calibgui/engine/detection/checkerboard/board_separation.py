@@ -193,13 +193,15 @@ def _find_lines_described_worse(unexplained: Array) -> list[int]:
 
 
 def _are_apart(lattice: Lattice, row: int, parts: tuple[Lattice, Lattice]) -> bool:
-    """Return whether the `parts` before and behind a row lie on maps of their own much better than
-    all corners lie on one map, and those of the row on neither."""
+    """Return whether the `parts` before and behind a row lie on maps of their own, much worse on
+    one map, and the corners of the row on neither: something that lies on these is no seam."""
     if not all(map(is_large_enough, parts)):
         return False
     limits = THRESHOLDS.separation
     apart = max(_measure_misfit(list(parts)), _NEGLIGIBLE_MISFIT)
-    if _measure_misfit([lattice]) < limits.min_seam_misfit_ratio * apart:
+    is_kept = lattice.found
+    is_kept[row] = False
+    if _measure_misfit([lattice.select(is_kept)]) < limits.min_seam_misfit_ratio * apart:
         return False
     return all(
         _measure_misfit(list(_split_lattice(lattice, cut, cut)))

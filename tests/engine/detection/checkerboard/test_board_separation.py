@@ -147,6 +147,14 @@ def test_a_board_of_two_sheets_is_not_cut(seam: float) -> None:
     assert cut_at_seam(Lattice(uv, True), unexplained.ravel()) is None
 
 
+def test_a_board_is_not_cut_at_a_line_that_is_drawn_aside() -> None:
+    """Worn corners lie on no map, but the parts on either side lie on one."""
+    uv, unexplained = place_edge_to_edge(0.5)
+    uv[:, 6:] -= GAP * (uv[:, 7] - uv[:, 6])[:, None]
+    uv[:, 5] += (0.0, 1.0)
+    assert cut_at_seam(Lattice(uv, True), unexplained.ravel()) is None
+
+
 def test_boards_that_lie_edge_to_edge_are_found_one_by_one() -> None:
     """Unless the size of both together is stated: a large board is printed on several sheets."""
     conditions = Conditions(
