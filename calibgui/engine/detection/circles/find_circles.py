@@ -16,26 +16,20 @@ taken by which they come first, row by row, whatever the picture or the user's p
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
-from itertools import product
-from typing import NamedTuple
 
 import numpy as np
 import numpy.typing as npt
 
-from calibgui.engine import opencv
 from calibgui.engine.arrays import Array, BoolArray, GreyImage, GridSize, IntArray, compute_median
 from calibgui.engine.boards.circle_grid import Circles, list_grid_indices
 from calibgui.engine.boards.pattern import Symmetry
 from calibgui.engine.detection import region_of_interest as region
 from calibgui.engine.detection.circles import ellipse_fit
-from calibgui.engine.detection.circles.blobs import compress_levels, find_blobs
 from calibgui.engine.detection.circles.circle_map import fit_circle_map
-from calibgui.engine.detection.circles.continuation import Continuation, find_continuation
+from calibgui.engine.detection.circles.coarse_search import find_grid
+from calibgui.engine.detection.circles.continuation import find_continuation
 from calibgui.engine.detection.circles.ellipse_fit import EllipseFit
-from calibgui.engine.detection.circles.grid_labelling import LabelledGrid, label_grid
-from calibgui.engine.detection.circles.partial_grid import place_part
 from calibgui.engine.detection.circles.thresholds import CIRCLE_THRESHOLDS
 from calibgui.engine.detection.corners import Corners, find_usable_covariances
 from calibgui.engine.detection.detector_io import check_grey_levels, list_rejected_corners
@@ -43,15 +37,6 @@ from calibgui.engine.detection.lattice import Lattice
 from calibgui.engine.errors import NoBoardError
 from calibgui.engine.images.reading import stretch_levels
 
-_MAX_COARSE_SIDE = 1200
-"""Longer side of the image in which the grid is looked for first, px."""
-_WINDOW_DIVISORS = (4, 16)
-"""The image's shorter side over the windows tried: ink is darker than the mean of the window."""
-_SHADED_DIVISOR = 8
-"""The image's shorter side over the window in which shadows are evened out, at the coarsest size:
-that takes a twentieth of the time of the search among what is dark."""
-_SMOOTHED_COPIES = 2
-"""Number of copies coarser than the coarsest that are searched where nothing was found."""
 _SAMPLE = 40
 """Number of circles, spread over the grid, that are fitted before all of a grid of more than twice
 as many."""
@@ -109,7 +94,7 @@ def find_circles(
     grey = check_grey_levels(image)
     outline = None if roi is None else region.check_outline(roi)
     levels = stretch_levels(grey)
-    found = _find_grid(pattern, levels, grid_size, outline)
+    found = find_grid(pattern, levels, grid_size, outline)
     coarse = found.centres
     is_counted = grid_size is None and outline is None
     grid_size = coarse.shape[0], coarse.shape[1]
@@ -179,182 +164,6 @@ def find_circles(
         remark=" ".join(doubts),
         pattern=Circles(pattern.asymmetric, 2 * radius),
     )
-
-
-class _CoarseGrid(NamedTuple):
-    """A grid as it is found before it is measured."""
-
-    centres: Array
-    """(rows, cols, 2) px, NaN where no circle is seen."""
-    in_view: int
-    """Number of its places that the image shows; all, unless its size is stated."""
-    is_part: bool = False
-    """True if it is a part whose place is known."""
-    has_strays: bool = False
-    """True if single discs lie where the grid may go on."""
-
-
-def _find_grid(
-    pattern: Circles,
-    image: npt.NDArray[np.uint8],
-    grid_size: GridSize | None,
-    outline: Array | None,
-) -> _CoarseGrid:
-    """Find a grid, coarsely, in an 8-bit image (h, w)."""
-    left, top = 0, 0
-    if outline is not None:
-        marked = region.enlarge_outline(outline)
-        left, top = np.maximum(np.floor(marked.min(axis=0)), 0).astype(int)
-        right, bottom = np.ceil(marked.max(axis=0)).astype(int)
-        image = image[top : bottom + 1, left : right + 1]
-    levels = [image]
-    while max(levels[-1].shape) > _MAX_COARSE_SIDE:
-        levels.append(opencv.halve_image(levels[-1]))
-    most = (
-        CIRCLE_THRESHOLDS.max_blobs if grid_size is None else 2 * grid_size[0] * grid_size[1] + 60
-    )
-    largest: _FoundGrid | None = None
-    part: LabelledGrid | None = None
-    others: list[tuple[_Search, Array]] = []
-    for search in _list_searches(levels):
-        if largest is not None and _is_needless(search, largest, len(levels), grid_size):
-            continue
-        points = search.find_blobs(most)
-        others.append((search, points))
-        grid = label_grid(points, grid_size, asymmetric=pattern.asymmetric)
-        if grid is None:
-            continue
-        is_stated = grid.is_full and grid.places.shape == grid_size
-        if largest is not None and not is_stated and largest.has_all_of(grid):
-            continue
-        at = grid.place_points(points)
-        beyond = find_continuation(
-            at, search.photograph, asymmetric=pattern.asymmetric, are_bright=search.is_negative
-        )
-        if beyond.is_seen:
-            part = max(part or grid, grid, key=len)
-            continue
-        found = _FoundGrid(grid, search, beyond)
-        if largest is None or is_stated or found.excess > largest.excess:
-            largest = found
-        if is_stated:
-            break
-    if largest is not None and grid_size in (None, largest.grid.places.shape):
-        centres = (largest.beyond.centres + 0.5) * 2**largest.search.depth - 0.5 + [left, top]
-        shown = int(np.count_nonzero(largest.beyond.is_in_view))
-        in_view = largest.grid.places.size if grid_size is None else shown
-        return _CoarseGrid(centres, in_view, has_strays=largest.grid.left_out > 0)
-    if grid_size is not None and not pattern.asymmetric:
-        placed = _place_part(others, grid_size)
-        if placed is not None:
-            return placed._replace(centres=placed.centres + np.array([left, top]))
-    which = "" if grid_size is None else f"{grid_size[0]} x {grid_size[1]} "
-    instead = ""
-    if largest is not None:
-        instead = ", but one of {} x {}".format(*largest.grid.places.shape)
-    elif part is not None:
-        instead = ", but {} x {} circles of a larger one".format(*part.places.shape)
-    raise NoBoardError(
-        f"No grid of {which}circles was found{instead}.",
-        "Almost all of it must be in view, sharp and evenly lit, with white around it."
-        + (" Check the numbers of rows and columns." if grid_size else ""),
-    )
-
-
-class _Search(NamedTuple):
-    """A search for circles."""
-
-    depth: int
-    """Number of times that the image was halved."""
-    photograph: npt.NDArray[np.uint8]
-    """(h, w)"""
-    divisor: int
-    """What the image's shorter side is divided by for the window."""
-    is_negative: bool = False
-    """True if circles that are bright are looked for."""
-    is_shaded: bool = False
-    """True if shadows are evened out."""
-
-    def find_blobs(self, most: int) -> Array:
-        """Find the centres (n, 2) px of at most `most` parts that may be circles."""
-        image = compress_levels(self.photograph) if self.is_shaded else self.photograph
-        window = max(int(min(image.shape) / self.divisor), 9)
-        seen = 255 - image if self.is_negative else image
-        return find_blobs(seen, window, most, is_shaded=self.is_shaded)
-
-
-def _place_part(searches: list[tuple[_Search, Array]], grid_size: GridSize) -> _CoarseGrid | None:
-    """Place the part of a grid that one of the searches has shown, with its points (n, 2) px.
-
-    Raises:
-        NoBoardError: if none places it, and one leaves several places.
-    """
-    doubt: NoBoardError | None = None
-    for search, points in searches:
-        try:
-            placed = place_part(points, search.photograph, grid_size, are_bright=search.is_negative)
-        except NoBoardError as error:
-            doubt = error
-            continue
-        if placed is not None:
-            return _CoarseGrid((placed[0] + 0.5) * 2**search.depth - 0.5, placed[1], True)
-    if doubt is not None:
-        raise doubt
-    return None
-
-
-class _FoundGrid(NamedTuple):
-    """A grid that a search has found."""
-
-    grid: LabelledGrid
-    search: _Search
-    beyond: Continuation
-
-    @property
-    def excess(self) -> int:
-        """Number of its places where a circle is seen, less those where none is: a grid with many
-        gaps along its border may be another one, turned."""
-        places = self.grid.places.size
-        return (
-            places
-            if self.grid.is_full
-            else 2 * int(np.count_nonzero(self.beyond.is_seen_at)) - places
-        )
-
-    def has_all_of(self, grid: LabelledGrid) -> bool:
-        """Return whether another grid is of the same size and has no more circles."""
-        return self.grid.places.shape == grid.places.shape and len(self.grid) >= len(grid)
-
-
-def _is_needless(
-    search: _Search, found: _FoundGrid, copies: int, grid_size: GridSize | None
-) -> bool:
-    """Return whether a search would not find more than was `found`, in an image of as many halved
-    `copies`: what is rare is looked for where gaps are left, or may be hidden by a shadow."""
-    if not (search.is_shaded or search.depth >= copies):
-        return False
-    is_whole = grid_size is None and found.grid.is_full
-    is_hidden = search.is_shaded and found.beyond.is_shaded
-    return (is_whole and not is_hidden) or search.is_negative != found.search.is_negative
-
-
-def _list_searches(levels: list[npt.NDArray[np.uint8]]) -> Iterator[_Search]:
-    """List the searches for circles in an image and its halved copies, the coarsest first. Shadows
-    need to be evened out rarely and so come last, with copies that are coarser still: there the
-    pixels of a screen neither tear the circles apart nor leave specks between them."""
-    coarsest = len(levels) - 1
-    for depth in reversed(range(len(levels))):
-        # What the coarsest level does not show is small, and lies in a small window.
-        divisors = _WINDOW_DIVISORS if depth == coarsest else _WINDOW_DIVISORS[-1:]
-        for is_negative, divisor in product((False, True), divisors):
-            yield _Search(depth, levels[depth], divisor, is_negative)
-    smoothed = levels[coarsest]
-    for depth in range(len(levels), len(levels) + _SMOOTHED_COPIES):
-        smoothed = opencv.halve_image(smoothed)
-        yield _Search(depth, smoothed, _WINDOW_DIVISORS[0])
-        yield _Search(depth, smoothed, _WINDOW_DIVISORS[0], True)
-    yield _Search(coarsest, levels[coarsest], _SHADED_DIVISOR, False, True)
-    yield _Search(coarsest, levels[coarsest], _SHADED_DIVISOR, True, True)
 
 
 def _number_circles(pattern: Circles, centres: Array, xy: Array, outline: Array | None) -> Array:
