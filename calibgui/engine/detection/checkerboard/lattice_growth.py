@@ -72,9 +72,10 @@ def grow_lattice(
             break
         slow_rounds += (len(grown) - len(lattice)) ** 2 < len(lattice)
         lattice = grown
-    min_filled = THRESHOLDS.search.min_filled_in_texture
-    is_ragged = slow_rounds == limits.max_slow_rounds and compute_filled_share(lattice) < min_filled
-    return None if is_ragged else lattice
+        is_sparse = compute_filled_share(lattice) < THRESHOLDS.search.min_filled_in_texture
+        if is_sparse and slow_rounds >= limits.max_ragged_rounds:
+            return None
+    return lattice
 
 
 class PointIndex:

@@ -138,11 +138,14 @@ class GrowthThresholds:
     min_growth_for_template: float = 1.2
     """Growth in corners, as a factor, after which the typical corner is taken anew and the
     prefilter is asked again."""
-    max_slow_rounds: int = 16
+    max_slow_rounds: int = 50
     """Number of rounds, each adding fewer corners than a line of a square board of so many has,
-    after which growth ends: a board grows by whole lines, only textures by single corners. In 54 of
-    boards that were partly hidden or blinded there were up to 10, in the "halftone" of
-    `tests.benchmarks.refusals` up to 44."""
+    after which growth ends."""
+    max_ragged_rounds: int = 16
+    """Number of such rounds after which a sparse lattice is given up. Boards that are partly hidden
+    or blinded grow by whole lines all the same, up to 10 slow rounds in 54 growths, and what joins
+    two boards fills most of its rows and columns; the "halftone" of `tests.benchmarks.refusals` has
+    up to 44."""
     max_lattice_side: int = 200
     """Number of rows or columns beyond which growth ends."""
 

@@ -54,7 +54,17 @@ def find_grid(
     grid_size: GridSize | None,
     outline: Array | None,
 ) -> CoarseGrid:
-    """Find a grid, coarsely, in an 8-bit image (h, w)."""
+    """Find a grid, coarsely, in an 8-bit image (h, w).
+
+    Args:
+        pattern: symmetric or asymmetric; its diameter is not used.
+        image: grey levels.
+        grid_size: rows and columns; inferred if None.
+        outline: (m, 2) convex outline, px, of the part of the image to search; None for all.
+
+    Raises:
+        NoBoardError: if there is none, with what was found instead.
+    """
     left, top = 0, 0
     if outline is not None:
         marked = region.enlarge_outline(outline)
@@ -102,13 +112,21 @@ def find_grid(
         placed = _place_part(others, grid_size)
         if placed is not None:
             return placed._replace(centres=placed.centres + np.array([left, top]))
+    raise _explain_missing_grid(grid_size, largest, part)
+
+
+def _explain_missing_grid(
+    grid_size: GridSize | None, largest: _FoundGrid | None, part: LabelledGrid | None
+) -> NoBoardError:
+    """Return the error for a missing grid that says what was found instead: a grid of another size,
+    or a part of one that goes on."""
     which = "" if grid_size is None else f"{grid_size[0]} x {grid_size[1]} "
     instead = ""
     if largest is not None:
         instead = ", but one of {} x {}".format(*largest.grid.places.shape)
     elif part is not None:
         instead = ", but {} x {} circles of a larger one".format(*part.places.shape)
-    raise NoBoardError(
+    return NoBoardError(
         f"No grid of {which}circles was found{instead}.",
         "Almost all of it must be in view, sharp and evenly lit, with white around it."
         + (" Check the numbers of rows and columns." if grid_size else ""),

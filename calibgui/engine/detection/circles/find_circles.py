@@ -103,31 +103,9 @@ def find_circles(
     first = _number_circles(pattern, coarse, all_xy, outline)
     is_seen = np.isfinite(first[:, 0])
     first, xy = first[is_seen], all_xy[is_seen]
-    start = fit_circle_map(xy, first)
-    paper = np.array([(1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0)])
-    neighbours = np.array([(1.0, 1.0), (1.0, -1.0)])
-    if not pattern.asymmetric:
-        paper = np.array([(0.5, 0.5), (-0.5, 0.5), (0.5, -0.5), (-0.5, -0.5)])
-        neighbours = np.eye(2)
-    steps = start.differentiate(xy)
-    if len(first) > 2 * _SAMPLE:
-        some = np.linspace(0, len(first) - 1, _SAMPLE).astype(np.int64)
-        tried = ellipse_fit.fit_ellipses(
-            grey, first[some], steps[some], pattern.half_distance, paper, neighbours
-        )
-        if np.median(tried.misfit) > _MAX_SAMPLE_EXCESS * CIRCLE_THRESHOLDS.max_misfit:
-            raise _distrust(_NO_ELLIPSES)
-    fit = ellipse_fit.fit_ellipses(grey, first, steps, pattern.half_distance, paper, neighbours)
+    fit = _fit_circles(grey, first, xy, pattern)
     verified = _verify_circles(fit, xy, grey, found.in_view)
-    radius = verified.radius
-    if (
-        pattern.diameter is not None
-        and abs(2 * radius - pattern.diameter) > CIRCLE_THRESHOLDS.max_diameter_difference
-    ):
-        raise NoBoardError(
-            f"The circles measure {2 * radius:.2f} of their distance, not {pattern.diameter:.2f}.",
-            "State diameter and distance as measured, or leave the diameter out.",
-        )
+    _check_diameter(pattern, 2 * verified.radius)
     order, ambiguity = _number_by_marks(verified, grid_size, pattern.symmetry(grid_size))
     places, is_good = grid[is_seen], verified.good[order]
     good = order[is_good]
@@ -139,11 +117,8 @@ def find_circles(
             coarse, levels, asymmetric=pattern.asymmetric, are_bright=fit.are_bright
         )
         doubts += [_OPEN] * beyond.is_open + [_BESIDE] * (found.has_strays and beyond.has_discs)
-    if (
-        not is_seen.all()
-        and not found.is_part
-        and np.any(np.ptp(places[is_good], axis=0) + 1 < grid_size)
-    ):
+    is_border_trusted = np.all(np.ptp(places[is_good], axis=0) + 1 == grid_size)
+    if not (is_seen.all() or found.is_part or is_border_trusted):
         doubts.append(_UNSEEN)
     return Corners(
         shape=grid_size,
@@ -162,7 +137,44 @@ def find_circles(
             list_rejected_corners(fit.uv[~verified.good], "not the image of a circle there")
         ),
         remark=" ".join(doubts),
-        pattern=Circles(pattern.asymmetric, 2 * radius),
+        pattern=Circles(pattern.asymmetric, 2 * verified.radius),
+    )
+
+
+def _fit_circles(grey: GreyImage, centres: Array, xy: Array, pattern: Circles) -> EllipseFit:
+    """Fit ellipses at the `centres` (n, 2) px of circles at `xy` (n, 2) pitches.
+
+    Raises:
+        NoBoardError: if ellipses do not describe some of many, and none need be fitted to the rest.
+    """
+    if pattern.asymmetric:
+        paper = np.array([(1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0)])
+        neighbours = np.array([(1.0, 1.0), (1.0, -1.0)])
+    else:
+        paper = np.array([(0.5, 0.5), (-0.5, 0.5), (0.5, -0.5), (-0.5, -0.5)])
+        neighbours = np.eye(2)
+    steps = fit_circle_map(xy, centres).differentiate(xy)
+
+    def fit(chosen: IntArray) -> EllipseFit:
+        return ellipse_fit.fit_ellipses(
+            grey, centres[chosen], steps[chosen], pattern.half_distance, paper, neighbours
+        )
+
+    if len(centres) > 2 * _SAMPLE:
+        tried = fit(np.linspace(0, len(centres) - 1, _SAMPLE).astype(np.int64))
+        if np.median(tried.misfit) > _MAX_SAMPLE_EXCESS * CIRCLE_THRESHOLDS.max_misfit:
+            raise _distrust(_NO_ELLIPSES)
+    return fit(np.arange(len(centres)))
+
+
+def _check_diameter(pattern: Circles, diameter: float) -> None:
+    """Raise NoBoardError if the circles measure another `diameter`, pitches, than is stated."""
+    stated = pattern.diameter
+    if stated is None or abs(diameter - stated) <= CIRCLE_THRESHOLDS.max_diameter_difference:
+        return
+    raise NoBoardError(
+        f"The circles measure {diameter:.2f} of their distance, not {stated:.2f}.",
+        "State diameter and distance as measured, or leave the diameter out.",
     )
 
 
