@@ -19,7 +19,8 @@ class CharucoThresholds:
     min_markers: int = 3
     """Least number of markers that agree on a board."""
     min_markers_if_stated: int = 2
-    """The same where the size of the board is stated, for the corner between them: OpenCV's."""
+    """Least number of markers that agree on a board of stated size and have a corner between them:
+    OpenCV's."""
     max_marker_distances: tuple[int, ...] = (2, 6)
     """Greatest distance along either axis of markers that are compared with each other, squares;
     the second where those within the first agree with several layouts."""

@@ -96,8 +96,8 @@ class _LevelContent:
 
 @dataclass(eq=False, slots=True)
 class _Texture:
-    """What was seen of a texture: it holds any number of sparse lattices, in any level, and all
-    turn out as the first few did."""
+    """A count of a picture's sparse lattices: a texture holds any number of them, in any level, and
+    all turn out as the first few did."""
 
     count: int = 0
     """Number of lattices that were sparse once grown."""

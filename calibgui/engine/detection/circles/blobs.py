@@ -16,8 +16,8 @@ from calibgui.engine.arrays import Array, BoolArray, GreyImage
 from calibgui.engine.detection.circles.thresholds import CIRCLE_THRESHOLDS
 
 FOG_SHARE = 1 / 16
-"""What scatters in a lens and is added to all levels before their logarithm is taken, over the
-brightest: below it lies noise."""
+"""Light that scatters in a lens, over the brightest level: it is added to all levels before their
+logarithm is taken, as below it lies noise."""
 _STEPS_PER_E = 255 / np.log1p(1 / FOG_SHARE)
 """Number of steps of the compressed levels by which they differ where light differs by e."""
 

@@ -141,7 +141,7 @@ class _Search(NamedTuple):
     photograph: npt.NDArray[np.uint8]
     """(h, w)"""
     divisor: int
-    """What the image's shorter side is divided by for the window."""
+    """The image's shorter side over the width of the window."""
     is_negative: bool = False
     """True if circles that are bright are looked for."""
     is_shaded: bool = False

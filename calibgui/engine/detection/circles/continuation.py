@@ -33,7 +33,7 @@ _MAX_PAPER_DIFFERENCE = 0.06
 
 
 class Continuation(NamedTuple):
-    """What an image shows of a grid and its next lines."""
+    """The places of a grid, and of the lines that would be next, as an image shows them."""
 
     centres: Array
     """(rows, cols, 2) px, of the grid's circles, also of those that were not known and are seen;

@@ -135,12 +135,12 @@ class _Comparison(NamedTuple):
 
 
 class _Turn(NamedTuple):
-    """What dots say, turned by some quarters."""
+    """The comparison of dots, turned by some quarters, with the maps."""
 
     by_row: _Comparison
-    """What those between rows say."""
+    """Of the dots between rows."""
     by_col: _Comparison
-    """What those between columns say."""
+    """Of the dots between columns."""
 
 
 def find_place(dots: Dots, board: StatedBoard | None = None) -> Place:
