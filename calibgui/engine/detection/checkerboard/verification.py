@@ -85,11 +85,12 @@ def find_sound_corners(
     failing = len(lattice) - int(np.count_nonzero(good))
     if failing and marked is None:  # markers begin as near as that
         # Marks in the squares differ, and what covers a part of them; what is near does not.
+        # Beside more corners than may fail, that has to be as like as elsewhere.
         if is_credible(failing, len(lattice)):
             limit = FIT_THRESHOLDS.template.max_dissimilarity_near
             near = good | _match_template(lattice, image, min(plain, _PLAIN_NEAR), limit)
             good |= near & ~_find_sparse_lines(near)
-        elif plain == 0.5 and stands_alone(lattice, image):
+        elif plain == 0.5:
             good |= _match_template(lattice, image, _PLAIN_NEAR)
     # What does not look like a corner says nothing about where its neighbours should be.
     alike = lattice.select(good)
