@@ -2,7 +2,7 @@
 
 Both are read from result.json or from the files of other programs. Where both are results, the
 difference is tested against their uncertainties. With --limit the exit code is 3 if the camera has
-drifted: if a pixel of far points has moved by more than the limit, and the uncertainties do not
+drifted: if a pixel that is compared has moved by more than the limit, and the uncertainties do not
 explain it.
 """
 
@@ -13,8 +13,6 @@ import math
 from collections.abc import Sequence
 from pathlib import Path
 
-import numpy as np
-
 from calibgui.app.outputs.output_files import check_figures, save_figure
 from calibgui.cli.arguments import add_map_options, parse_positive
 from calibgui.cli.camera import CAMERA_FILE, add_size_option, read_camera_and_warn
@@ -23,21 +21,18 @@ from calibgui.cli.outputs import add_overwrite_option
 from calibgui.cli.result import read_result_file
 from calibgui.dataset import Result
 from calibgui.engine.assessment import (
-    CameraDifference,
     Drift,
     UncertainCamera,
     choose_covariance,
     compare_cameras,
     measure_drift,
 )
-from calibgui.engine.uncertainty import estimate_projection_uncertainty
+from calibgui.engine.calibration import Observation
 from calibgui.formats import EXPORTERS
 from calibgui.report import quality
 from calibgui.report.series import describe_drift, has_drifted
 from calibgui.report.tables import fill_lines, format_bullet
 
-_MEDIAN_LENGTH = math.sqrt(2 * math.log(2))
-"""Median length of a vector whose two components are independent and of unit variance."""
 _HAS_DRIFTED = 3
 """Exit code of a camera that has changed by more than the limit."""
 
@@ -82,9 +77,10 @@ def run(options: argparse.Namespace, console: Console) -> int:
     if options.covered and results[0] is None:
         options.usage_error("--covered is for a result.json as A: other files have no corners")
     covered = results[0].observations() if options.covered and results[0] else None
-    found = compare_cameras(a.camera, b.camera, options.distance, covered)
-    expected = _estimate_expected_difference([r for r in results if r is not None], found)
-    drift = _measure_drift([r for r in results if r is not None])
+    where = options.distance, covered
+    drift = _measure_drift([r for r in results if r is not None], *where)
+    found = compare_cameras(a.camera, b.camera, *where) if drift is None else drift.difference
+    expected = None if drift is None else drift.expected
     a_name, b_name = _name_apart(options.a, options.b)
     text = fill_lines(f"A is {a_name}, B is {b_name}.", "", "  ") + "\n"
     text += quality.tabulate_camera_difference(found, expected)
@@ -101,7 +97,7 @@ def run(options: argparse.Namespace, console: Console) -> int:
             "rms_px": found.rms,
             "median_px": found.median,
             "worst_px": found.worst,
-            "expected_median_px": expected,
+            "expected_rms_px": expected,
             "probability_unchanged": None if drift is None else drift.probability,
             "rvec_b_from_a": found.turn,
             "tvec_b_from_a_mm": found.shift,
@@ -122,7 +118,9 @@ def _name_apart(a: Path, b: Path) -> tuple[str, str]:
     return (str(a), str(b)) if a.name == b.name else (a.name, b.name)
 
 
-def _measure_drift(results: Sequence[Result]) -> Drift | None:
+def _measure_drift(
+    results: Sequence[Result], distance: float, views: Sequence[Observation] | None
+) -> Drift | None:
     """Test the difference of two results; None unless both cameras are results."""
     if len(results) < 2:
         return None
@@ -131,22 +129,4 @@ def _measure_drift(results: Sequence[Result]) -> Drift | None:
         UncertainCamera(r.calibration.camera, choose_covariance(r.calibration, alike))
         for r in results
     ]
-    return measure_drift(*known)
-
-
-def _estimate_expected_difference(
-    results: Sequence[Result], found: CameraDifference
-) -> float | None:
-    """Estimate the median length, px, of the difference that both uncertainties explain.
-
-    It is None unless both cameras are results, whose views tell how uncertain they are.
-    """
-    if len(results) < 2:
-        return None
-    sigma = [
-        estimate_projection_uncertainty(
-            result.calibration, result.observations(), found.distance
-        ).rms
-        for result in results
-    ]
-    return float(_MEDIAN_LENGTH * np.nanmedian(np.hypot(*sigma)[found.region]))
+    return measure_drift(*known, distance=distance, views=views)

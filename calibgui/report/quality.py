@@ -183,15 +183,15 @@ def tabulate_camera_difference(found: CameraDifference, expected: float | None) 
 
     Args:
         found: the difference.
-        expected: median of the difference that their own uncertainties explain, px; None if one of
-            them is not known.
+        expected: root mean square of the difference that their own uncertainties explain, px; None
+            if one of them is not known.
     """
     rows = [
         ["root mean square", f"{found.rms:.3f}"],
         ["median", f"{found.median:.3f}"],
         ["worst", f"{found.worst:.3f}"],
         [
-            "expected from both uncertainties (median)",
+            "expected from both uncertainties (rms)",
             "not known" if expected is None else f"{expected:.3f}",
         ],
     ]

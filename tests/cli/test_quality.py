@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 import sys
 from pathlib import Path
 
@@ -74,10 +75,16 @@ def test_diff(
     assert out.startswith("A is result.json, B is held.json.\n")
     assert max(map(len, out.splitlines())) <= 80
     assert picture.stat().st_size > 10_000
+    [expected] = re.findall(r"expected from both uncertainties \(rms\) +([\d.]+)", out)
+    [told] = re.findall(r"uncertainties explain ([\d.]+) px rms", " ".join(out.split()))
+    assert float(told) == pytest.approx(float(expected), rel=0.1, abs=5e-4)
+    [worst] = re.findall(r"worst +([\d.]+)", out)
+    [at_most] = re.findall(r"([\d.]+) px at most", " ".join(out.split()))
+    assert float(at_most) == pytest.approx(float(worst), rel=0.1, abs=5e-4)
     assert main(["diff", both[0], both[0], "--json"]) == 0
     answer = json.loads(capsys.readouterr().out)
     assert answer["worst_px"] == pytest.approx(0, abs=1e-9)
-    assert answer["expected_median_px"] > 0
+    assert answer["expected_rms_px"] > 0
 
 
 @pytest.mark.slow

@@ -1,15 +1,16 @@
 """Drift: has a camera changed between two calibrations, or is the difference theirs?
 
 The difference d of the two as cameras, px, is that of ``comparison.py``: where camera b sees the
-points behind camera a's pixels, after the rotation that brings both closest together, since poses
-make up for any. The calibrations' covariances Ca and Cb explain a part of it. With the derivatives
-Ja and Jb of the pixels by the parameters, from which the three rotations are eliminated as well,
+points behind camera a's pixels, after the motion that brings both closest together, since poses
+make up for any: a rotation for far points. The calibrations' covariances Ca and Cb explain a part
+of it. With the derivatives Ja and Jb of the pixels by the parameters, from which the motion is
+eliminated as well,
 
     cov(d) = Ja Ca Ja^T + Jb Cb Jb^T = U S^2 U^T,      chi^2 = sum_i (u_i^T d)^2 / s_i^2
 
 is distributed as chi^2 with one degree of freedom for each direction u_i, if the camera has not
 changed. Directions in which neither calibration is uncertain by a thousandth of a pixel are left
-out: there the model is at its limit, not the camera. What a rotation makes up for, which is most of
+out: there the model is at its limit, not the camera. What a motion makes up for, which is most of
 a shift of the principal point, is neither part of the difference nor of the test.
 
 Both calibrations share the board, if it is the same one: its deviations from the drawing pull at
@@ -19,6 +20,7 @@ disagreement explain, as long as the residuals do not show that the board is off
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -28,6 +30,7 @@ import scipy
 from calibgui.engine.arrays import Array
 from calibgui.engine.assessment.changes.camera_change import factor_covariance
 from calibgui.engine.assessment.changes.comparison import CameraDifference, compare_cameras
+from calibgui.engine.calibration.observations import Observation
 from calibgui.engine.calibration.result import Calibration
 from calibgui.engine.camera.camera import Camera
 from calibgui.engine.images.sampling import make_mesh
@@ -87,25 +90,36 @@ def choose_covariance(calibration: Calibration, is_same_board: bool = True) -> A
     return np.asarray(calibration.noise_covariance * max(calibration.overdispersion, 1.0) ** 2)
 
 
-def measure_drift(a: UncertainCamera, b: UncertainCamera) -> Drift:
-    """Measure the difference of two calibrations for far points, and test it.
+def measure_drift(
+    a: UncertainCamera,
+    b: UncertainCamera,
+    *,
+    distance: float = np.inf,
+    views: Sequence[Observation] | None = None,
+) -> Drift:
+    """Measure the difference of two calibrations, and test it.
 
     Args:
         a, b: the cameras, of one image size. Their lens models may differ.
+        distance: distance of the points from camera a, mm; infinite for directions.
+        views: views whose corners outline the region to compare; the whole image if None.
 
     Raises:
         CalibrationError: as `compare_cameras`.
     """
-    found = compare_cameras(a.camera, b.camera)
+    found = compare_cameras(a.camera, b.camera, distance, views)
     uv = make_mesh(found.u, found.v)
-    seen = np.isfinite(found.vector).all(axis=-1)
-    roots, turns = zip(*(_propagate_root(camera, uv[seen]) for camera in (a, b)), strict=True)
+    seen = np.isfinite(found.vector).all(axis=-1) & found.region
+    roots, motions = zip(
+        *(_propagate_root(camera, uv[seen], distance) for camera in (a, b)), strict=True
+    )
     columns = np.concatenate(roots, axis=-1)
-    finite = np.isfinite(columns).all(axis=(1, 2)) & np.isfinite(turns[0]).all(axis=(1, 2))
-    turn = np.linalg.qr(turns[0][finite].reshape(-1, 3))[0]
+    finite = np.isfinite(columns).all(axis=(1, 2)) & np.isfinite(motions[0]).all(axis=(1, 2))
+    by_motion = motions[0][finite]
+    motion = np.linalg.qr(by_motion.reshape(-1, by_motion.shape[-1]))[0]
     both = np.concatenate([columns, found.vector[seen][..., None]], axis=-1)[finite]
     both = both.reshape(-1, both.shape[-1])
-    both = both - turn @ (turn.T @ both)
+    both = both - motion @ (motion.T @ both)
     u, s, _ = np.linalg.svd(both[:, :-1], full_matrices=False)
     tested = s > _MIN_SIGMA_PX * np.sqrt(finite.sum())
     z = (u.T @ both[:, -1])[tested] / s[tested]
@@ -113,8 +127,10 @@ def measure_drift(a: UncertainCamera, b: UncertainCamera) -> Drift:
     return Drift(found, float(z @ z), int(tested.sum()), expected)
 
 
-def _propagate_root(known: UncertainCamera, uv: Array) -> tuple[Array, Array]:
-    """Return the root (n, 2, E) of the pixels' covariance, and their derivatives by a rotation."""
-    by_params, by_motion = compute_sensitivity(known.camera, uv, np.inf)
+def _propagate_root(known: UncertainCamera, uv: Array, distance: float) -> tuple[Array, Array]:
+    """Return the root (n, 2, E) of the pixels' covariance, and their derivatives by the motion:
+    (n, 2, 3) at infinity, where it is a rotation, and (n, 2, 6) otherwise."""
+    by_params, by_motion = compute_sensitivity(known.camera, uv, distance)
     root = factor_covariance(known.covariance)
-    return by_params @ root if root.size else by_params[..., :0], by_motion[..., :3]
+    moving = 6 if np.isfinite(distance) else 3
+    return by_params @ root if root.size else by_params[..., :0], by_motion[..., :moving]
