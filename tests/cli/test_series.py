@@ -131,7 +131,7 @@ def test_another_file_is_named_and_which_one_to_give_instead(
     file = folder / f"camera{suffix}"
     assert main(["convert", str(result_file), "--export", f"{name}={file}", "-q"]) == 0
     with pytest.raises(CalibrationError, match=rf"camera\{suffix} {what}") as caught:
-        read_series([file], Scalar.TEMPERATURE, folder / "values.csv")
+        read_series([folder / "a.json", file], Scalar.TEMPERATURE)  # before values are missed
     assert "result.json of the calibration that it was written from" in caught.value.hint
 
 

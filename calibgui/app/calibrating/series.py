@@ -153,10 +153,10 @@ def read_series(
     Raises:
         CalibrationError: if a file is no result, or has no value and determines its camera.
     """
+    results = [read_result_file(path) for path in paths]  # what is none is said before all else
     table = {} if values is None else _read_values(values, scalar)
     found = []
-    for path in paths:
-        result = read_result_file(path)
+    for path, result in zip(paths, results, strict=True):
         try:
             if values is not None:
                 value = _find_value(table, path, values)
