@@ -121,6 +121,8 @@ def _describe_basis(result: Result) -> Iterator[Sentence]:
     text = f"Calibrated from {format_count(used, 'view')} with {points}"
     left_out = len(result.views) - used
     text += f"; {format_count(left_out, 'image')} left out." if left_out else ", every image used."
+    if outliers := describe_outliers(result):
+        text += f" {outliers[:1].upper()}{outliers[1:]}."
     yield Sentence(Tone.FACT, text)
 
 
@@ -180,6 +182,19 @@ def _describe_findings(findings: Sequence[Finding]) -> Iterator[Sentence]:
         if finding.cause not in (Cause.LENS, Cause.BOARD_SHAPE):
             yield Sentence(Tone.CAUTION, f"{finding.message} {finding.evidence}", finding.cause)
             yield Sentence(Tone.ADVICE, finding.remedy, finding.cause)
+
+
+def describe_outliers(result: Result) -> str:
+    """Say how many corners were left out as outliers; empty if all were to be kept."""
+    count = result.calibration.settings.get("outliers")
+    if not count:
+        return "" if count is None else "no outliers to leave out"
+    return f"{format_count(count, name_point(result.board))} left out as outliers"
+
+
+def is_board_shape_held(calibration: Calibration) -> bool:
+    """Return whether the shape of the board was given, and not estimated."""
+    return bool(calibration.settings.get("plate_held", False))
 
 
 def describe_board_shape(board_shape: BoardShape) -> str:
@@ -297,7 +312,10 @@ def _describe_board(result: Result, findings: Sequence[Finding]) -> Iterator[Sen
             text += " Estimate the board's shape to remove it."
         yield Sentence(tone, text, Cause.BOARD_SHAPE)
     if board_shape is not None:
-        yield Sentence(Tone.FACT, describe_board_shape(board_shape))
+        held = is_board_shape_held(result.calibration)
+        how = "held as it was given" if held else "estimated with the camera"
+        text = f"The board's shape is {how}. {describe_board_shape(board_shape)}"
+        yield Sentence(Tone.FACT, text)
     if (scatter := result.calibration.overdispersion) > 0:
         yield Sentence(Tone.FACT, describe_view_scatter(scatter))
 

@@ -24,7 +24,12 @@ from calibgui.report.boards import name_point
 from calibgui.report.coverage import measure_attitudes
 from calibgui.report.names import make_printable, shorten_name
 from calibgui.report.numbers import format_count, format_with_sigma
-from calibgui.report.summary import Tone, describe_calibration
+from calibgui.report.summary import (
+    Tone,
+    describe_calibration,
+    describe_outliers,
+    is_board_shape_held,
+)
 from calibgui.report.verdict import (
     describe_error,
     describe_error_in_scene,
@@ -291,12 +296,17 @@ def _make_camera_title(calibration: Calibration) -> str:
 
 
 def describe_rms(result: Result) -> str:
-    """Describe in a line how well the camera fits, and to how much."""
-    fit = summarise_residuals(result.calibration.residuals)
-    return (
-        f"RMS {fit.rms:.3f} px, σx {fit.sigma_x:.3f}, σy {fit.sigma_y:.3f} px; "
-        f"{format_count(fit.count, name_point(result.board))}, {_count_used(result)}"
-    )
+    """Describe how well the camera fits, to how much, and with which shape of the board."""
+    calibration = result.calibration
+    fit, shape = summarise_residuals(calibration.residuals), calibration.board_shape
+    parts = [
+        f"RMS {fit.rms:.3f} px, σx {fit.sigma_x:.3f}, σy {fit.sigma_y:.3f} px",
+        f"{format_count(fit.count, name_point(result.board))}, {_count_used(result)}",
+    ]
+    if shape is not None:
+        how = "held as given" if is_board_shape_held(calibration) else "estimated"
+        parts.append(f"board shape {how} ({shape.model}), {shape.rms:.2g} mm rms off the drawing")
+    return "; ".join(filter(None, [*parts, describe_outliers(result)]))
 
 
 def _count_used(result: Result) -> str:

@@ -12,7 +12,7 @@ from calibgui.app.calibrating.calibration import calibrate_views
 from calibgui.app.calibrating.settings import Settings
 from calibgui.dataset import CornerSet, Result, View, ViewStatus
 from calibgui.engine.assessment import summarise_residuals
-from calibgui.engine.boards import Circles
+from calibgui.engine.boards import BoardShape, BoardShapeModel, Circles
 from calibgui.engine.boards.board import Board
 from calibgui.engine.boards.pattern import Symmetry
 from calibgui.engine.calibration.result import Cost, Undetermined
@@ -144,6 +144,29 @@ def test_circles_are_called_circles(result: Result) -> None:
     )
     assert describe_fit(circles).endswith("px of 616 circles")
     assert any("7 views with 616 circles" in said.text for said in describe_calibration(circles))
+
+
+def test_the_report_says_what_was_left_out_and_done_with_the_board(result: Result) -> None:
+    assert "outlier" not in tables.describe_rms(result) and "board" not in tables.describe_rms(
+        result
+    )
+    points = BOARD.points()
+    deviation = np.full((len(points), 3), 0.1)
+    shape = BoardShape(BoardShapeModel.FREE, points, deviation, np.zeros_like(deviation))
+    told = []
+    for outliers, is_held in ((0, False), (12, True)):
+        settings = result.calibration.settings | {"outliers": outliers, "plate_held": is_held}
+        calibration = replace(result.calibration, board_shape=shape, settings=settings)
+        changed = replace(result, calibration=calibration)
+        told.append(tables.describe_rms(changed))
+        words = " ".join(said.text for said in describe_calibration(changed))
+        assert ("shape is held as it was given" in words) == is_held
+        assert ("12 corners left out as outliers" in words) == (outliers == 12)
+    assert told[0].endswith(
+        "board shape estimated (free), 0.17 mm rms off the drawing; no outliers to leave out"
+    )
+    assert "board shape held as given (free)" in told[1]
+    assert told[1].endswith("; 12 corners left out as outliers")
 
 
 def test_the_hundreds_of_parameters_of_a_spline_are_counted(

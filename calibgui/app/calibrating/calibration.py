@@ -251,6 +251,10 @@ def _calibrate_whole(
         sentences = (lens.reason, *sentences)
         calibration = replace(calibration, settings={**calibration.settings, _REASON: lens.reason})
     calibration = _add_warnings(calibration, used, settings, sentences)
+    if settings.robust:
+        left = sum(len(view.image) for view in calibration.residuals)
+        outliers = _count_corners(corner_set) - left
+        calibration = replace(calibration, settings={**calibration.settings, "outliers": outliers})
     return _make_result(calibration, replace(corner_set, views=views))
 
 
@@ -442,6 +446,12 @@ def _leave_out_outliers(
             "an estimated board shape only."
         )
     return tuple(views), tuple(sentences)
+
+
+def _count_corners(corner_set: CornerSet) -> int:
+    """Count the corners of the views that are usable."""
+    board = corner_set.board
+    return sum(len(view.observation(board).uv) for view in corner_set.views if view.usable)
 
 
 def _is_turn_open(view: View) -> bool:

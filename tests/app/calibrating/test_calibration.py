@@ -156,6 +156,7 @@ def test_outliers_are_left_out_by_name() -> None:
     assert "mirrored" in result.views[7].reason
     kept = result.views[1].points
     assert kept is not None and len(kept.uv) == len(BOARD.points()) - 2
+    assert result.calibration.settings["outliers"] == 2 + len(BOARD.points())
     first, second, third = result.calibration.warnings
     assert [first.split()[0], second.split()[0]] == ["1.png", "7.png"]
     assert third.startswith("The board is upside down in 5.png, as its corners are numbered.")
