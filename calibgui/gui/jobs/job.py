@@ -106,11 +106,12 @@ class Job:
             self._first = time.monotonic(), finished
 
     def rename(self, label: str) -> None:
-        """Report from the worker what is being done from now on."""
+        """Report from the worker what is being done from now on, of which nothing is finished."""
 
         def note() -> None:
             if label != self.label:
                 self.label, self._first = label, None
+                self.finished = self.total = 0
 
         self.check()
         self.queue.put(note)

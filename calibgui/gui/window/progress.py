@@ -8,10 +8,10 @@ from PySide6.QtWidgets import QHBoxLayout, QProgressBar, QToolButton, QVBoxLayou
 
 from calibgui.gui.jobs.job import Job
 from calibgui.gui.jobs.jobs import Jobs
-from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.elided import ElidedLabel
 
-_BAR_HEIGHT = 8
+_BAR_HEIGHT, _BUTTON_HEIGHT = 8, 16
+"""Heights of the bar and the button, px: with the label above they stand beside a button."""
 
 
 class Progress(QWidget):
@@ -30,19 +30,22 @@ class Progress(QWidget):
         self.bar.setFixedHeight(_BAR_HEIGHT)
         self.bar.setTextVisible(False)
         self.cancel = QToolButton()
-        self.cancel.setText(self.tr("Cancel"))
-        self.cancel.setToolTip(self.tr("End this and drop what is not finished"))
+        self.cancel.setText("✕")
+        self.cancel.setAutoRaise(True)
+        self.cancel.setFixedHeight(_BUTTON_HEIGHT)
+        self.cancel.setToolTip(self.tr("Cancel: end this and drop what is not finished"))
+        self.cancel.setAccessibleName(self.tr("Cancel"))
         self.cancel.clicked.connect(self._cancel)
-        row = QHBoxLayout(self)
-        row.setContentsMargins(0, 0, 0, 0)
-        shown = QVBoxLayout()
-        shown.setSpacing(theme.SPACING // 4)
-        shown.addStretch(1)
-        shown.addWidget(self.label)
-        shown.addWidget(self.bar)
-        shown.addStretch(1)
-        row.addLayout(shown, 1)
-        row.addWidget(self.cancel)
+        column = QVBoxLayout(self)
+        column.setContentsMargins(0, 0, 0, 0)
+        column.setSpacing(0)
+        column.addStretch(1)
+        column.addWidget(self.label)  # as wide as there is room: it may be a whole sentence
+        below = QHBoxLayout()
+        below.addWidget(self.bar, 1)
+        below.addWidget(self.cancel)
+        column.addLayout(below)
+        column.addStretch(1)
         for widget in (self, self.cancel):
             keeping = widget.sizePolicy()
             keeping.setRetainSizeWhenHidden(True)  # what stands beside it must not move

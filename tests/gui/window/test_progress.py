@@ -16,6 +16,7 @@ from pytestqt.qtbot import QtBot
 from calibgui.app.photographs.detection import Detection
 from calibgui.app.projects.document import Document
 from calibgui.dataset import ViewStatus
+from calibgui.gui.jobs.job import Job
 from calibgui.gui.jobs.jobs import Jobs
 from calibgui.gui.window.main_window import MainWindow
 from calibgui.gui.window.progress import Progress
@@ -90,3 +91,23 @@ def test_one_button_ends_a_search(
     job = window.session.jobs.start("Working", lambda job: job.cancelling.wait(60))
     qtbot.waitUntil(cancel.isVisible)
     job.cancel()
+
+
+def test_the_longest_words_about_a_job_have_room(window: MainWindow, qtbot: QtBot) -> None:
+    progress, jobs = window.inspector.findChildren(Progress)[0], window.session.jobs
+    window.resize(1120, 760)
+    go_on = Event()
+    preparing = "Preparing the search (once, about 35 s)…"
+
+    def work(job: Job) -> None:
+        job.advance(3, 12)
+        job.rename(preparing)
+        go_on.wait(20)
+
+    jobs.start("Comparing lens models", work)
+    qtbot.waitUntil(lambda: progress.label.text() == preparing)  # of which 3 are not finished
+    for words in (preparing, "Comparing lens models: 3 of 12, 35 s left"):
+        assert progress.label.fontMetrics().horizontalAdvance(words) <= progress.label.width()
+    assert progress.height() <= window.calibrate.height()
+    go_on.set()
+    qtbot.waitUntil(lambda: not jobs.running)
