@@ -28,7 +28,6 @@ from dataclasses import replace
 
 import numpy as np
 
-from calibgui.engine.arrays import BoolArray
 from calibgui.engine.assessment.causes.finding import (
     MIN_HARM_PX,
     REMEDY_OF_FEW_VIEWS,
@@ -45,13 +44,12 @@ from calibgui.engine.assessment.causes.rival_lens import fit_rival
 from calibgui.engine.assessment.causes.rolled_images import find_roll
 from calibgui.engine.assessment.causes.scaled_images import find_scaling
 from calibgui.engine.assessment.causes.sheared_images import find_shear
+from calibgui.engine.assessment.causes.turned_views import find_turn
 from calibgui.engine.assessment.residuals.cause_fits import MIN_LEAD
 from calibgui.engine.assessment.residuals.residual_checks import NoiseCheck
-from calibgui.engine.assessment.residuals.residual_statistics import summarise_residuals
 from calibgui.engine.assessment.residuals.systematic_errors import prepare_fit
 from calibgui.engine.boards.shape import BoardShapeModel
 from calibgui.engine.calibration.calibrate import calibrate
-from calibgui.engine.calibration.observations import Observation
 from calibgui.engine.calibration.problem import recover_image_arguments
 from calibgui.engine.calibration.result import Calibration
 from calibgui.engine.camera.models import find_model
@@ -82,20 +80,6 @@ _MIN_PART_OF_BOARDS_HARM = 0.1
 is named instead: a lens model that is off by some hundredths of a pixel is not what to mend where a
 bowed board moves pixels by several. It was 0.01 in rendered photographs of such boards, and 1 where
 a lens model did not follow the lens (``tests/faults``)."""
-_MAX_RMS_IF_TURNED = 1.2
-"""RMS residual with the odd views turned back, over what a camera of their own would
-leave to the first order, up to which they were turned: with no unknowns more. They leave half of
-the squares at most that such a camera explains."""
-_TURNS = {
-    (-1, -1): ("upside down", "turn them by 180 degrees"),
-    (-1, 1): ("mirrored left to right", "mirror them left to right"),
-    (1, -1): ("mirrored top to bottom", "mirror them top to bottom"),
-}
-"""Ways in which a program may have turned what the camera wrote, by the signs of the coordinates:
-how the images stand, and what turns them back."""
-_MAX_RMS_ALIKE = 1.05
-"""RMS residual over the least one, up to which another of these ways is as likely: a lens in the
-middle of the image is the same when it is turned and when it is mirrored."""
 _SOUGHT = {
     DISTORTION: "photographs that the camera or a program has corrected, or another lens, among "
     "these"
@@ -337,20 +321,16 @@ def _describe_two_kinds(case: Case, split: Split) -> Finding:
     left = case.rms * float(np.sqrt(1 - split.share))
     harm = case.measure_harm(split.share)
     listed = list_names([case.names[k] for k in odd])
-    turns = {turn: _measure_rms_if_turned(case, split.is_odd, turn) for turn in _TURNS}
-    turned = min(turns.values())
-    # Where little is to be explained, nearly all would be left of it if nothing were wrong.
-    half = float(np.sqrt((left**2 + case.rms**2) / 2))
-    if turned < min(_MAX_RMS_IF_TURNED * left, half):
-        alike = [_TURNS[turn] for turn, rms in turns.items() if rms < _MAX_RMS_ALIKE * turned]
-        how, back = (" or ".join(words) for words in zip(*alike, strict=True))
+    turn = find_turn(case, split.is_odd, left)
+    if turn is not None:
         return Finding(
             Cause.MIXED_VIEWS,
-            f"{listed} {'are' if len(odd) > 1 else 'is'} {how} against the others, stored by a "
-            "program that turned what the camera wrote.",
-            f"Turned back they leave {turned:.2g} px of {case.rms:.2g} px RMS; "
+            f"{listed} {'are' if len(odd) > 1 else 'is'} {turn.how} against the others, stored by "
+            "a program that turned what the camera wrote.",
+            f"Turned back they leave {turn.rms:.2g} px of {case.rms:.2g} px RMS; "
             f"{describe_harm(harm)}.",
-            f"{back[:1].upper()}{back[1:]}, or take the files as the camera wrote them.",
+            f"{turn.remedy}, or take the files as the camera wrote them. If they are of another "
+            "camera, calibrate it by itself.",
             harm,
             views,
             Action(ActionKind.LEAVE_OUT_VIEWS, views),
@@ -366,29 +346,6 @@ def _describe_two_kinds(case: Case, split: Split) -> Finding:
         views,
         Action(ActionKind.LEAVE_OUT_VIEWS, views),
     )
-
-
-def _measure_rms_if_turned(case: Case, is_turned: BoolArray, turn: tuple[int, int]) -> float:
-    """Measure the RMS residual if some views (K,) are turned by half a turn or mirrored, px;
-    infinite if that is no calibration.
-
-    A board that is seen in a mirror is numbered from its other side.
-    """
-    last = np.array(case.calibration.camera.size) - 1
-    sign = np.array(turn)
-    side = np.array([sign.prod(), 1])
-    views = [
-        Observation(np.where(sign < 0, last - view[0], view[0]), view[1] * side, *view[2:])
-        if turned
-        else view
-        for view, turned in zip(case.views, is_turned, strict=True)
-    ]
-    settings = recover_image_arguments(case.calibration)
-    try:
-        turned = calibrate(views, case.calibration.camera.size, **settings)
-    except CalibrationError:
-        return np.inf
-    return summarise_residuals(turned.residuals).rms
 
 
 def list_names(names: Sequence[str]) -> str:

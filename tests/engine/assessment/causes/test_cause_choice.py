@@ -222,6 +222,20 @@ def test_photographs_stored_mirrored_are_named() -> None:
     assert finding.remedy.startswith("Mirror them left to right, or take the files")
 
 
+def test_two_cameras_alike_are_not_said_to_be_turned() -> None:
+    """Turned back, the second has its principal point nearer to the first, but not there."""
+    rng = np.random.default_rng(714)
+    photographed = draw_rendered_set(rng)
+    params = photographed.camera.params
+    left, right = (
+        Camera(VGA, [*(params[:2] * focal), *(MIDDLE + off), *params[4:]])
+        for off, focal in zip(rng.normal(0, 6.0, (2, 2)), rng.normal(1, 0.003, 2), strict=True)
+    )
+    (finding,) = found(photograph(photographed, [left, right] * (len(photographed.poses) // 2)))
+    assert finding.cause is Cause.MIXED_VIEWS
+    assert "are of two kinds" in finding.message
+
+
 def test_a_fisheye_that_a_pinhole_does_not_follow_is_no_lack_of_views() -> None:
     """Of these ten the noise, if it were all that a pinhole leaves, would leave pixels unknown."""
     fisheye = Camera(VGA, [330.0, 330.0, 312.0, 246.0, -0.02, 4e-3, -3e-3, 4e-4], "kannala-brandt")
