@@ -29,13 +29,17 @@ def describe_assumptions(diagnosis: Diagnosis) -> str:
 
 def describe_aspect_ratio(calibration: Calibration) -> str:
     """Describe the aspect ratio, which is known although the focal length is assumed."""
+    return (
+        f"Determined all the same: fy/fx = {format_with_sigma(*compute_aspect_ratio(calibration))},"
+        " and of the lens what has a small ± in the paper's units."
+    )
+
+
+def compute_aspect_ratio(calibration: Calibration) -> tuple[float, float]:
+    """Compute fy/fx and its standard deviation."""
     fx, fy = calibration.camera.focal
     J = np.array([-fy / fx, 1.0]) / fx
-    sigma = float(np.sqrt(J @ calibration.covariance[:2, :2] @ J))
-    return (
-        f"Determined all the same: fy/fx = {format_with_sigma(fy / fx, sigma)}, and of the lens "
-        "what has a small ± in the paper's units."
-    )
+    return float(fy / fx), float(np.sqrt(J @ calibration.covariance[:2, :2] @ J))
 
 
 def is_scale_assumed(diagnosis: Diagnosis | None) -> bool:

@@ -43,6 +43,10 @@ _MIN_POOR_RELATIVE_SIGMA = 5e-3
 """Relative standard deviation of a length above which it counts as badly determined."""
 _MIN_SIGMAS_FROM_ZERO = 2.0
 """Ratio of a lens coefficient to its sigma, below which it is not told from zero."""
+_MIN_OFF_SQUARE, _MIN_SIGMAS_OFF_SQUARE = 5e-3, 4.0
+"""Differences of fy/fx from 1 above which pixels are not square: by itself, beyond what rounding a
+size to whole pixels does, and over its sigma. In real sets that nobody scaled it was at most 0.004
+and 1.4 sigmas, or 0.002 and 4.8."""
 _MIN_STRONG_CORRELATION = 0.98
 """Correlation above which two lens coefficients are named as exchangeable."""
 _MAX_RMS_OVER_MEDIAN = 2.5
@@ -53,6 +57,8 @@ _MISLEADING = {Cause.WRONG_FRAME, Cause.HELD_VALUE, Cause.MISPLACED_CORNERS}
 """Causes whose residuals look like those of a lens that is not followed."""
 _UNTRUSTWORTHY = {*_MISLEADING, Cause.LENS, Cause.FEW_VIEWS}
 """Causes beside which no value is called well determined."""
+_LIKE_UNEQUAL_PIXELS = {*_UNTRUSTWORTHY, Cause.BOARD_SHAPE, Cause.MIXED_VIEWS}
+"""Causes that may make fx and fy unequal, or of which nothing is known beside them."""
 
 
 class Tone(StrEnum):
@@ -108,6 +114,8 @@ def _describe_in_detail(result: Result, findings: Sequence[Finding]) -> Iterator
     yield from _describe_board(result, findings)
     yield from _describe_fit(result)
     yield from _describe_parameters(result, findings)
+    if unequal := describe_unequal_pixels(result.calibration, findings):
+        yield Sentence(Tone.CAUTION, unequal)
     yield from _describe_correlations(result)
     yield from _describe_outlying_views(result, findings)
     yield from _describe_advice(result, findings)
@@ -389,6 +397,25 @@ def _describe_parameters(result: Result, findings: Sequence[Finding]) -> Iterato
                 else "bring corners closer to the image's edges."
             ),
         )
+
+
+def describe_unequal_pixels(calibration: Calibration, findings: Sequence[Finding]) -> str:
+    """Describe pixels that are not square; empty if they are, or if what is wrong may look so.
+
+    Unequal squares of the board look so, but the ± includes that: of boards stretched by 0.5 to
+    2 %, in 6 or 14 views that were tilted or hardly, fy/fx was at most 1 sigma from 1, or the board
+    or too few views were a finding.
+    """
+    ratio, sigma = partial.compute_aspect_ratio(calibration)
+    off = abs(ratio - 1)
+    is_held = bool({"fx", "fy"} & {*calibration.fixed}) or calibration.diagnosis is not None
+    is_open = is_held or bool(_LIKE_UNEQUAL_PIXELS & {finding.cause for finding in findings})
+    if is_open or off <= max(_MIN_OFF_SQUARE, _MIN_SIGMAS_OFF_SQUARE * sigma):
+        return ""
+    return (
+        f"The pixels are not square, fy/fx = {format_with_sigma(ratio, sigma)}, as if the images "
+        "were scaled unequally. If so, take them as the camera writes them."
+    )
 
 
 def _describe_correlations(result: Result) -> Iterator[Sentence]:

@@ -28,6 +28,7 @@ from calibgui.report.summary import (
     Tone,
     describe_calibration,
     describe_outliers,
+    describe_unequal_pixels,
     is_board_shape_held,
 )
 from calibgui.report.verdict import (
@@ -88,12 +89,18 @@ def format_report(result: Result, *, verbose: bool = False) -> str:
 
 
 def _format_briefly(result: Result, verdict: Verdict, remarks: Sequence[str]) -> str:
-    """Format the verdict, the camera and its RMS, with as many remarks as leave it short."""
+    """Format the verdict, the camera and its RMS, with as many remarks as leave it short.
+
+    One on the camera's pixels is never left out, and stands below the camera.
+    """
+    unequal = describe_unequal_pixels(result.calibration, verdict.findings)
+    camera = [tabulate_camera(result.calibration), *([format_bullet(unequal)] if unequal else [])]
+    remarks = [remark for remark in remarks if remark not in camera]
     for count in range(len(remarks), -1, -1):
         text = _join_sections(
             "\n".join([*_format_verdict(result, verdict), *remarks[:count]]),
             list_unused_views(result.views),
-            tabulate_camera(result.calibration),
+            "\n".join(camera),
             fill_lines(describe_rms(result), "", "  "),
         )
         if text.count("\n") < _MAX_LINES:

@@ -13,6 +13,7 @@ import pytest
 from calibgui import engine
 from calibgui.dataset import Result, View, ViewStatus
 from calibgui.dataset.judging import judge_result
+from calibgui.engine.arrays import Size
 from calibgui.engine.assessment import Cause
 from calibgui.engine.assessment.residuals.error_sources import ErrorSources
 from calibgui.engine.boards.shape import BoardShape, BoardShapeModel
@@ -26,6 +27,7 @@ from calibgui.report.summary import (
     describe_error_sources,
     find_outlying_views,
 )
+from calibgui.report.tables import format_report
 from tests.babelcalib import OV_PLANE_SIZE, read_ov_plane
 from tests.engine import scenes
 from tests.engine.degenerate_scenes import LONG, in_one_spot
@@ -34,13 +36,17 @@ CAMERA = scenes.barrel()
 
 
 def solved(
-    views: Sequence[Observation], seed: int = 0, left_out: int = 0, **settings: str
+    views: Sequence[Observation],
+    seed: int = 0,
+    left_out: int = 0,
+    size: Size = CAMERA.size,
+    **settings: object,
 ) -> Result:
     rng = np.random.default_rng(seed)
     noisy = [Observation(v.uv + rng.normal(scale=0.1, size=v.uv.shape), v.xy) for v in views]
     made = [View(f"photographs/{k}.png", ViewStatus.FOUND, points=v) for k, v in enumerate(noisy)]
     made += [View("dark.png", ViewStatus.NO_BOARD, "No board.")] * left_out
-    return Result(engine.calibrate(noisy, CAMERA.size, **settings), tuple(made))  # type: ignore[arg-type]
+    return Result(engine.calibrate(noisy, size, **settings), tuple(made))  # type: ignore[arg-type]
 
 
 def texts(result: Result, tone: Tone) -> str:
@@ -265,6 +271,30 @@ def test_a_coefficient_near_zero_is_named(good: Result) -> None:
     params[6] = 0.5 * calibration.sigma[6]
     near = replace(calibration, camera=replace(calibration.camera, params=params))
     assert "Not told from zero: k3 = " in texts(replace(good, calibration=near), Tone.FACT)
+
+
+@pytest.mark.parametrize("scale", [4 / 3, 0.98])
+def test_images_scaled_differently_across_and_down_are_named(scale: float) -> None:
+    views = [Observation(view.uv * [1, scale], view.xy) for view in everywhere(10)]
+    size = (640, round(480 * scale))
+    result = solved(views, size=size)
+    said = texts(result, Tone.CAUTION)
+    [ratio] = re.findall(r"not square, fy/fx = ([\d.]+) ± ", said)
+    assert float(ratio) == pytest.approx(scale, abs=1e-3)
+    below = format_report(result).partition("Camera, ")[2]
+    assert below.count("not square") == 1
+    assert "as the camera writes them" in said
+    assert "not square" not in texts(solved(views, size=size, fix=["fx"]), Tone.CAUTION)
+
+
+def test_a_board_of_unequal_squares_is_no_camera_of_unequal_pixels(good: Result) -> None:
+    assert "not square" not in texts(good, Tone.CAUTION)
+    views = [Observation(view.uv, view.xy * [1, 1.01]) for view in everywhere(10)]
+    result = solved(views)
+    assert Cause.BOARD_SHAPE in {finding.cause for finding in judge_result(result).findings}
+    assert "not square" not in texts(result, Tone.CAUTION)
+    known = solved(views, board_shape="affine")
+    assert "not square" not in texts(known, Tone.CAUTION)
 
 
 def test_views_that_disagree_are_named(good: Result) -> None:
