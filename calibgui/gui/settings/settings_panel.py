@@ -10,6 +10,7 @@ from PySide6.QtWidgets import (
     QCheckBox,
     QFormLayout,
     QGridLayout,
+    QHBoxLayout,
     QLabel,
     QLineEdit,
     QVBoxLayout,
@@ -141,26 +142,29 @@ class SettingsPanel(QWidget):
         first.addRow(self.tr("Method"), self.method)
         first.addRow(label, self.cost)
         first.addRow(self.tr("Lens model"), self.model)
+        views = QHBoxLayout()
+        views.addWidget(self.robust)
+        views.addWidget(self.weigh, 1)
         self._grid = QGridLayout()
         self._grid.setHorizontalSpacing(theme.SPACING)
+        self._grid.addWidget(QLabel(self.tr("Estimate")), 0, 0)
         last = QFormLayout()
         last.addRow(held, self.values)
         layout = QVBoxLayout(self)
+        layout.setContentsMargins(theme.SPACING, 0, theme.SPACING, 0)
         layout.addLayout(first)
         layout.addWidget(self.board_shape)
-        for choice in (self.robust, self.weigh, self.again):
-            layout.addWidget(choice)
-        layout.addWidget(QLabel(self.tr("Estimate")))
+        layout.addLayout(views)
+        layout.addWidget(self.again)
         layout.addLayout(self._grid)
         layout.addLayout(last)
-        layout.addStretch(1)
 
     def _arrange_boxes(self, names: Sequence[str]) -> None:
         """Show the boxes of these parameters, in this order, and no others."""
         for box in self.boxes.values():
             self._grid.removeWidget(box)
         for k, name in enumerate(names):
-            self._grid.addWidget(self.boxes[name], k // _BOXES_PER_ROW, k % _BOXES_PER_ROW)
+            self._grid.addWidget(self.boxes[name], k // _BOXES_PER_ROW, 1 + k % _BOXES_PER_ROW)
         for name, box in self.boxes.items():
             box.setVisible(name in names)
 

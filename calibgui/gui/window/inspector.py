@@ -152,7 +152,7 @@ class Inspector(QWidget):
     def _make_setup(self, board: BoardPanel, settings: SettingsPanel) -> QWidget:
         page = QWidget()
         column = QVBoxLayout(page)
-        column.setContentsMargins(0, theme.SPACING, 0, 0)
+        column.setContentsMargins(0, theme.SPACING // 4, 0, 0)
         for title, section in ((self.tr("Board"), board), (self.tr("Calibration"), settings)):
             column.addWidget(_make_heading(title))
             column.addWidget(section)

@@ -16,6 +16,7 @@ from PySide6.QtWidgets import (
     QCheckBox,
     QComboBox,
     QLabel,
+    QScrollArea,
     QStyle,
     QTabBar,
     QTableView,
@@ -23,6 +24,7 @@ from PySide6.QtWidgets import (
 )
 from pytestqt.qtbot import QtBot
 
+from calibgui.app.calibrating.settings import NEW_PROJECT_SETTINGS
 from calibgui.app.projects.document import Document
 from calibgui.engine.errors import CalibrationError
 from calibgui.gui.dialogs.export_dialog import ExportDialog
@@ -110,6 +112,19 @@ def test_all_parts_fit_a_full_hd_screen_at_twice_the_scale(full: MainWindow, qtb
     resize(full, qtbot, 960, 500)
     assert full.height() == 500
     assert not list(find_clipped(full))
+
+
+def test_the_set_up_of_a_new_project_needs_no_scrolling(
+    window: MainWindow, qtbot: QtBot, tmp_path: Path
+) -> None:
+    """Once the side of a square is confirmed, which the verdict asks for until then."""
+    made = replace(examples.calibrated(tmp_path), lengths_confirmed=True)
+    window.session.begin(Document(replace(made, settings=NEW_PROJECT_SETTINGS)))
+    window.inspector.show_setup()
+    resize(window, qtbot, 1280, 720)
+    pages = window.inspector.findChildren(QScrollArea)
+    [area] = [area for area in pages if area.isAncestorOf(window.settings)]
+    qtbot.waitUntil(lambda: area.verticalScrollBar().maximum() == 0, timeout=1000)
 
 
 @pytest.mark.parametrize(("width", "height"), SIZES)
