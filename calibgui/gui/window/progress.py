@@ -4,14 +4,23 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from PySide6.QtWidgets import QHBoxLayout, QProgressBar, QToolButton, QVBoxLayout, QWidget
+from PySide6.QtCore import QSize
+from PySide6.QtWidgets import (
+    QHBoxLayout,
+    QProgressBar,
+    QStyle,
+    QToolButton,
+    QVBoxLayout,
+    QWidget,
+)
 
 from calibgui.gui.jobs.job import Job
 from calibgui.gui.jobs.jobs import Jobs
 from calibgui.gui.widgets.elided import ElidedLabel
 
-_BAR_HEIGHT, _BUTTON_HEIGHT = 8, 16
-"""Heights of the bar and the button, px: with the label above they stand beside a button."""
+_BAR_HEIGHT, _BUTTON_HEIGHT, _ICON_SIDE = 8, 16, 10
+"""Heights of the bar, the button and what is drawn on it, px: with the label above they are as high
+as the button *Calibrate*, beside which they stand."""
 
 
 class Progress(QWidget):
@@ -30,7 +39,9 @@ class Progress(QWidget):
         self.bar.setFixedHeight(_BAR_HEIGHT)
         self.bar.setTextVisible(False)
         self.cancel = QToolButton()
-        self.cancel.setText("✕")
+        close = QStyle.StandardPixmap.SP_TitleBarCloseButton
+        self.cancel.setIcon(self.style().standardIcon(close))
+        self.cancel.setIconSize(QSize(_ICON_SIDE, _ICON_SIDE))
         self.cancel.setAutoRaise(True)
         self.cancel.setFixedHeight(_BUTTON_HEIGHT)
         self.cancel.setToolTip(self.tr("Cancel: end this and drop what is not finished"))

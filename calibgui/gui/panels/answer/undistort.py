@@ -196,8 +196,8 @@ class UndistortPanel(Panel):
 
     def _fail(self, error: Exception) -> None:
         self.images.show_images(None, None)
-        self.words.setText(str(error))
-        self.lost.clear()
+        self.words.clear()
+        self.lost.setText(str(error))  # which has the panel's whole width: paths are long
 
     def _save(self, views: tuple[int, ...]) -> None:
         self.save_wanted.emit(views, self.choice)

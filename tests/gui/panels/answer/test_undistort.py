@@ -208,7 +208,7 @@ def test_an_image_that_is_gone_says_so(jobs: Jobs, qtbot: QtBot, result: Result)
     panel.show_result(result)
     panel.show()
     qtbot.waitUntil(lambda: not jobs.running)
-    assert panel.words.text() == "view1.png does not exist. Locate it."
+    assert panel.lost.text() == "view1.png does not exist. Locate it."
     assert not shown(panel)
 
 
