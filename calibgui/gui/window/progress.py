@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from PySide6.QtCore import QSize
+from PySide6.QtCore import QEvent, QSize
 from PySide6.QtWidgets import (
     QHBoxLayout,
     QProgressBar,
-    QStyle,
     QToolButton,
     QVBoxLayout,
     QWidget,
@@ -17,6 +16,7 @@ from PySide6.QtWidgets import (
 from calibgui.gui.jobs.job import Job
 from calibgui.gui.jobs.jobs import Jobs
 from calibgui.gui.widgets.elided import ElidedLabel
+from calibgui.gui.widgets.icons import Icon, draw_icon
 
 _BAR_HEIGHT, _BUTTON_HEIGHT, _ICON_SIDE = 8, 16, 10
 """Heights of the bar, the button and what is drawn on it, px: with the label above they are as high
@@ -39,8 +39,7 @@ class Progress(QWidget):
         self.bar.setFixedHeight(_BAR_HEIGHT)
         self.bar.setTextVisible(False)
         self.cancel = QToolButton()
-        close = QStyle.StandardPixmap.SP_TitleBarCloseButton
-        self.cancel.setIcon(self.style().standardIcon(close))
+        self.cancel.setIcon(draw_icon(Icon.CROSS))
         self.cancel.setIconSize(QSize(_ICON_SIDE, _ICON_SIDE))
         self.cancel.setAutoRaise(True)
         self.cancel.setFixedHeight(_BUTTON_HEIGHT)
@@ -63,6 +62,11 @@ class Progress(QWidget):
             widget.setSizePolicy(keeping)
         jobs.changed.connect(self._refresh)
         self._refresh()
+
+    def changeEvent(self, event: QEvent) -> None:  # noqa: N802 - Qt's name
+        super().changeEvent(event)
+        if event.type() == QEvent.Type.PaletteChange and hasattr(self, "cancel"):
+            self.cancel.setIcon(draw_icon(Icon.CROSS))
 
     def _shown(self) -> Job | None:
         return next((job for job in self._jobs.running if job.label), None)
