@@ -378,13 +378,17 @@ def _describe_parameters(result: Result, findings: Sequence[Finding]) -> Iterato
         else:
             yield Sentence(Tone.GOOD, f"Well determined: {listed(good)} px.")
     if poor := [n for n in lengths if relative[n] > _MIN_POOR_RELATIVE_SIGMA]:
-        yield _state_fault(
-            findings,
-            f"Badly determined: {listed(poor)} px.",
-            "Estimate the board's shape."
-            if _advises(findings, ActionKind.ESTIMATE_BOARD_SHAPE)
-            else "Add views with the board tilted by 30 to 45 degrees in different directions.",
-        )
+        fault = f"Badly determined: {listed(poor)} px."
+        if any(finding.cause is Cause.FEW_VIEWS for finding in findings):  # which says what to do
+            yield Sentence(Tone.FACT, fault)
+        else:
+            yield _state_fault(
+                findings,
+                fault,
+                "Estimate the board's shape."
+                if _advises(findings, ActionKind.ESTIMATE_BOARD_SHAPE)
+                else "Add views with the board tilted by 30 to 45 degrees in different directions.",
+            )
     coefficients = [n for n in names[4:] if n in free and n not in missing]
     away = np.abs(camera.params) / np.where(sigma > 0, sigma, np.inf)
     if vague := [n for n in coefficients if away[names.index(n)] < _MIN_SIGMAS_FROM_ZERO]:

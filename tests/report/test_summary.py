@@ -206,6 +206,14 @@ def test_images_left_out_are_counted(good: Result) -> None:
     )
 
 
+def test_too_few_views_are_told_what_to_add_once() -> None:
+    result = solved(everywhere(2))
+    assert Cause.FEW_VIEWS in {finding.cause for finding in judge_result(result).findings}
+    assert "Badly determined: fx = " in texts(result, Tone.FACT)
+    said = [sentence.text for sentence in describe_calibration(result)]
+    assert sum("tilted by" in text for text in said) == 1, said
+
+
 def test_few_views_are_put_down_to_the_images_that_cannot_be_used() -> None:
     few = solved(everywhere()[:3], left_out=4)
     assert "4 of 7 images cannot be used" in texts(few, Tone.CAUTION)
