@@ -82,7 +82,12 @@ def tabulate_projection_uncertainty(
         points += f" {condition}"
     title = f"Projection uncertainty of {points} (one sigma, worst direction)"
     inside = f"{100 * found.fraction(limit):.0f} % of the image is known to {limit:g} px or better."
-    return f"{title}\n{align_columns([head, *rows], left=(0,))}\n{format_bullet(inside)}"
+    other = (
+        "The verdict's error of a pixel is another: it leaves out what a rotation of the camera "
+        "makes up for. Here the camera has the direction that the boards give it."
+    )
+    table = align_columns([head, *rows], left=(0,))
+    return "\n".join([title, table, format_bullet(inside), format_bullet(other)])
 
 
 def tabulate_noise_report(

@@ -53,6 +53,7 @@ def test_tables_fit_a_terminal(calibrated: Calibrated) -> None:
     ]
     for text in texts:
         assert max(map(len, text.splitlines())) <= 80, text
+    assert "verdict's error of a pixel is another" in texts[0]
     assert "Nothing speaks against" in texts[1]
 
 
