@@ -91,6 +91,11 @@ def dilate_image(image: FloatImage, around: BoolArray) -> FloatImage:
     return np.asarray(cv2.dilate(image, around.astype(np.uint8)))
 
 
+def filter_median(image: GreyImage) -> GreyImage:
+    """Return the median of the 3 x 3 pixels around each of an `image` (h, w)."""
+    return np.asarray(cv2.medianBlur(np.ascontiguousarray(image), 3))
+
+
 def average_detail(image: GreyImage, around: int, block: int) -> Array:
     """Average how far 8-bit levels (h, w) differ from the mean of the `around` x `around` px about
     them, over blocks of `block` x `block` px; those at the right and lower border may be cut."""

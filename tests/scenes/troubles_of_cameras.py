@@ -235,6 +235,18 @@ def dead_pixels(seed: int) -> Photograph:
     return Photograph(image, (scene.uv,))
 
 
+def hot_pixels(seed: int) -> Photograph:
+    """A dim picture of a cheap sensor: columns of levels of their own, and 0.05 to 0.4 % of pixels
+    that are white whatever they see."""
+    rng = np.random.default_rng([seed, 48])
+    scene, _ = _scene(seed, noise=rng.uniform(3, 8), light=0.6)
+    levels = add_noise(0.5 * scene.clean, scene.conditions.noise, seed)
+    levels += rng.uniform(2, 8) * rng.standard_normal((1, levels.shape[1]))
+    image = as_bytes(levels)
+    image[rng.random(image.shape) < rng.uniform(0.0005, 0.004)] = 255
+    return Photograph(image, (scene.uv,))
+
+
 def steep(seed: int) -> Photograph:
     """A board seen from the side, at 60 to 70 degrees, in sharp focus where it is near."""
     rng = np.random.default_rng([seed, 46])
@@ -288,6 +300,7 @@ CAMERAS: dict[str, Trouble] = {
     "equalised": equalised,
     "two levels": two_levels,
     "dead pixels": dead_pixels,
+    "hot pixels": hot_pixels,
     "steep": steep,
     "image circle": image_circle,
 }

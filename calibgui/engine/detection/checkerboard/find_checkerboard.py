@@ -7,7 +7,8 @@ its image proves it. The way of an image, entry first:
    lattices that may be boards. Boards that hang together are taken apart (`board_separation`).
 2. `refine_board` moves a candidate's corners to their saddle points at full resolution, tries its
    gaps again, drops what fails (`verification`) and fits the edge model to the rest
-   (`undisturbed_fit`). What remains must not be explained by chance (`a_contrario`).
+   (`undisturbed_fit`). Where corners are missing, that is done once more without the pixels that
+   are dead (`dead_pixels`). What remains must not be explained by chance (`a_contrario`).
 3. Where nothing is found but the user marked the four outermost corners, `find_marked_board` starts
    from the places that these give.
 4. The board is numbered from an origin whose outer square is dark (`numbering`), and
@@ -33,6 +34,7 @@ from calibgui.engine.detection.checkerboard import (
     verification,
 )
 from calibgui.engine.detection.checkerboard.board_separation import cut_at_seam, separate_boards
+from calibgui.engine.detection.checkerboard.dead_pixels import repair_dead_pixels
 from calibgui.engine.detection.checkerboard.numbering import (
     Numbering,
     is_relative,
@@ -282,10 +284,22 @@ def _verify_lattice(
 ) -> RefinedBoard | Refusal:
     """Return the board that a lattice is, beside `others` junctions in the image, or why it is
     none."""
-    board = refine_board(grey, lattice, method)
+    board = _refine_repaired(grey, lattice, method)
     if isinstance(board, Refusal) or a_contrario.is_meaningful(board.lattice.found, others):
         return board
     return Refusal(board.lattice.shape, a_contrario.BY_CHANCE)
+
+
+def _refine_repaired(grey: GreyImage, lattice: Lattice, method: str) -> RefinedBoard | Refusal:
+    """Refine a lattice, of whose corners dead pixels must not cost any; see `refine_board`."""
+    board = refine_board(grey, lattice, method)
+    if isinstance(board, Refusal) or (board.lattice.found.all() and not board.rejected):
+        return board
+    repaired = repair_dead_pixels(grey, board.lattice)
+    if repaired is None:
+        return board
+    again = refine_board(repaired, lattice, method)
+    return board if isinstance(again, Refusal) or len(again) <= len(board) else again
 
 
 def refine_board(
