@@ -100,7 +100,9 @@ def _cut_at_crease(lattice: Lattice, misfit: float) -> tuple[Lattice, Lattice] |
     """Cut a lattice where two rigid maps follow the parts best; None if they do not follow them
     many times better than one smooth map, by which its corners are `misfit` steps off.
 
-    Of cuts that are about as good the one that leaves out the fewest corners is taken.
+    Of cuts that are about as good the one that leaves out the fewest corners is taken. If one map
+    follows the corners of both parts as those of one board, what they leave out is drawn aside, as
+    by the edge of a shadow, and there is no crease.
     """
     limits = THRESHOLDS.separation
     cuts = [
@@ -108,7 +110,12 @@ def _cut_at_crease(lattice: Lattice, misfit: float) -> tuple[Lattice, Lattice] |
         for parts in _list_cuts(lattice)
     ]
     # A map of corners that coincide, as in textures, tells no misfit.
-    good = [(off, parts) for off, parts in cuts if off <= limits.max_misfit_ratio * misfit]
+    good = [
+        (off, parts)
+        for off, parts in cuts
+        if off <= limits.max_misfit_ratio * misfit
+        and _measure_misfit([_join(lattice, parts)]) > limits.max_joint_misfit
+    ]
     if not good:
         return None
     least = min(off for off, _ in good)
@@ -136,6 +143,14 @@ def _list_cuts(lattice: Lattice) -> Iterator[tuple[Lattice, Lattice]]:
                 parts = _split_lattice(turned, row, row + left_out)
                 if all(map(is_large_enough, parts)):
                     yield turn_lattice(parts[0], -quarters), turn_lattice(parts[1], -quarters)
+
+
+def _join(lattice: Lattice, parts: tuple[Lattice, Lattice]) -> Lattice:
+    """Return the corners of a lattice that are in one of two parts of it."""
+    return lattice.select(
+        np.logical_or.reduce([np.isin(lattice.uv[..., 0], part.uv[..., 0]) for part in parts])
+        & lattice.found
+    )
 
 
 def _subtract(lattice: Lattice, part: Lattice) -> Lattice:

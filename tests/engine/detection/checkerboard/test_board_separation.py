@@ -10,6 +10,7 @@ from calibgui.engine.detection.checkerboard.board_separation import cut_at_seam,
 from calibgui.engine.detection.find_corners import find_corners
 from calibgui.engine.detection.lattice import Lattice
 from calibgui.engine.errors import NoBoardError
+from tests.engine.detection.checkerboard.painted_squares import SQUARE, alternate, paint, place
 from tests.scenes.checkerboards import draw
 from tests.scenes.conditions import Conditions
 from tests.scenes.creases import draw_corner_of_room
@@ -38,6 +39,14 @@ def test_two_walls_are_cut_apart(left_out: int, turned: bool) -> None:
     found = sorted(tuple(sorted(map(tuple, part.uv[part.found].round(6)))) for part in parts)
     truth = sorted(tuple(sorted(map(tuple, b.reshape(-1, 2).round(6)))) for b in boards)
     assert found == truth
+
+
+def test_a_board_is_not_cut_where_a_shadow_draws_one_line_aside() -> None:
+    """Of 32 corners 12 were left: two maps follow what is beside the line, but so does one."""
+    uv = place(4, 8).uv.copy()
+    uv[:, 4, 0] += 0.12 * SQUARE
+    lattice = Lattice(uv, dark=True)
+    assert separate_boards(lattice, paint(alternate(4, 8))) == [lattice]
 
 
 def test_the_parts_keep_their_colours() -> None:
