@@ -166,7 +166,8 @@ def _is_beyond_doubt(
         return False
     if width <= limits.max_edge_blur_printed:
         near = _measure_edges(corners, image, PLAIN_IF_PRINTED) if is_printed else edges
-        if not _do_edges_bulge(near) and _is_spread_of_ink(_list_spreads(near)):
+        height = float(compute_median(np.concatenate(_compute_heights(corners))))
+        if not _do_edges_bulge(near) and _is_spread_of_ink(_list_spreads(near), height):
             return True
     max_width = limits.max_edge_blur_printed if is_printed else limits.max_edge_blur_alone
     return width <= max_width and is_plain_crossing(corners, image, is_printed)
@@ -177,15 +178,16 @@ def _list_spreads(edges: tuple[EdgeProfiles, EdgeProfiles]) -> Array:
     return np.column_stack([edge.spread for edge in edges])
 
 
-def _is_spread_of_ink(spreads: Array) -> bool:
-    """Return whether spreads (n, 2) squares are known at most corners, alike, and no greater than
-    that of ink."""
+def _is_spread_of_ink(spreads: Array, height: float) -> bool:
+    """Return whether spreads (n, 2) squares, of a typical `height` in px, are known at most
+    corners, alike as far as pixels tell, and no greater than that of ink."""
     limits = THRESHOLDS.prefilter
+    max_deviation = max(limits.max_spread_inside, limits.spread_error / height)
     return (
         bool(np.isfinite(spreads).mean() > _MOST)
         and max(abs(_compute_known_median(along)) for along in spreads.T) <= limits.max_ink
-        and _measure_unevenness(spreads) <= limits.max_spread_inside
-        and have_same_spread(spreads, limits.max_spread_inside)
+        and _measure_unevenness(spreads) <= max_deviation
+        and have_same_spread(spreads, max_deviation)
     )
 
 

@@ -181,6 +181,9 @@ class PrefilterThresholds:
     max_spread_alone: float = 0.06
     """Greatest median deviation of the spreads in either direction of a lattice that stands alone,
     squares: moire and halos cause 0.04, rows that are shifted by a fifth of a square 0.1."""
+    spread_error: float = 0.1
+    """Deviation of spreads that is not told from the error of measuring them, px: in squares of 8
+    to 16 px, noisy, filtered or compressed, that is up to 0.1."""
     max_ink: float = 0.1
     """Greatest median spread of the ink of such a lattice, squares."""
     max_direction_difference: float = 0.06

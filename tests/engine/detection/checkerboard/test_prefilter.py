@@ -100,6 +100,13 @@ def test_the_squares_of_one_print_spread_alike() -> None:
     assert have_same_spread(np.full((100, 2), np.nan))
 
 
+@pytest.mark.parametrize(("height", "passes"), [(12.0, True), (40.0, False)])
+def test_small_squares_spread_alike_as_far_as_pixels_tell(height: float, passes: bool) -> None:
+    """A good board of squares of 12 px, filtered by medians, was refused by 0.01 px."""
+    spreads = -0.04 + 0.008 * np.where(np.arange(60) % 2, 1, -1)[:, None] * np.ones(2)
+    assert prefilter._is_spread_of_ink(spreads, height) == passes
+
+
 def test_a_print_may_spread_more_where_more_light_blinds_the_camera() -> None:
     rng = np.random.default_rng(0)
     uv = rng.uniform(0, 640, (100, 2))
