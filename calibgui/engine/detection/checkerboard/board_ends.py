@@ -6,7 +6,8 @@ they would if corners had been missed. What the image shows there tells
 - on which sides a lattice is all of its board, and on which it may be a part (`find_ends`);
 - where its board seems to go on (`find_continuing_sides`);
 - that it stands alone, as a board does and patterns do not (`stands_alone`);
-- which border lines lie beyond the end, by chance (`drop_stray_lines`).
+- which border lines lie beyond the end, by chance (`drop_stray_lines`);
+- that it may be a floor or a cloth on which a board lies (`may_surround_a_board`).
 
 Where the board leaves the image, or something hides it, nothing is told. The limits are in
 `thresholds`.
@@ -91,6 +92,21 @@ def stands_alone(lattice: Lattice, image: GreyImage) -> bool:
         return True
     uv = grid_map.fit_grid_map(lattice).locate(gaps.astype(np.float64))
     return int(np.count_nonzero(are_in_image(uv, image.shape))) <= len(lattice)
+
+
+def may_surround_a_board(lattice: Lattice, image: GreyImage) -> bool:
+    """Return whether a lattice goes on to all sides, and something that may be a board lies on it:
+    if it has smaller squares, only the finer levels show it."""
+    return not lattice.found.all() and not any(find_ends(lattice, image))
+
+
+def lies_around(lattice: Lattice, other: Lattice) -> bool:
+    """Return whether a lattice has gaps and corners on all sides of another in the image."""
+    outer, inner = lattice.uv[lattice.found], other.uv[other.found]
+    reaches_beyond = (outer.min(axis=0) < inner.min(axis=0)) & (
+        outer.max(axis=0) > inner.max(axis=0)
+    )
+    return not lattice.found.all() and bool(reaches_beyond.all())
 
 
 def drop_stray_lines(lattice: Lattice, image: GreyImage) -> Lattice:

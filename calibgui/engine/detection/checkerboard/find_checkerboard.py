@@ -186,7 +186,7 @@ def _find_wanted_board(
         boards = [board for board in results if isinstance(board, RefinedBoard)]
         if chosen := _choose_board(grey, boards, grid_size):
             wanted, others = chosen, [board for board in boards if board is not chosen]
-            if not _may_surround_a_board(grey, wanted.lattice):
+            if not board_ends.may_surround_a_board(wanted.lattice, grey):
                 break
     if wanted is not None:
         return wanted, others
@@ -211,7 +211,8 @@ def _choose_board(
     size, None if none may.
 
     A chequered floor or cloth has stronger edges than the board that lies on it, but no end in the
-    image: before such a one comes what is seen to end on most sides.
+    image: before such a one comes what is seen to end on most sides, or on two if the floor is all
+    around it.
     """
     boards.sort(key=lambda board: board.edge_strength, reverse=True)
     fitting = [
@@ -220,18 +221,15 @@ def _choose_board(
         if grid_size is None or _may_have_size(grey, board.lattice, grid_size)
     ]
     if len(fitting) > 1 and not any(board_ends.find_ends(fitting[0].lattice, grey)):
-        for board in fitting:
-            if sum(board_ends.find_ends(board.lattice, grey)) > 2:
+        floor, *others = fitting
+        ends = [sum(board_ends.find_ends(board.lattice, grey)) for board in others]
+        for board, count in zip(others, ends, strict=True):
+            if count > 2:
+                return board
+        for board, count in zip(others, ends, strict=True):
+            if count == 2 and board_ends.lies_around(floor.lattice, board.lattice):
                 return board
     return fitting[0] if fitting else None
-
-
-def _may_surround_a_board(grey: GreyImage, lattice: Lattice) -> bool:
-    """Return whether a lattice goes on to all sides, and something that may be a board lies on it:
-    if it has smaller squares, only the finer levels show it."""
-    if lattice.found.all():
-        return False
-    return not any(board_ends.find_ends(lattice, grey))
 
 
 def _is_refused(results: list[RefinedBoard | Refusal]) -> bool:

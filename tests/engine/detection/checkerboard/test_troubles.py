@@ -62,6 +62,11 @@ def test_a_board_is_taken_from_the_chequered_floor_around_it(seed: int) -> None:
     assert find("chequered", seed).whole == 1
 
 
+def test_the_floor_is_not_taken_for_the_board_that_lies_on_it() -> None:
+    """The board, of which the floor took some lines, is seen to end on two sides."""
+    assert find("chequered", 34).wrong == 0
+
+
 @pytest.mark.parametrize("seed", [3010, 3012])
 def test_a_board_beyond_the_end_of_another_is_not_joined_to_it(seed: int) -> None:
     """Squares of the same size, two empty columns away, were counted as the board's own."""
