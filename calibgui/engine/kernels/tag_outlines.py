@@ -28,8 +28,8 @@ _Floats = npt.NDArray[np.floating[Any]]
 """Arrays of float32."""
 _Ints = npt.NDArray[np.signedinteger[Any]]
 """Arrays of int64."""
-_COLUMNS = 21
-"""Number of columns: twenty unknowns and the residual."""
+_COLUMNS = 22
+"""Number of columns: 21 unknowns and the residual."""
 _D, _DO, _S, _SO, _X, _Y, _GREY, _B, _BO, _ZERO, _E, _EO, _J = (
     BLOCK * row for row in (0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 13, 16)
 )
@@ -56,6 +56,8 @@ class _Model(Protocol):
     def levels(self) -> Array: ...
     @property
     def bows(self) -> Array: ...
+    @property
+    def correlation(self) -> Array: ...
     @property
     def half(self) -> Array: ...
     def measure_edges(self) -> tuple[Array, Array, Array]: ...
@@ -104,28 +106,40 @@ def _is_earlier(u: float, v: float, edge: int, lines: Array) -> bool:
 
 
 @compiled_part
-def _fill_columns(w: _Floats, edge: int, other: int, edges: Array, levels: Array, m: int) -> None:
+def _fill_columns(
+    w: _Floats, edge: int, other: int, edges: Array, correlation: float, levels: Array, m: int
+) -> None:
     """Fill rows J of m pixels of an edge that see another beside it; -1 if they see none."""
     n0, n1 = _F(edges[edge, 3]), _F(edges[edge, 4])
-    o0, o1, rho, both = _NO, _NO, _NO, _NO
+    o0, o1, rho, both, sign = _NO, _NO, _NO, _NO, _ONE
     if other >= 0:
         o0, o1 = _F(edges[other, 3]), _F(edges[other, 4])
-        rho = n0 * o0 + n1 * o1
-        both = w[_B] * w[_BO] * rho / _F(4)
-    turn = rho / (_F(2) * w[_B] * w[_BO])
+        # The corner at the beginning of the edge is that of its number, the other the next.
+        if (edge + (other == (edge + 1) % 4)) % 2 == 1:
+            sign = -_ONE
+        rho = n0 * o0 + n1 * o1 + sign * _F(correlation)
+        both = w[_B] * w[_BO] / _F(4)
+    mine_squared, its_squared = _ONE / (w[_B] * w[_B]), _ONE / (w[_BO] * w[_BO])
+    per_both = _ONE / (w[_B] * w[_BO])
+    by_2, by_3, by_4 = rho / _F(2), rho * rho / _F(6), rho * rho * rho / _F(24)
     p0, p1, p2 = _F(levels[0, 0]), _F(levels[0, 1]), _F(levels[0, 2])
     i0, i1, i2 = _F(levels[1, 0]), _F(levels[1, 1]), _F(levels[1, 2])
     begin, end = _J + 2 * edge * BLOCK, _J + 2 * ((edge + 1) % 4) * BLOCK
     mine, its = _J + (8 + edge % 2) * BLOCK, _J + (9 - edge % 2) * BLOCK
-    bow, residual = _J + (16 + edge) * BLOCK, _J + 20 * BLOCK
+    bow, residual = _J + (16 + edge) * BLOCK, _J + (_COLUMNS - 1) * BLOCK
     for p in range(m):
         x, y = w[_X + p], w[_Y + p]
         paper, ink = p0 + p1 * x + p2 * y, i0 + i1 * x + i2 * y
         swing = (ink - paper) * _HALF
         here, beside = (w[_E + p] + _ONE) * _HALF, (w[_EO + p] + _ONE) * _HALF
         slope, other_slope = w[_E + BLOCK + p], w[_EO + BLOCK + p]
-        rounding = both * slope * other_slope * (_ONE + turn * w[_D + p] * w[_DO + p])
-        Q = here * beside + rounding
+        xx, yy = w[_D + p] * w[_D + p] * mine_squared, w[_DO + p] * w[_DO + p] * its_squared
+        xy = w[_D + p] * w[_DO + p] * per_both
+        second, third = (xx - _ONE) * (yy - _ONE), xy * (xx - _F(3)) * (yy - _F(3))
+        density = both * slope * other_slope
+        Q = here * beside + density * rho * (_ONE + by_2 * xy + by_3 * second + by_4 * third)
+        by_rho = _ONE + _F(2) * by_2 * xy + _F(3) * by_3 * second + _F(4) * by_4 * third
+        w[_J + 20 * BLOCK + p] = sign * (ink - paper) * density * by_rho
         pull = -swing * beside * slope
         first, last = pull * (_ONE - w[_S + p]), pull * w[_S + p]
         w[begin + p], w[begin + BLOCK + p] = first * n0, first * n1
@@ -178,6 +192,9 @@ def _list_columns(edge: int, other: int, columns: _Ints) -> int:
         if k in (edge, other):
             columns[count] = 16 + k
             count += 1
+    if other >= 0:
+        columns[count] = 20
+        count += 1
     columns[count] = _COLUMNS - 1
     count += 1
     return count
@@ -190,13 +207,14 @@ def _add_block(
     end: int,
     edges: Array,
     blurs: Array,
+    correlation: float,
     box: Array,
     levels: Array,
     columns: _Ints,
     m: int,
     out: Array,
 ) -> None:
-    """Add the products of m pixels of an edge to the lower triangle of out (21, 21); near its
+    """Add the products of m pixels of an edge to the lower triangle of out (22, 22); near its
     beginning (0), near its end (1), or far from both (2)."""
     last = (edge + 3) % 4
     other = last if end == 0 else (edge + 1) % 4 if end == 1 else -1
@@ -208,7 +226,7 @@ def _add_block(
             w[_EO + p], w[_EO + BLOCK + p], w[_EO + 2 * BLOCK + p] = _ONE, _NO, _NO
     else:
         fill_edge(w[_DO:], _ONE, w[_ZERO:], _NO, w[_BO:], _F(box[last]), w[_EO:], m)
-    _fill_columns(w, edge, other, edges, levels, m)
+    _fill_columns(w, edge, other, edges, correlation, levels, m)
     count = _list_columns(edge, other, columns)
     add_products(w[_J:], BLOCK, columns, count, m, out)
 
@@ -276,6 +294,7 @@ def _add_edge(
     bands: Array,
     bows: Array,
     blurs: Array,
+    correlation: float,
     box: Array,
     levels: Array,
     half: float,
@@ -286,7 +305,7 @@ def _add_edge(
     columns: _Ints,
     out: Array,
 ) -> None:
-    """Add the products of the pixels of an edge of a tag to the lower triangle of out (21, 21)."""
+    """Add the products of the pixels of an edge of a tag to the lower triangle of out (22, 22)."""
     height, width = image.shape
     middle_u = (corners[0, 0] + corners[1, 0] + corners[2, 0] + corners[3, 0]) / 4
     middle_v = (corners[0, 1] + corners[1, 1] + corners[2, 1] + corners[3, 1]) / 4
@@ -327,12 +346,16 @@ def _add_edge(
             block[_GREY + m] = image[v, u]
             counts[which] += 1
             if counts[which] == BLOCK:
-                _add_block(block, edge, which, edges, blurs, box, levels, columns, BLOCK, out)
+                _add_block(
+                    block, edge, which, edges, blurs, correlation, box, levels, columns, BLOCK, out
+                )
                 counts[which] = 0
     for which in range(3):
         if counts[which]:
             m = counts[which]
-            _add_block(w[which], edge, which, edges, blurs, box, levels, columns, m, out)
+            _add_block(
+                w[which], edge, which, edges, blurs, correlation, box, levels, columns, m, out
+            )
             counts[which] = 0
 
 
@@ -344,12 +367,13 @@ def _accumulate(
     bands: Array,
     bows: Array,
     blurs: Array,
+    correlation: Array,
     box: Array,
     levels: Array,
     half: Array,
     out: Array,
 ) -> None:
-    """Add to out (n, 21, 21)."""
+    """Add to out (n, 22, 22)."""
     w, counts = np.zeros((3, _ROWS * BLOCK), dtype=_F), np.zeros(3, dtype=np.int64)
     columns, lines = np.empty(_COLUMNS, dtype=np.int64), np.empty((4, 10))
     along = np.empty((3, max(image.shape)))
@@ -357,8 +381,8 @@ def _accumulate(
         _fill_lines(corners[i], edges[i], bands[i], bows[i], lines)
         for edge in range(4):
             _add_edge(
-                image, edge, corners[i], edges[i], bands[i], bows[i], blurs[i], box[i], levels[i],
-                half[i], lines, along, w, counts, columns, out[i],
+                image, edge, corners[i], edges[i], bands[i], bows[i], blurs[i], correlation[i],
+                box[i], levels[i], half[i], lines, along, w, counts, columns, out[i],
             )  # fmt: skip
         for a in range(_COLUMNS):
             for b in range(a):
@@ -372,12 +396,13 @@ def accumulate_normal_equations(image: GreyImage, model: _Model, is_sharp: bool)
     edges = np.concatenate([length[..., None], tangent, normal], axis=2)
     box = abs(normal).max(axis=2) / 2 if is_sharp else np.zeros((n, 4))
     out = np.zeros((n, _COLUMNS, _COLUMNS))
-    corners, bows, blurs, levels, half = map(
-        make_contiguous, (model.corners, model.bows, model.blurs, model.levels, model.half)
+    corners, bows, blurs, correlation, levels, half = map(
+        make_contiguous,
+        (model.corners, model.bows, model.blurs, model.correlation, model.levels, model.half),
     )
     _accumulate(
         make_read_only(image), corners, edges, make_contiguous(model.measure_bands()), bows,
-        blurs, box, levels, half, out,
+        blurs, correlation, box, levels, half, out,
     )  # fmt: skip
     return out
 

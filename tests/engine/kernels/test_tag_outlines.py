@@ -83,6 +83,7 @@ def test_the_same_pixels_of_bent_and_small_outlines() -> None:
         rng.uniform(0.8, 2.5, (n, 2)),
         np.tile([[180.0, 3.0, -4.0], [40.0, 2.0, 5.0]], (n, 1, 1)),
         rng.normal(0, 0.06, (n, 4)) * side[:, None],
+        rng.uniform(-0.6, 0.6, n),
         np.full(n, 4.0),
         np.full(n, 6.0),
         side / 2,

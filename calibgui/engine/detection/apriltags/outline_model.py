@@ -16,8 +16,16 @@ is (1 + E_i) / 2. Paper and border each have a level that varies linearly over t
 
     I(q) = paper(q) (1 - Q) + ink(q) Q.
 
+The correlation of the two edges' displacements is n_i.n_j if the blur is as wide in all directions.
+If it is not, as under motion, two blurs across the edges do not say how it lies to them: motion
+along one diagonal of a tag and along the other give the same two. The correlation is c more in
+corners 0 and 2, and c less in 1 and 3, whose normals are turned. As it may be large then, all terms
+of G up to rho^4 count, by Mehler's series
+
+    phi_2 = phi(x) phi(y) sum of rho^n / n! He_n(x) He_n(y).
+
 The unknowns of a tag are its corners (8), the blurs of its first and third and of its second and
-fourth edge, the two levels with their gradients (6), and the bows (4).
+fourth edge, the two levels with their gradients (6), the bows (4), and c.
 """
 
 from __future__ import annotations
@@ -34,9 +42,9 @@ _BAND_BLURS, _BAND_MARGIN = 2.3, 0.7
 """Half width of the band that is read along an edge: blurs, and px in addition."""
 _MAX_PIXELS_AT_ONCE = 40_000
 """Number of pixels fitted at once."""
-UNKNOWNS = 20
+UNKNOWNS = 21
 """Number of unknowns of a tag: corners 0 to 7, blurs 8 and 9, paper 10 to 12, ink 13 to 15, bows 16
-to 19."""
+to 19, correlation 20."""
 NEXT, LAST = np.array([1, 2, 3, 0]), np.array([3, 0, 1, 2])
 """Edges that begin where each of the four ends, and that end where it begins."""
 
@@ -54,6 +62,8 @@ class OutlineModel:
     right and down."""
     bows: Array
     """(k, 4) px."""
+    correlation: Array
+    """(k,) c, by which the blurs across neighbouring edges correlate more than isotropic ones."""
     inwards: Array
     """(k,) how far the border is read inwards, px."""
     outwards: Array
@@ -71,6 +81,7 @@ class OutlineModel:
                     self.blurs,
                     self.levels,
                     self.bows,
+                    self.correlation,
                     self.inwards,
                     self.outwards,
                     self.half,
@@ -93,7 +104,7 @@ class OutlineModel:
 
 @kernels.with_kernel("tag_outlines", "accumulate_normal_equations")
 def accumulate_normal_equations(image: GreyImage, model: OutlineModel, is_sharp: bool) -> Array:
-    """Accumulate the products (n, 21, 21) of the columns [J r]: derivatives of the model by the
+    """Accumulate the products (n, 22, 22) of the columns [J r]: derivatives of the model by the
     unknowns, and what it leaves unexplained; the products of paper's and ink's levels (10 and 13)
     sum up to the number of pixels.
 
@@ -175,7 +186,7 @@ def _find_own_pixels(model: OutlineModel, share: FloatImage, d: FloatImage, edge
 def _compute_columns(
     image: GreyImage, model: OutlineModel, edge: int, is_sharp: bool
 ) -> FloatImage:
-    """Compute the derivatives of the model by the unknowns, and the residual, (k, 21, P) at the
+    """Compute the derivatives of the model by the unknowns, and the residual, (k, 22, P) at the
     pixels of one edge; 0 for those that do not count."""
     uv = _list_pixels(model, edge)
     share, d = _measure_distances(model, uv)
@@ -189,14 +200,19 @@ def _compute_columns(
     turns = [np.sum(normal[:, edge] * normal[:, which], axis=1) for which in (last, following)]
     mine = _compute_edge(model, edge, d[:, edge], is_sharp)
     is_first = share[:, edge] < 0.5
-    rho = np.where(is_first, *(turn[:, None] for turn in turns))
+    # Corner `edge` is at the beginning of the edge, and the next one at its end.
+    more = np.where(edge % 2 == 0, model.correlation, -model.correlation).astype(np.float32)
+    rho = np.where(is_first, (turns[0] + more)[:, None], (turns[1] - more)[:, None])
     # The other edge of the nearer corner is parallel to its opposite: both have one blur.
     distance = np.where(is_first, d[:, last], d[:, following])
     its = _compute_edge(model, last, distance, is_sharp)
     s1, s2 = model.blurs[:, [edge % 2, last % 2]].astype(np.float32).T[..., None]
     ink_beside, ink_here = (1 + its.value) / 2, (1 + mine.value) / 2
     x, y = d[:, edge] / s1, distance / s2
-    rounding = s1 * s2 * mine.slope * its.slope / 4 * rho * (1 + rho * x * y / 2)
+    both = s1 * s2 * mine.slope * its.slope / 4
+    second, third, xy = (x * x - 1) * (y * y - 1), (x * x - 3) * (y * y - 3), x * y
+    rounding = both * rho * (1 + rho * (xy / 2 + rho * (second / 6 + rho * xy * third / 24)))
+    by_rho = both * (1 + rho * (xy + rho * (second / 2 + rho * xy * third / 6)))
     Q = ink_here * ink_beside + rounding
 
     at = _normalise(model, uv)
@@ -220,6 +236,7 @@ def _compute_columns(
     J[:, 8 + last % 2] = swing * ink_here * its.by_blur / 2
     J[:, 10:13] = (weight * (1 - Q))[:, None] * at
     J[:, 13:16] = (weight * Q)[:, None] * at
+    J[:, 20] = swing * np.where(is_first == (edge % 2 == 0), by_rho, -by_rho)
     J[:, UNKNOWNS] = weight * (grey - (paper[:, 0] * (1 - Q) + ink[:, 0] * Q))
     return J
 

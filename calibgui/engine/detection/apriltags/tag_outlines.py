@@ -71,6 +71,9 @@ _MAX_SHARP_BLUR = 0.6
 """Median blur below which the pixel's own shape matters, px."""
 _USUAL_BOW = 0.05
 """Standard deviation of bows before anything is known of the lens, lengths of the edge."""
+_USUAL_CORRELATION, _MAX_CORRELATION = 0.5, 0.95
+"""Standard deviation of the correlation of the blurs across neighbouring edges before anything is
+known of it, and its greatest magnitude: that of long motion along a diagonal is nearly 1."""
 _MEDIAN_CHI_SQUARE = 0.455
 """Median of the square of a normal variable of variance 1."""
 _LENS_UNKNOWNS = 4
@@ -95,8 +98,10 @@ class TagOutlines:
     """(n, 4, 2) px."""
     covariance: Array
     """(n, 4, 2, 2) of each corner, px^2."""
+    blurs: Array
+    """(n, 2) across the first and third, and the second and fourth edges, pixel included, px."""
     blur: Array
-    """(n,) root mean square of the blurs, pixel included, px."""
+    """(n,) their root mean square, px."""
     contrast: Array
     """(n,) paper minus ink, grey levels; negative for bright tags on dark."""
     residual: Array
@@ -121,14 +126,21 @@ def fit_tag_outlines(
         gap: between tags, sides, roughly.
     """
     model = _estimate_start(image, corners, border, gap)
-    usual = _BowPrior(np.zeros((len(corners), 4)), _USUAL_BOW * model.measure_edges()[0])
+    n = len(corners)
+    usual = _Prior(
+        np.zeros((n, 4)),
+        _USUAL_BOW * model.measure_edges()[0],
+        np.zeros(n),
+        np.full(n, _USUAL_CORRELATION),
+    )
     least = estimate_least_noise(image)
-    noise = np.full(len(corners), least)
+    noise = np.full(n, least)
     model, equations, square = _take_steps(image, model, usual, noise, _MAX_FREE_STEPS)
     noise = np.maximum(square, least)
     places = _locate_corners(squares, measure_gap_of_tags(squares, model.corners, gap))
-    bows = np.einsum("nkk->nk", _invert_part(equations, slice(16, 20)))
-    prior, board = _estimate_bows(model, noise[:, None] * bows, places)
+    variance = noise[:, None] * np.einsum("nkk->nk", _invert_part(equations, slice(16, 21)))
+    bows, bow_sd, board = _estimate_bows(model, variance[:, :4], places)
+    prior = _Prior(bows, bow_sd, *_pool_correlations(model.correlation, variance[:, 4]))
     model, equations, square = _take_steps(image, model, prior, noise, _LAST_STEPS)
     noise = np.maximum(square, least)
     pairs = _invert_part(equations, slice(8)).reshape(-1, 4, 2, 4, 2)
@@ -139,6 +151,7 @@ def fit_tag_outlines(
     return TagOutlines(
         corners=model.corners + (variance[:, None] * rise)[:, None],
         covariance=noise[:, None, None, None] * covariance + _compute_bend_covariances(model),
+        blurs=model.blurs,
         blur=np.sqrt(variance),
         contrast=contrast[:, 0],
         residual=np.sqrt(square),
@@ -193,6 +206,7 @@ def _start_from(corners: Array) -> OutlineModel:
         np.ones((n, 2)),
         np.zeros((n, 2, 3)),
         np.zeros((n, 4)),
+        np.zeros(n),
         unknown,
         unknown,
         unknown,
@@ -232,18 +246,22 @@ def _compute_bends(board: RadialHomography, first: Array) -> Array:
     return seen - homography.apply_homography(H, np.broadcast_to(NODES, seen.shape))
 
 
-class _BowPrior(NamedTuple):
-    """The bows that k tags are expected to have, and how well that is known."""
+class _Prior(NamedTuple):
+    """What bows and correlations k tags are expected to have, and how well that is known."""
 
     bows: Array
     """(k, 4) px."""
-    sd: Array
+    bow_sd: Array
     """(k, 4) px."""
+    correlation: Array
+    """(k,)"""
+    correlation_sd: Array
+    """(k,)"""
 
 
 def _estimate_bows(
     model: OutlineModel, variance: Array, places: Array
-) -> tuple[_BowPrior, RadialHomography]:
+) -> tuple[Array, Array, RadialHomography]:
     """Estimate bows from the lens that the corners of all tags show; how far they are from those
     that were found for each tag by itself tells how well they are known.
 
@@ -253,7 +271,8 @@ def _estimate_bows(
         places: (n, 4, 2) of the corners on the board, sides of a tag.
 
     Returns:
-        The bows, and the map from the board to the image from which they follow.
+        The bows (n, 4) px, their standard deviations (n, 4) px, and the map from the board to the
+        image from which they follow.
     """
     board = grid_map.fit_radial_homography(
         places.reshape(-1, 2), model.corners.reshape(-1, 2), are_exact=True
@@ -270,11 +289,22 @@ def _estimate_bows(
     square = (model.bows - bows) ** 2
     misfit, noise = (compute_median((each / length**2).ravel()) for each in (square, variance))
     usual = max(misfit / _MEDIAN_CHI_SQUARE - noise, noise * _LENS_UNKNOWNS / square.size)
-    return _BowPrior(bows, np.sqrt(usual) * length), board
+    return bows, np.sqrt(usual) * length, board
+
+
+def _pool_correlations(found: Array, variance: Array) -> tuple[Array, Array]:
+    """Pool the correlations (n,) that were found for each tag by itself, with their `variance`
+    (n,): a camera shakes all tags much alike. Return what each is expected to have, and the
+    standard deviation of that."""
+    usual = float(compute_median(found))
+    square = float(compute_median((found - usual) ** 2)) / _MEDIAN_CHI_SQUARE
+    noise = float(compute_median(variance))
+    spread = max(square - noise, 0.0) + noise / len(found)
+    return np.full(len(found), usual), np.full(len(found), np.sqrt(spread))
 
 
 def _invert_part(equations: Array, part: slice) -> Array:
-    """Compute the `part` of the inverse of equations (n, 20, 20) that holds the covariances of its
+    """Compute the `part` of the inverse of equations (n, 21, 21) that holds the covariances of its
     unknowns, over the noise."""
     wanted = np.eye(UNKNOWNS)[:, part]
     wanted = np.broadcast_to(wanted, (len(equations), *wanted.shape))
@@ -368,19 +398,19 @@ def _compute_bend_covariances(model: OutlineModel) -> Array:
 
 
 def _take_steps(
-    image: GreyImage, model: OutlineModel, prior: _BowPrior, noise: Array, steps: int
+    image: GreyImage, model: OutlineModel, prior: _Prior, noise: Array, steps: int
 ) -> tuple[OutlineModel, Array, Array]:
     """Take Gauss-Newton steps until they are small.
 
     Args:
         image: (h, w) grey levels.
         model: of n tags.
-        prior: what is known of the bows.
+        prior: what is known of bows and correlations.
         noise: (n,) variance of the grey levels, by which that counts.
         steps: their number, at most.
 
     Returns:
-        The model after them, the last equations (n, 20, 20), and the mean square
+        The model after them, the last equations (n, 21, 21), and the mean square
         (n,) of what is left unexplained.
     """
     for _ in range(steps):
@@ -394,25 +424,27 @@ def _take_steps(
 
 
 def _take_step(
-    model: OutlineModel, products: Array, prior: _BowPrior, noise: Array
+    model: OutlineModel, products: Array, prior: _Prior, noise: Array
 ) -> tuple[OutlineModel, Array, Array]:
     """Take one Gauss-Newton step.
 
     Args:
         model: of n tags.
-        products: (n, 21, 21) of its columns.
-        prior: what is known of the bows.
+        products: (n, 22, 22) of its columns.
+        prior: what is known of bows and correlations.
         noise: (n,) variance of the grey levels, by which that counts.
 
     Returns:
-        The model after it, its equations (n, 20, 20), and the mean square (n,) of what is left
+        The model after it, its equations (n, 21, 21), and the mean square (n,) of what is left
         unexplained.
     """
     N, g = products[:, :UNKNOWNS, :UNKNOWNS], products[:, :UNKNOWNS, UNKNOWNS]
     weight = np.zeros(g.shape)
-    weight[:, 16:] = noise[:, None] / prior.sd**2
+    weight[:, 16:20] = noise[:, None] / prior.bow_sd**2
+    weight[:, 20] = noise / prior.correlation_sd**2
     pull = np.zeros(g.shape)
-    pull[:, 16:] = weight[:, 16:] * (prior.bows - model.bows)
+    pull[:, 16:20] = weight[:, 16:20] * (prior.bows - model.bows)
+    pull[:, 20] = weight[:, 20] * (prior.correlation - model.correlation)
     largest = np.einsum("nkk->nk", N).max(axis=1) + 1e-300
     diagonal = weight + _DAMPING * largest[:, None]
     equations = N + diagonal[:, None] * np.eye(UNKNOWNS)
@@ -428,6 +460,7 @@ def _take_step(
         corners=model.corners + np.clip(step[:, :8], -1.0, 1.0).reshape(-1, 4, 2),
         blurs=blurs + changed,
         levels=model.levels + step[:, 10:16].reshape(-1, 2, 3),
-        bows=model.bows + np.clip(step[:, 16:], -1.0, 1.0),
+        bows=model.bows + np.clip(step[:, 16:20], -1.0, 1.0),
+        correlation=np.clip(model.correlation + step[:, 20], -_MAX_CORRELATION, _MAX_CORRELATION),
     )
     return stepped, equations, square

@@ -107,13 +107,14 @@ def measure_corner_moves(
         dark: (n, k, k) True for the dark cells of each, the border included.
         gap: between tags, sides of a tag.
     """
-    quads, usual = outlines.corners, float(compute_median(outlines.blur))
-    alone = abs(outlines.blur / usual - 1) > _MAX_BLUR_DIFFERENCE
+    quads = outlines.corners
+    alone = abs(outlines.blur / compute_median(outlines.blur) - 1) > _MAX_BLUR_DIFFERENCE
+    across = np.median(outlines.blurs[:, ::-1], axis=0)
     alone |= _find_clipped(image, quads, gap)
     tags = _Tags(quads, outlines.bends, dark)
     alike = np.flatnonzero(~alone) if not alone.all() else np.arange(len(quads))
     index = alike[np.unique(np.linspace(0, len(alike) - 1, _MAX_TAGS).round().astype(np.int64))]
-    moves, _ = _measure_moves(image, tags.select(index), usual, gap, is_shift=True)
+    moves, _ = _measure_moves(image, tags.select(index), across, gap, is_shift=True)
     out = _list_outwards(quads[index])
     shifts = np.einsum("nkij,nki->nj", out, moves) / np.einsum("nkij,nkij->nj", out, out)
     shift = np.median(shifts, axis=0)
@@ -123,7 +124,7 @@ def measure_corner_moves(
     move, scaled = outwards @ shift, outwards * sd
     covariance = scaled @ scaled.swapaxes(2, 3)
     if alone.any():
-        own, its_covariance = _measure_moves(image, tags.select(alone), usual, gap, is_shift=False)
+        own, its_covariance = _measure_moves(image, tags.select(alone), across, gap, is_shift=False)
         square = np.sum(own**2, axis=2)[..., None, None]
         move[alone] = own
         covariance[alone] = its_covariance + _RELATIVE_ERROR_ALONE**2 * square * np.eye(2)
@@ -163,16 +164,17 @@ def _find_clipped(image: GreyImage, quads: Array, gap: float) -> BoolArray:
 
 
 def _measure_moves(
-    image: GreyImage, tags: _Tags, blur: float, gap: float, *, is_shift: bool
+    image: GreyImage, tags: _Tags, blur: Array, gap: float, *, is_shift: bool
 ) -> tuple[Array, Array]:
-    """Measure the moves (n, 4, 2) px of the corners of tags whose edges are blurred by `blur` px,
-    and their covariances (n, 4, 2, 2) px^2; of all edges alike if it `is_shift`."""
+    """Measure the moves (n, 4, 2) px of the corners of tags that are blurred by `blur` (2,) px
+    along their rows and columns, and their covariances (n, 4, 2, 2) px^2; of all edges alike if it
+    `is_shift`."""
     quads, left = tags.quads.copy(), np.arange(len(tags.quads))
     covariance = np.empty((*quads.shape, 2))
     for _ in range(_MAX_STEPS):
         some = tags.select(left)._replace(quads=quads[left])
         step, covariance[left] = _take_step(image, some, blur, gap, is_shift=is_shift)
-        quads[left] += np.clip(step, -blur, blur)
+        quads[left] += np.clip(step, -blur.max(), blur.max())
         left = left[abs(step).max(axis=(1, 2)) > _MAX_LAST_STEP]
         if not len(left):
             break
@@ -180,7 +182,7 @@ def _measure_moves(
 
 
 def _take_step(
-    image: GreyImage, tags: _Tags, blur: float, gap: float, *, is_shift: bool
+    image: GreyImage, tags: _Tags, blur: Array, gap: float, *, is_shift: bool
 ) -> tuple[Array, Array]:
     """Measure moves, and their covariances, to the first order; see `_measure_moves`."""
     side, quads = tags.dark.shape[1], tags.quads

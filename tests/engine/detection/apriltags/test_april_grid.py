@@ -247,6 +247,21 @@ def test_blur_does_not_move_the_corners_of_tags_alone_outwards() -> None:
         assert abs(moved.mean()) < 0.007
 
 
+@pytest.mark.parametrize("angle", [0.0, 40.0, 130.0])
+def test_motion_does_not_draw_corners_of_tags_alone_aside(angle: float) -> None:
+    """Motion along a diagonal of the tags blurs two corners of each more than the others."""
+    way = np.linspace(-2.5, 2.5, 300)[:, None] * [
+        np.cos(np.radians(angle)),
+        np.sin(np.radians(angle)),
+    ]
+    edges = np.arange(-5.0, 6.0) - 0.5
+    kernel, *_ = np.histogram2d(way[:, 1], way[:, 0], bins=(edges, edges))
+    moved = cv2.filter2D(BARE.image(0.7, noise=0.0).astype(np.float64), -1, kernel / len(way))
+    noise = np.random.default_rng(3).standard_normal(moved.shape)
+    image = np.clip(np.rint(moved + 2 * noise), 0, 255).astype(np.uint8)
+    assert_at_bound(BARE, find_corners(image, pattern=AprilGrid()), (0.4, 1.6))
+
+
 @pytest.mark.parametrize(
     ("camera", "rows", "cols", "distance"),
     [(CAMERA, 4, 4, 260.0), (CAMERA, 4, 6, 170.0), (WIDE, 4, 6, 140.0), (WIDE, 8, 10, 130.0)],
