@@ -11,7 +11,14 @@ from __future__ import annotations
 
 import numpy as np
 
-from calibgui.engine.arrays import Array, BoolArray, GreyImage, IntArray, compute_lengths
+from calibgui.engine.arrays import (
+    Array,
+    BoolArray,
+    GreyImage,
+    IntArray,
+    compute_lengths,
+    compute_median,
+)
 from calibgui.engine.boards.april_grid import AprilGrid, TagLayout
 from calibgui.engine.detection import grid_map
 from calibgui.engine.detection.apriltags.grid_tags import GridTags
@@ -23,7 +30,11 @@ from calibgui.engine.detection.apriltags.tag_outlines import (
     follow_shaded_outlines,
 )
 from calibgui.engine.detection.apriltags.tag_reader import draw_tags, verify_tags
-from calibgui.engine.detection.apriltags.tag_spread import measure_corner_moves, move_edges_outwards
+from calibgui.engine.detection.apriltags.tag_spread import (
+    SIGMA_OF_MEDIAN,
+    measure_corner_moves,
+    move_edges_outwards,
+)
 from calibgui.engine.detection.charuco.assembly import FittedCorners
 from calibgui.engine.detection.charuco.corners_between_markers import predict_places
 from calibgui.engine.detection.charuco.markers import Markers
@@ -33,7 +44,7 @@ from calibgui.engine.detection.corners import RejectedCorner, find_usable_covari
 from calibgui.engine.detection.detector_io import list_rejected_corners
 from calibgui.engine.errors import NoBoardError
 from calibgui.engine.geometry import homography
-from calibgui.engine.images.sampling import sample_image
+from calibgui.engine.images.sampling import make_mesh, sample_image
 
 _MAX_PLACING_DISTANCE = 1.6
 """Greatest distance of a tag's corners from the middle of the nearest one that was read at which it
@@ -43,6 +54,12 @@ _MAX_SQUARE_LEVEL = 0.95
 from that of their ink. Sharp it is 0, and 1 of paper; on rendered boards under blurs up to 0.9 of
 the gap it was at most 0.87, and at least 1.0 of paper: that is darker between two tags than between
 four."""
+_MIN_SIGMAS = 4.0
+"""Least difference of dark squares from paper, standard deviations of their median level: noise of
+25 levels made squares of paper seem darker by 0.07."""
+_PATCH = make_mesh(np.array([-1, 0, 1]) / 6, np.array([-1, 0, 1]) / 6).reshape(-1, 2)
+"""(9, 2) places whose mean is taken for the level in the middle of a square, the gap or the border,
+over the narrower of both: in noise a single place among paper may look darker than the rest."""
 _MIN_SINE = 0.2
 """Least sine of the angle at a tag's corners."""
 _MAX_SHIFT, _MIN_MAX_SHIFT = 1.0, 2.0
@@ -75,15 +92,21 @@ def has_corner_squares(image: GreyImage, tags: Markers[TagLayout], border: float
     middle = np.array([(0.5, 0.0), (1.0, 0.5), (0.5, 1.0), (0.0, 0.5)])
     outwards = 2 * middle - 1
     at = np.concatenate([squares, middle + gap / 2 * outwards, middle - border / 2 * outwards])
+    at = (at[:, None] + min(border, gap) * _PATCH).reshape(-1, 2)
     levels = sample_image(
         image, homography.apply_homography(H, np.broadcast_to(at, (n, *at.shape)))
-    ).reshape(n, 3, 4)
-    square, paper, ink = np.moveaxis(levels, 1, 0)
+    ).reshape(n, 3, 4, len(_PATCH))
+    square, paper, ink = np.moveaxis(levels.mean(axis=3), 1, 0)
     paper, ink = np.median(paper, axis=1), np.median(ink, axis=1)
     level = (square - ink[:, None]) / (paper - ink)[:, None]
     # Around the board anything may follow the tags; what lies between two of them is printed.
     between = _find_corners_between(tags.squares)
-    return bool(np.median(level[between] if between.any() else level) < _MAX_SQUARE_LEVEL)
+    seen = level[between] if between.any() else level.ravel()
+    usual = float(compute_median(seen))
+    deviation = float(compute_median(abs(seen - usual)))
+    # Each square is looked at from up to four tags.
+    sigma = SIGMA_OF_MEDIAN * deviation / max(len(seen) / 4, 1) ** 0.5
+    return usual < min(_MAX_SQUARE_LEVEL, 1 - _MIN_SIGMAS * sigma)
 
 
 def _find_corners_between(squares: IntArray) -> BoolArray:

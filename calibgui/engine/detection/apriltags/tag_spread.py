@@ -62,7 +62,7 @@ _RELATIVE_ERROR, _RELATIVE_ERROR_ALONE = 0.15, 0.3
 """Standard deviation of the shift of all tags over that shift, besides its scatter, and of the
 moves of a tag's corners by themselves. On rendered boards the former was up to 0.1 of shifts by
 gamma curves, and up to 0.4 of the small ones by sharpening."""
-_SIGMA_OF_MEDIAN = 1.4826 * 1.2533
+SIGMA_OF_MEDIAN = 1.4826 * 1.2533
 """Standard deviation of the median of n normal numbers, times the root of n, over the median of
 their absolute deviations."""
 _SIDE_EDGES = np.array([[0.0, 1.0], [1.0, 0.0], [0.0, 1.0], [1.0, 0.0]])
@@ -119,7 +119,7 @@ def measure_corner_moves(
     shifts = np.einsum("nkij,nki->nj", out, moves) / np.einsum("nkij,nkij->nj", out, out)
     shift = np.median(shifts, axis=0)
     deviation = np.median(abs(shifts - shift), axis=0)
-    sd = np.hypot(_SIGMA_OF_MEDIAN * deviation / len(index) ** 0.5, _RELATIVE_ERROR * shift)
+    sd = np.hypot(SIGMA_OF_MEDIAN * deviation / len(index) ** 0.5, _RELATIVE_ERROR * shift)
     outwards = _list_outwards(quads)
     move, scaled = outwards @ shift, outwards * sd
     covariance = scaled @ scaled.swapaxes(2, 3)

@@ -367,6 +367,16 @@ def test_what_is_wrongly_stated_is_told(
         find_corners(KALIBR.image(), grid_size, pattern=stated)
 
 
+@pytest.mark.parametrize("noise", [20, 25])
+def test_noise_makes_no_dark_squares_of_paper(noise: int) -> None:
+    """Corners that were looked for at such squares lay up to 4 px off."""
+    light = BARE.image(0.7, noise=0.0).astype(np.float64)
+    noisy = light + noise * np.random.default_rng(1).standard_normal(light.shape)
+    corners = find_corners(np.clip(np.rint(noisy), 0, 255).astype(np.uint8), pattern=AprilGrid())
+    assert isinstance(corners.pattern, AprilGrid) and not corners.pattern.corner_squares
+    assert len(corners) > 70 and np.abs(BARE.error(corners)).max() < 0.6
+
+
 def test_missing_small_squares_are_told() -> None:
     with pytest.raises(NoBoardError, match="without dark squares between the tags"):
         find_corners(BARE.image(), pattern=AprilGrid(corner_squares=True))
