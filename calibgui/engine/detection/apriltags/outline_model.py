@@ -96,6 +96,22 @@ class OutlineModel:
         t = along / length[..., None]
         return length, t, np.stack([-t[..., 1], t[..., 0]], axis=2)
 
+    def locate_profiles(self, reach: Array, share: Array, samples: int) -> Array:
+        """Locate the samples of profiles across the edges, (k, 4, m, samples, 2) px.
+
+        Args:
+            reach: (k,) px, how far profiles reach to both sides.
+            share: (m,) where along an edge they are taken, lengths.
+            samples: number of samples of each.
+        """
+        length, t, normal = self.measure_edges()
+        s = length[..., None] * share
+        bow = -4 * self.bows[..., None] * share * (1 - share)
+        d = reach[:, None, None, None] * np.linspace(-1, 1, samples)
+        at = self.corners[:, :, None] + s[..., None] * t[:, :, None]
+        places = at[..., None, :] + (bow[..., None] + d)[..., None] * normal[:, :, None, None]
+        return np.asarray(places)
+
     def measure_bands(self) -> Array:
         """Measure how far (k, 4, 2) px the edges are read outwards and inwards."""
         width = _BAND_BLURS * self.blurs[:, [0, 1, 0, 1], None] + _BAND_MARGIN

@@ -32,6 +32,7 @@ from calibgui.engine.detection.apriltags.outline_model import (
     OutlineModel,
     accumulate_normal_equations,
 )
+from calibgui.engine.detection.apriltags.outline_noise import estimate_outline_growth
 from calibgui.engine.detection.apriltags.tag_gap import measure_gap_of_tags
 from calibgui.engine.detection.detector_io import estimate_least_noise
 from calibgui.engine.detection.grid_map import RadialHomography
@@ -143,6 +144,7 @@ def fit_tag_outlines(
     prior = _Prior(bows, bow_sd, *_pool_correlations(model.correlation, variance[:, 4]))
     model, equations, square = _take_steps(image, model, prior, noise, _LAST_STEPS)
     noise = np.maximum(square, least)
+    growth = estimate_outline_growth(image, model, noise)
     pairs = _invert_part(equations, slice(8)).reshape(-1, 4, 2, 4, 2)
     covariance = np.stack([pairs[:, i, :, i] for i in range(4)], axis=1)
     contrast = model.levels[:, 0] - model.levels[:, 1]
@@ -150,7 +152,8 @@ def fit_tag_outlines(
     variance = np.mean(model.blurs**2, axis=1)
     return TagOutlines(
         corners=model.corners + (variance[:, None] * rise)[:, None],
-        covariance=noise[:, None, None, None] * covariance + _compute_bend_covariances(model),
+        covariance=growth * noise[:, None, None, None] * covariance
+        + _compute_bend_covariances(model),
         blurs=model.blurs,
         blur=np.sqrt(variance),
         contrast=contrast[:, 0],
@@ -368,12 +371,7 @@ def _average_profiles(
     Returns:
         (n, 4, 3, samples)
     """
-    length, t, normal = model.measure_edges()
-    s = length[..., None] * share
-    bow = -4 * model.bows[..., None] * share * (1 - share)
-    d = reach[:, None, None, None] * np.linspace(-1, 1, samples)
-    at = model.corners[:, :, None] + s[..., None] * t[:, :, None]
-    at = at[..., None, :] + (bow[..., None] + d)[..., None] * normal[:, :, None, None]
+    at = model.locate_profiles(reach, share, samples)
     thirds = (*at.shape[:2], _PARTS, len(share) // _PARTS, samples)
     return np.asarray(sample_image(image, at).reshape(thirds).mean(axis=3))
 

@@ -367,6 +367,20 @@ def test_what_is_wrongly_stated_is_told(
         find_corners(KALIBR.image(), grid_size, pattern=stated)
 
 
+@pytest.mark.parametrize("blur", [0.8, 1.2])
+def test_corners_of_tags_alone_know_what_jpeg_does_to_them(blur: float) -> None:
+    """JPEG makes errors of neighbouring pixels alike."""
+    _, data = cv2.imencode(".jpg", BARE.image(blur, noise=2.0), [cv2.IMWRITE_JPEG_QUALITY, 20])
+    corners = find_corners(cv2.imdecode(data, cv2.IMREAD_GRAYSCALE), pattern=AprilGrid())
+    assert_at_bound(BARE, corners, (0.5, 1.8))
+
+
+def test_sharp_edges_are_not_taken_for_errors_in_common() -> None:
+    """Interpolated between pixels they differ from line to line."""
+    corners = find_corners(BARE.image(0.3, noise=0.3), pattern=AprilGrid())
+    assert_at_bound(BARE, corners, (0.5, 1.8))
+
+
 @pytest.mark.parametrize("noise", [20, 25])
 def test_noise_makes_no_dark_squares_of_paper(noise: int) -> None:
     """Corners that were looked for at such squares lay up to 4 px off."""
