@@ -3,9 +3,9 @@
     python -m tests.benchmarks.refusals [--size vga|12mp] [--targets NAME ...] [--all]
 
 draws pictures without a board, or with one of another kind, searches each for every kind of board,
-and prints the time of the processor over that of finding an easy board of the kind
-in a picture of the same size. The worst stand last. Pictures in which such a board is found are
-left out: a drawing of another kind may contain one.
+and for one that is stated with its rows and columns and all that is printed, and prints the time of
+the processor over that of finding it in an easy picture of the same size. The worst stand last.
+Pictures in which such a board is found are left out: a drawing of another kind may contain one.
 """
 
 from __future__ import annotations
@@ -22,8 +22,10 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from calibgui.engine.arrays import GridSize
 from calibgui.engine.boards.board import Board
 from calibgui.engine.boards.kinds import KINDS
+from calibgui.engine.boards.pattern import Pattern
 from calibgui.engine.boards.tagged_checkerboard import TaggedCheckerboard
 from calibgui.engine.detection.find_corners import find_corners
 from calibgui.engine.errors import NoBoardError
@@ -34,6 +36,7 @@ from tests.scenes.without_board import draw_foliage, draw_without_board
 
 Image = NDArray[np.uint8]
 Size = tuple[int, int]
+Search = Callable[[Image], bool]
 _SIZES: dict[str, Size] = {"vga": (640, 480), "12mp": (4000, 3000)}
 _BOARDS: dict[str, Board] = {
     name: board for name, board in BOARDS.items() if name != "bare-aprilgrid"
@@ -64,6 +67,7 @@ class Refusal(NamedTuple):
     """Time over that of a found board."""
     ms: float
     target: str
+    """Kind of the board, and whether all of it is stated."""
     picture: str
 
 
@@ -94,12 +98,21 @@ def list_pictures(size_name: str, boards: dict[str, Image]) -> Iterator[tuple[st
             yield f"{name} {seed} x{grain:g}", draw_without_board(seed, shape, grain)
 
 
-def search_for(kind: str) -> Callable[[Image], bool]:
-    """Return a function that tells whether an image shows a board of a kind."""
+def list_searches(kinds: list[str]) -> Iterator[tuple[str, str, Search]]:
+    """List the searches for boards: what each is for, the board's kind, and a function that tells
+    whether an image shows it."""
+    for kind in kinds:
+        board = _BOARDS[kind]
+        yield kind, kind, search_for(KINDS[kind], None)
+        yield f"{kind}, stated", kind, search_for(board.pattern, board.grid_size)
+
+
+def search_for(pattern: Pattern, grid_size: GridSize | None) -> Search:
+    """Return a function that tells whether an image shows a board."""
 
     def search(image: Image) -> bool:
         try:
-            find_corners(image, pattern=KINDS[kind])
+            find_corners(image, grid_size, pattern=pattern)
         except NoBoardError:
             return False
         return True
@@ -107,7 +120,7 @@ def search_for(kind: str) -> Callable[[Image], bool]:
     return search
 
 
-def measure(search: Callable[[Image], bool], image: Image, enough: float) -> tuple[float, bool]:
+def measure(search: Search, image: Image, enough: float) -> tuple[float, bool]:
     """Measure the least time of a search in s, which is taken once if that is below `enough`, and
     whether it found a board."""
     least, found = np.inf, False
@@ -129,11 +142,12 @@ def main() -> None:
     cv2.setNumThreads(1)
     for size_name in [options.size] if options.size else _SIZES:
         boards = draw_boards(size_name)
-        searches = {name: search_for(name) for name in options.targets}
+        searches: dict[str, Search] = {}
         easy: dict[str, float] = {}
-        for name, search in searches.items():
-            assert search(boards[name]), name  # compiles, and draws dictionaries
-            easy[name], _ = measure(search, boards[name], 0.0)
+        for name, kind, search in list_searches(options.targets):
+            assert search(boards[kind]), name  # compiles, and draws dictionaries
+            searches[name] = search
+            easy[name], _ = measure(search, boards[kind], 0.0)
         refusals: list[Refusal] = []
         for picture, image in list_pictures(size_name, boards):
             for name, search in searches.items():
@@ -145,10 +159,10 @@ def main() -> None:
         print(f"{size_name}: found in ms: ", end="")
         print(", ".join(f"{name} {1e3 * s:.1f}" for name, s in easy.items()))
         for each in refusals if options.all else refusals[-_SHOWN * len(searches) :]:
-            print(f"{each.ratio:8.2f}{each.ms:9.1f} ms  {each.target:20} in {each.picture}")
+            print(f"{each.ratio:8.2f}{each.ms:9.1f} ms  {each.target:28} in {each.picture}")
         for name in searches:
             ratios = [each.ratio for each in refusals if each.target == name]
-            print(f"{name:20} refused {len(ratios):3d}", end="")
+            print(f"{name:28} refused {len(ratios):3d}", end="")
             print(f"  median {np.median(ratios):6.2f}  worst {max(ratios):6.2f}")
 
 
