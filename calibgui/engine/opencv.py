@@ -300,33 +300,17 @@ QUICK_WINDOW = 7
 markers of 13 px and more it finds nearly as many as OpenCV's three sizes."""
 
 
-def label_dark_parts(
-    image: GreyImage, window: int, depth: int | None = None
-) -> tuple[npt.NDArray[np.int32], IntArray]:
-    """Label connected parts of an 8-bit image (h, w) darker than the mean of `window` px around.
+def average_around(image: GreyImage, side: int) -> GreyImage:
+    """Average an 8-bit image (h, w) over the `side` x `side` px around each, an odd number of them,
+    the border replicated."""
+    return np.asarray(cv2.blur(image, (side, side), borderType=cv2.BORDER_REPLICATE))
 
-    Args:
-        image: (h, w)
-        window: a little more than the width of the largest parts, px.
-        depth: if given, parts are those darker by more than these levels than the brightest that is
-            left around them when all that is narrower than the window is filled (morphological
-            closing), on either side of a shadow's edge.
 
-    Returns:
-        The number (h, w) of each pixel's part, 0 for none, and (n, 3) width, height and area of
-        each part, px; those of the number 0 are of all the rest.
-    """
-    side = 2 * (window // 2) + 1
-    if depth is None:
-        dark = cv2.adaptiveThreshold(
-            image, 255, cv2.ADAPTIVE_THRESH_MEAN_C, cv2.THRESH_BINARY_INV, side, 8
-        )
-    else:
-        hollow = cv2.morphologyEx(image, cv2.MORPH_BLACKHAT, np.ones((side, side), np.uint8))
-        dark = cv2.compare(hollow, float(depth), cv2.CMP_GT)
-    _, labels, stats, _ = cv2.connectedComponentsWithStats(dark, connectivity=4)
-    columns = [cv2.CC_STAT_WIDTH, cv2.CC_STAT_HEIGHT, cv2.CC_STAT_AREA]
-    return np.asarray(labels, np.int32), np.asarray(stats[:, columns], np.int64)
+def fill_narrow_parts(image: GreyImage, side: int, *, are_bright: bool) -> GreyImage:
+    """Fill what is narrower than `side` px, an odd number, of an image (h, w) with the levels of
+    what is left around: dark parts by a morphological closing, bright ones by an opening."""
+    operation = cv2.MORPH_OPEN if are_bright else cv2.MORPH_CLOSE
+    return np.asarray(cv2.morphologyEx(image, operation, np.ones((side, side), np.uint8)))
 
 
 def label_parts(mask: BoolArray) -> tuple[npt.NDArray[np.int32], int]:

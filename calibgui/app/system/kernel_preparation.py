@@ -88,7 +88,7 @@ _PREPARATIONS = {
 }
 """Functions that prepare detectors which need other kernels than that of checkerboards, by the kind
 of their boards."""
-_SECONDS = {prepare_finder: 25, prepare_circle_finder: 5, prepare_tag_finder: 35}
+_SECONDS = {prepare_finder: 25, prepare_circle_finder: 7, prepare_tag_finder: 35}
 """Rough times, s, that compiling takes, once after an installation."""
 
 

@@ -11,8 +11,8 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
-from calibgui.engine import opencv
-from calibgui.engine.arrays import Array, BoolArray, GreyImage
+from calibgui.engine import kernels, opencv
+from calibgui.engine.arrays import Array, GreyImage
 from calibgui.engine.detection.circles.thresholds import CIRCLE_THRESHOLDS
 
 FOG_SHARE = 1 / 16
@@ -20,6 +20,8 @@ FOG_SHARE = 1 / 16
 logarithm is taken, as below it lies noise."""
 _STEPS_PER_E = 255 / np.log1p(1 / FOG_SHARE)
 """Number of steps of the compressed levels by which they differ where light differs by e."""
+_MIN_DIFFERENCE = 8
+"""Least difference of a part from the mean around, grey levels."""
 
 
 def compress_levels(image: npt.NDArray[np.uint8]) -> npt.NDArray[np.uint8]:
@@ -30,63 +32,94 @@ def compress_levels(image: npt.NDArray[np.uint8]) -> npt.NDArray[np.uint8]:
     return np.asarray(np.rint(table).astype(np.uint8)[image])
 
 
-def find_blobs(image: GreyImage, window: int, most: int, *, is_shaded: bool = False) -> Array:
+def find_blobs(
+    image: GreyImage, window: int, most: int, *, are_bright: bool = False, is_shaded: bool = False
+) -> Array:
     """Find the centres (n, 2) px of at most `most` parts of an 8-bit image (h, w).
 
-    A part is darker than the mean of the `window` px around, or, if the image `is_shaded`, one of
-    `compress_levels`, than the paper beside it, on either side of a shadow's edge.
+    A part is darker than the mean of the `window` px around, or brighter if they `are_bright`. If
+    the image `is_shaded`, the logarithm of its levels is compared with that of the paper beside the
+    part, on either side of a shadow's edge.
     """
     limits = CIRCLE_THRESHOLDS
-    depth = round(-_STEPS_PER_E * np.log(limits.max_ink_share)) if is_shaded else None
-    labels, size = opencv.label_dark_parts(image, window, depth)
-    area = size[:, 2].astype(np.float64)
-    large = area >= limits.min_blob_area
-    large &= area > limits.min_box_fill * size[:, 0] * size[:, 1]
-    large &= area < labels.size / limits.min_grid_circles
-    large[0] = False  # all that is in no part
-    area = area[large]
-    (cu, cv), C = _measure_parts(labels, large)
-    fill = area / (4 * np.pi * np.sqrt(np.maximum(C[0] * C[1] - C[2] ** 2, 1e-9)))
-    is_round = (fill > limits.min_blob_fill) & (fill < limits.max_blob_fill)
-    candidates = np.flatnonzero(is_round)
-    if not len(candidates):
+    side = 2 * (window // 2) + 1
+    if is_shaded:
+        image = compress_levels(image)
+        around = opencv.fill_narrow_parts(image, side, are_bright=are_bright)
+        least = round(-_STEPS_PER_E * np.log(limits.max_ink_share)) + 1
+    else:
+        around, least = opencv.average_around(image, side), _MIN_DIFFERENCE
+    upper, lower = (image, around) if are_bright else (around, image)
+    u, v, area, fill = _find_round_parts(
+        upper,
+        lower,
+        least,
+        (limits.min_blob_area, image.size / limits.min_grid_circles),
+        limits.min_box_fill,
+        (limits.min_blob_fill, limits.max_blob_fill),
+    ).T
+    if not len(area):
         return np.zeros((0, 2))
-    sizes, ratio = np.sort(area[candidates]), limits.max_area_ratio
+    sizes, ratio = np.sort(area), limits.max_area_ratio
     count = np.searchsorted(sizes, ratio * sizes, side="right") - np.arange(len(sizes))
     smallest = sizes[np.argmax(count)]
-    alike = candidates[(area[candidates] >= smallest) & (area[candidates] <= ratio * smallest)]
-    largest = max(ratio * smallest, limits.max_mark_area_ratio * float(np.median(area[alike])))
-    alike = candidates[(area[candidates] >= smallest) & (area[candidates] <= largest)]
-    best = alike[np.argsort(np.abs(fill[alike] - 1), kind="stable")[:most]]
-    return np.column_stack([cu[best], cv[best]])
+    alike = area[(area >= smallest) & (area <= ratio * smallest)]
+    largest = max(ratio * smallest, limits.max_mark_area_ratio * float(np.median(alike)))
+    chosen = np.flatnonzero((area >= smallest) & (area <= largest))
+    best = chosen[np.argsort(np.abs(fill[chosen] - 1), kind="stable")[:most]]
+    return np.column_stack([u[best], v[best]])
 
 
-def _measure_parts(labels: npt.NDArray[np.int32], chosen: BoolArray) -> tuple[Array, Array]:
-    """Compute the centres (2, m) and the covariances (3, m) = (uu, vv, uv) of parts, px and px^2.
+@kernels.with_kernel("round_parts", "find_round_parts")
+def _find_round_parts(
+    upper: GreyImage,
+    lower: GreyImage,
+    least: int,
+    area: tuple[float, float],
+    least_share: float,
+    fill: tuple[float, float],
+) -> Array:
+    """Find evenly filled ellipses among the parts, connected along rows and columns, in which one
+    8-bit image (h, w) exceeds another by `least` levels or more.
 
     The sums are taken over runs, neighbouring pixels in a row that belong to one part: from u on,
     n pixels have the sums n u + n (n - 1) / 2 and n u^2 + u n (n - 1) + (n - 1) n (2 n - 1) / 6.
     Sums of whole numbers, they are exact.
 
     Args:
-        labels: (h, w) the number of each pixel's part.
-        chosen: (n,) mask of the m parts that are measured.
+        upper: the image that exceeds the other.
+        lower: the other image.
+        least: levels.
+        area: least area of a part, px, and that from which on it is too large.
+        least_share: share of its upright bounding box that it must exceed.
+        fill: least and greatest area over that of the ellipse of its covariance, exclusively.
+
+    Returns:
+        (m, 4) centre u and v, px, area and fill of each, in the order of their first pixels row by
+        row.
     """
-    begins = np.empty(labels.shape, dtype=bool)
-    begins[:, 0] = True
-    np.not_equal(labels[:, 1:], labels[:, :-1], out=begins[:, 1:])
-    start = np.flatnonzero(begins)
-    part, length = labels.ravel()[start], np.diff(start, append=labels.size)
-    kept = chosen[part]
-    part, n = (np.cumsum(chosen) - 1)[part[kept]], length[kept].astype(np.float64)
-    v, u = np.divmod(start[kept], labels.shape[1])
+    inside = upper.astype(np.int16) - lower >= least
+    labels, m = opencv.label_parts(inside)
+    begins = np.diff(labels, axis=1, prepend=-1) != 0
+    start = np.flatnonzero(begins & inside)
+    part = labels.ravel()[start] - 1
+    ends = np.append(np.flatnonzero(begins), labels.size)
+    n = (ends[np.searchsorted(ends, start, side="right")] - start).astype(np.float64)
+    v, u = np.divmod(start, labels.shape[1])
     along = n * u + n * (n - 1) / 2
     squares = n * u * u + u * n * (n - 1) + (n - 1) * n * (2 * n - 1) / 6
-    m = int(np.count_nonzero(chosen))
-    area = np.bincount(part, n, m)
+    total = np.bincount(part, n, m)
     cu, cv, uu, vv, uv = (
-        np.bincount(part, sums, m) / area for sums in (along, n * v, squares, n * v * v, along * v)
+        np.bincount(part, sums, m) / total for sums in (along, n * v, squares, n * v * v, along * v)
     )
     # A pixel's own variance is 1/12 along each axis.
-    C = np.stack([uu - cu * cu + 1 / 12, vv - cv * cv + 1 / 12, uv - cu * cv])
-    return np.stack([cu, cv]), C
+    det = (uu - cu * cu + 1 / 12) * (vv - cv * cv + 1 / 12) - (uv - cu * cv) ** 2
+    filled = total / (4 * np.pi * np.sqrt(np.maximum(det, 1e-9)))
+    first, last = np.full((2, m), max(labels.shape)), np.zeros((2, m))
+    for axis, begin, end in ((0, u, u + n), (1, v, v + 1)):
+        np.minimum.at(first[axis], part, begin)
+        np.maximum.at(last[axis], part, end)
+    chosen = (total >= area[0]) & (total < area[1])
+    chosen &= total > least_share * (last - first).prod(axis=0)
+    chosen &= (filled > fill[0]) & (filled < fill[1])
+    return np.column_stack([cu, cv, total, filled])[chosen]

@@ -17,7 +17,7 @@ from calibgui.engine import opencv
 from calibgui.engine.arrays import Array, GridSize
 from calibgui.engine.boards.circle_grid import Circles
 from calibgui.engine.detection import region_of_interest as region
-from calibgui.engine.detection.circles.blobs import compress_levels, find_blobs
+from calibgui.engine.detection.circles.blobs import find_blobs
 from calibgui.engine.detection.circles.continuation import Continuation, find_continuation
 from calibgui.engine.detection.circles.grid_labelling import LabelledGrid, label_grid
 from calibgui.engine.detection.circles.partial_grid import place_part
@@ -149,10 +149,14 @@ class _Search(NamedTuple):
 
     def find_blobs(self, most: int) -> Array:
         """Find the centres (n, 2) px of at most `most` parts that may be circles."""
-        image = compress_levels(self.photograph) if self.is_shaded else self.photograph
-        window = max(int(min(image.shape) / self.divisor), 9)
-        seen = 255 - image if self.is_negative else image
-        return find_blobs(seen, window, most, is_shaded=self.is_shaded)
+        window = max(int(min(self.photograph.shape) / self.divisor), 9)
+        return find_blobs(
+            self.photograph,
+            window,
+            most,
+            are_bright=self.is_negative,
+            is_shaded=self.is_shaded,
+        )
 
 
 def _place_part(searches: list[tuple[_Search, Array]], grid_size: GridSize) -> CoarseGrid | None:
