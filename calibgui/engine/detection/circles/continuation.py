@@ -16,7 +16,7 @@ from typing import NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from calibgui.engine.arrays import Array, BoolArray, IntArray
+from calibgui.engine.arrays import Array, BoolArray, IntArray, compute_median
 from calibgui.engine.boards.circle_grid import list_grid_indices
 from calibgui.engine.detection.circles.blobs import FOG_SHARE
 from calibgui.engine.detection.circles.thresholds import CIRCLE_THRESHOLDS
@@ -94,7 +94,7 @@ def find_continuation(
     is_sampled = np.isfinite(cells.levels[..., 0])
     beyond = ~cells.known & is_sampled
     is_disc = cells.are_discs[beyond]
-    light = np.median(np.nanmedian(cells.levels[cells.known & is_sampled, 1:], axis=1))
+    light = compute_median(_compute_medians(cells.levels[cells.known & is_sampled, 1:]))
     paper = np.nanmin(cells.levels[beyond, 1:], axis=1)
     places = np.argwhere(beyond) + cells.first
     lines = _find_lines(places, centres.shape[:2], asymmetric=asymmetric)
@@ -111,7 +111,7 @@ def find_continuation(
         tuple(bool(2 * np.count_nonzero(is_disc[line]) > np.count_nonzero(line)) for line in lines),
         not all(line.any() for line in lines),
         any(is_disc[line].any() for line in lines),
-        any(np.median(paper[line]) < _SHADE * light for line in lines if line.any()),
+        any(compute_median(paper[line]) < _SHADE * light for line in lines if line.any()),
         tuple(
             bool(2 * np.count_nonzero(line) > length and is_plain[line].all())
             for line, length in zip(lines, lengths, strict=True)
@@ -126,13 +126,21 @@ def _find_plain(cells: _Cells) -> BoolArray:
     around = np.full((*scale.shape[:2], 4), np.nan)
     around[cells.known] = scale[cells.known, 1:]
     is_told = cells.known & np.isfinite(cells.levels[..., 0])
-    contrast = np.median(abs(np.nanmedian(around[is_told], axis=1) - scale[is_told, 0]))
+    contrast = compute_median(abs(_compute_medians(around[is_told]) - scale[is_told, 0]))
     beside = np.stack([np.roll(around, step, axis) for step in (1, -1) for axis in (0, 1)], axis=2)
     off = abs(beside - scale[..., :1, None])
     # What covers the place may reach to some of the paper around the disc beside it.
     most = np.where(np.isfinite(off), off, -np.inf).max(axis=3)
     least = np.where(most >= 0, most, np.inf).min(axis=2)
     return np.asarray(least < _MAX_PAPER_DIFFERENCE * contrast)
+
+
+def _compute_medians(levels: Array) -> Array:
+    """Compute the median (n,) of those of each row of `levels` (n, m) that are no NaN: as NumPy's
+    nanmedian, in a sixth of the time."""
+    ordered, count = np.sort(levels, axis=1), np.count_nonzero(np.isfinite(levels), axis=1)
+    middle = np.column_stack([(count - 1) // 2, count // 2])
+    return np.asarray(np.take_along_axis(ordered, middle, axis=1).mean(axis=1))
 
 
 def _look_at_cells(

@@ -149,9 +149,10 @@ def find_lattice(points: Array) -> PointLattice | None:
 
 def list_boxes(lattice: PointLattice) -> Iterator[IntArray]:
     """List the grids (rows, cols) that hold all points of a symmetric grid's lattice, in any basis
-    and turn, but for lines that have two or fewer: indices of the points, -1 where none is."""
+    and turned by a quarter or not, but for lines that have two or fewer: indices of the points, -1
+    where none is."""
     for xy in _shear_places(lattice, asymmetric=False):
-        for turn in _TURNS:
+        for turn in _TURNS[:2]:
             x, y = (xy @ turn.T).T
             kept = _find_common(x) & _find_common(y)
             if kept.any():
@@ -289,10 +290,13 @@ def _cut_grids(
     # An asymmetric grid has a circle at every second place along a line.
     per_circle = 2 if asymmetric else 1
     limits = CIRCLE_THRESHOLDS
+    stated = sorted((grid_size[0], per_circle * grid_size[1])) if grid_size else (0, 0)
     for xy in _shear_places(lattice, asymmetric=asymmetric):
         boxes = _drop_borders(xy, per_circle, limits.min_border_share)
-        for box in boxes if grid_size else boxes[-1:]:
-            is_least = bool((box == boxes[-1]).all())
+        lines = np.sort(boxes[:, 1] - boxes[:, 0] + 1, axis=1)
+        is_least = np.arange(len(boxes)) == len(boxes) - 1
+        for k in np.flatnonzero((lines == stated).all(axis=1) | is_least):
+            box = boxes[k]
             kept = ((xy >= box[0]) & (xy <= box[1])).all(axis=1)
             count = int(np.count_nonzero(kept))
             full = np.prod(box[1] - box[0] + 1) / per_circle
@@ -300,7 +304,7 @@ def _cut_grids(
                 continue
             for turn in _TURNS:
                 grid = _fill_grid(xy[kept] @ turn.T, lattice.points[kept], asymmetric=asymmetric)
-                if grid is not None and (is_least or grid.shape == grid_size):
+                if grid is not None and (is_least[k] or grid.shape == grid_size):
                     yield LabelledGrid(grid, len(xy) - count)
 
 

@@ -23,11 +23,19 @@ from calibgui.engine.errors import NoBoardError
 
 
 class _Part(NamedTuple):
-    """A part of a grid in one of the places that it may have."""
+    """A part of a grid."""
 
-    centres: Array
-    """(rows, cols, 2) px, of the whole grid; NaN where no circle is seen."""
     seen: Continuation
+    starts: list[tuple[int, int]]
+    """The rows and columns of the grid at which it may begin."""
+
+    def place(self, grid_size: GridSize) -> Array:
+        """Return the circles (rows, cols, 2) px of the whole grid if the part has the first place
+        that it may have; NaN where no circle is seen."""
+        centres = np.full((*grid_size, 2), np.nan)
+        (row, col), (rows, cols, _) = self.starts[0], self.seen.centres.shape
+        centres[row : row + rows, col : col + cols] = self.seen.centres
+        return centres
 
     @property
     def circles(self) -> int:
@@ -55,7 +63,7 @@ def place_part(
     lattice = find_lattice(points)
     if lattice is None or len(lattice.points) < CIRCLE_THRESHOLDS.min_grid_circles:
         return None
-    found: dict[bytes, _Part] = {}
+    parts: list[_Part] = []
     for box in list_boxes(lattice):
         rows, cols = box.shape
         is_large = min(rows, cols) >= CIRCLE_THRESHOLDS.min_grid_lines
@@ -64,18 +72,18 @@ def place_part(
             continue
         known = np.where((box >= 0)[..., None], points[box], np.nan)
         seen = find_continuation(known, image, asymmetric=False, are_bright=are_bright)
-        for row, col in _list_starts((rows, cols), grid_size, seen):
-            centres = np.full((*grid_size, 2), np.nan)
-            centres[row : row + rows, col : col + cols] = seen.centres
-            key = _describe(centres)
-            found[key] = _Part(centres, seen)
+        starts = list(_list_starts((rows, cols), grid_size, seen))
+        if starts:
+            parts.append(_Part(seen, starts))
     # One that leaves circles out is none, though what covers the right one may leave no other.
-    most = max((part.circles for part in found.values()), default=0)
-    likely = [part for part in found.values() if part.circles == most]
+    most = max((part.circles for part in parts), default=0)
+    likely = [part for part in parts if part.circles == most]
     if not any(_is_filled(part.seen) for part in likely):
         return None
-    if len(likely) == 1:
-        return likely[0].centres, likely[0].in_view
+    if all(len(part.starts) == 1 for part in likely):
+        placed = [part.place(grid_size) for part in likely]
+        if len(set(map(_describe, placed))) == 1:
+            return placed[0], likely[0].in_view
     raise NoBoardError(
         "The picture shows {} circles of a grid of {} x {}, but not which of them.".format(
             most, *grid_size

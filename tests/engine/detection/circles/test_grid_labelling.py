@@ -10,7 +10,7 @@ from scipy.spatial.transform import Rotation
 
 from calibgui.engine.arrays import Array, GridSize
 from calibgui.engine.boards.circle_grid import Circles
-from calibgui.engine.detection.circles.grid_labelling import label_grid
+from calibgui.engine.detection.circles.grid_labelling import find_lattice, label_grid, list_boxes
 
 BOARDS = [(4, 5), (7, 10), (11, 4), (9, 9), (6, 4)]
 given_any_grid = given(
@@ -157,3 +157,12 @@ def test_a_border_line_with_few_circles_is_left_out_unless_its_size_is_stated() 
     stated = label_grid(seen, (6, 9), asymmetric=False)
     assert stated is not None
     assert stated.places.shape == (6, 9) and len(stated) == len(seen)
+
+
+def test_no_box_is_listed_upside_down_too() -> None:
+    """Each takes as long to look at as the labels of a grid."""
+    points = imaged((4, 6), False, np.random.default_rng(0), 0.3)
+    lattice = find_lattice(points)
+    assert lattice is not None
+    boxes = [box for box in list_boxes(lattice) if (box >= 0).all()]
+    assert sorted(box.shape for box in boxes) == [(4, 6), (6, 4)]
