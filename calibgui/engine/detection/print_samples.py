@@ -70,6 +70,11 @@ class QuadSearch:
         count = opencv.count_quads(halved, _COUNTING_WINDOW, _MIN_PERIMETER, _MAX_COUNT)
         return None if count < _MAX_COUNT else PrintSample(halved).detect_dark_quads(self._image)
 
+    @property
+    def are_many(self) -> bool:
+        """True if there are hundreds: OpenCV's search for markers takes seconds for thousands."""
+        return self._sampled is not None
+
     def detect_dark_quads(self, is_quick: bool = False) -> Array:
         """Return corners (n, 4, 2) px of the dark quadrilaterals, quickly or not. Where there are
         hundreds the small ones are looked for in a sample."""

@@ -112,6 +112,8 @@ def _rate(place: _Place) -> tuple[float, float]:
 def _list_places(image: GreyImage, lattice: Lattice, board: MarkedBoard) -> Iterator[_Place]:
     """List the places on the board that the colours of the squares allow."""
     size, numbers = np.array(board.grid_size), _number_squares(board)
+    if numbers.size < _MIN_SHARE_INSIDE * len(_list_squares(lattice)[0]):
+        return  # most squares would lie beside the board
     for quarters in range(4):
         turned = turn_lattice(lattice, quarters)
         squares, quads = _list_squares(turned)

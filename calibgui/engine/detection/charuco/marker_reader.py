@@ -84,6 +84,7 @@ class MarkerReader:
             self._levels.append(opencv.halve_image(self._levels[-1]))
         self._outline = None if outline is None else region.enlarge_outline(outline)
         self._positive = positive
+        self._quads = QuadSearch(self._levels[-1])
         self._candidates: dict[int, MarkerCandidates] = {}
         self._samples: dict[int, MarkerCandidates] = {}
         self._boxes: dict[tuple[int, str], Box] = {}
@@ -112,7 +113,9 @@ class MarkerReader:
 
         def list_if_likely(depth: int) -> list[str]:
             is_coarsest = depth == len(self._levels) - 1
-            return [name] if is_coarsest else self._select_likely([name], least, depth)
+            if is_coarsest and not self._quads.are_many:
+                return [name]
+            return self._select_likely([name], least, depth)
 
         return self._read_first(list_if_likely, layouts, count, least)
 
@@ -228,7 +231,8 @@ class MarkerReader:
         """Find the quadrilaterals of one level of the pyramid, once."""
         if depth not in self._candidates:
             level, is_coarsest = self._levels[depth], depth == len(self._levels) - 1
-            quads = QuadSearch(level).detect_dark_quads(is_quick=not is_coarsest)
+            search = self._quads if is_coarsest else QuadSearch(level)
+            quads = search.detect_dark_quads(is_quick=not is_coarsest)
             self._candidates[depth] = MarkerCandidates(level, quads)
         return self._candidates[depth]
 

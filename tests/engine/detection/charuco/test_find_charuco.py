@@ -9,6 +9,7 @@ import cv2
 import numpy as np
 import pytest
 
+from calibgui.engine import opencv
 from calibgui.engine.arrays import GreyImage
 from calibgui.engine.boards.board import Board
 from calibgui.engine.boards.charuco import Charuco, MarkerLayout
@@ -23,6 +24,7 @@ from calibgui.engine.errors import CalibrationError, MirroredError, NoBoardError
 from calibgui.engine.images.reading import read_image
 from tests.engine.detection.conftest import Scene
 from tests.scenes.perspective import photograph_pattern
+from tests.scenes.without_board import draw_without_board
 
 BOARDS = [
     (Charuco("DICT_4X4_50", 0.75, False), (5, 8)),
@@ -352,6 +354,20 @@ def test_what_is_wrongly_stated_is_told(
     scene = Scene(Board(5, 8, 20.0, BOARDS[0][0]))
     with pytest.raises(NoBoardError, match=says):
         find_corners(scene.image(), grid_size, pattern=stated)
+
+
+def test_a_wall_is_not_read_for_markers_of_a_stated_dictionary(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """OpenCV takes 0.7 s for its thousands of dark quadrilaterals, none of which fits a marker."""
+
+    def fail(*_: object) -> None:
+        raise AssertionError("nothing need be read")
+
+    monkeypatch.setattr(opencv, "detect_markers", fail)
+    wall = draw_without_board(12, (750, 1000), 0.625)
+    with pytest.raises(NoBoardError):
+        find_corners(wall, (7, 10), pattern=Charuco("DICT_4X4_50", 0.75, False))
 
 
 def test_no_board() -> None:

@@ -12,7 +12,11 @@ from calibgui.engine.boards.board import Board
 from calibgui.engine.boards.charuco import Charuco
 from calibgui.engine.boards.pattern import Pattern
 from calibgui.engine.boards.tagged_checkerboard import TaggedCheckerboard
+from calibgui.engine.detection.charuco import lattice_placement
+from calibgui.engine.detection.charuco.lattice_placement import MarkedBoard
+from calibgui.engine.detection.charuco.mark_removal import Marks
 from calibgui.engine.detection.find_corners import find_corners
+from calibgui.engine.detection.lattice import Lattice
 from calibgui.engine.errors import NoBoardError
 from tests.engine.detection.apriltags.test_april_grid import CAMERA, assert_at_bound
 from tests.engine.detection.conftest import Scene
@@ -112,3 +116,19 @@ def test_markers_begin_nearer_than_corners_are_looked_at_elsewhere() -> None:
     corners = find_corners(image, scene.board.grid_size, pattern=scene.board.pattern)
     assert corners.complete
     assert_at_bound(scene, corners, (0.6, 1.6))
+
+
+def test_a_lattice_that_is_much_larger_than_the_board_is_not_looked_at(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """Wherever it lay, most of its squares would be beside the board; to try all places of one of
+    60 x 80 took 30 times as long as to find a board."""
+
+    def fail(*_: object) -> None:
+        raise AssertionError("no square need be read")
+
+    monkeypatch.setattr(lattice_placement, "_correlate_squares", fail)
+    board = MarkedBoard((4, 5), True, Marks(np.array([(0, 0)]), np.ones((1, 4, 4), bool), 0.1))
+    uv = 5.0 * np.stack(np.meshgrid(np.arange(10), np.arange(12)), axis=-1)
+    image = np.zeros((80, 80), np.uint8)
+    assert lattice_placement.place_by_marks(image, Lattice(uv, True), board) is None
