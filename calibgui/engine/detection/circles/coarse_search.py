@@ -43,7 +43,9 @@ class CoarseGrid(NamedTuple):
     in_view: int
     """Number of its places that the image shows; all, unless its size is stated."""
     is_part: bool = False
-    """True if it is a part whose place is known."""
+    """True if it is a part of a grid of stated size, which the image cuts."""
+    is_placed: bool = True
+    """False if that part may have other places."""
     has_strays: bool = False
     """True if single discs lie where the grid may go on."""
 
@@ -108,8 +110,8 @@ def find_grid(
         shown = int(np.count_nonzero(largest.beyond.is_in_view))
         in_view = largest.grid.places.size if grid_size is None else shown
         return CoarseGrid(centres, in_view, has_strays=largest.grid.left_out > 0)
-    if grid_size is not None and not pattern.asymmetric:
-        placed = _place_part(others, grid_size)
+    if grid_size is not None:
+        placed = _place_part(others, grid_size, asymmetric=pattern.asymmetric)
         if placed is not None:
             return placed._replace(centres=placed.centres + np.array([left, top]))
     raise _explain_missing_grid(grid_size, largest, part)
@@ -159,24 +161,27 @@ class _Search(NamedTuple):
         )
 
 
-def _place_part(searches: list[tuple[_Search, Array]], grid_size: GridSize) -> CoarseGrid | None:
-    """Place the part of a grid that one of the searches has shown, with its points (n, 2) px.
-
-    Raises:
-        NoBoardError: if none places it, and one leaves several places.
-    """
-    doubt: NoBoardError | None = None
+def _place_part(
+    searches: list[tuple[_Search, Array]], grid_size: GridSize, *, asymmetric: bool
+) -> CoarseGrid | None:
+    """Place the part of a grid that one of the searches has shown, with its points (n, 2) px: the
+    first whose place is certain, or else the first."""
+    first: CoarseGrid | None = None
     for search, points in searches:
-        try:
-            placed = place_part(points, search.photograph, grid_size, are_bright=search.is_negative)
-        except NoBoardError as error:
-            doubt = error
-            continue
+        placed = place_part(
+            points,
+            search.photograph,
+            grid_size,
+            asymmetric=asymmetric,
+            are_bright=search.is_negative,
+        )
         if placed is not None:
-            return CoarseGrid((placed[0] + 0.5) * 2**search.depth - 0.5, placed[1], True)
-    if doubt is not None:
-        raise doubt
-    return None
+            centres = (placed.centres + 0.5) * 2**search.depth - 0.5
+            grid = CoarseGrid(centres, placed.in_view, True, placed.is_certain)
+            if placed.is_certain:
+                return grid
+            first = first or grid
+    return first
 
 
 class _FoundGrid(NamedTuple):

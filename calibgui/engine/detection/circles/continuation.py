@@ -17,7 +17,7 @@ import numpy as np
 import numpy.typing as npt
 
 from calibgui.engine.arrays import Array, BoolArray, IntArray, compute_median
-from calibgui.engine.boards.circle_grid import list_grid_indices
+from calibgui.engine.boards.circle_grid import Circles, list_grid_indices
 from calibgui.engine.detection.circles.blobs import FOG_SHARE
 from calibgui.engine.detection.circles.thresholds import CIRCLE_THRESHOLDS
 from calibgui.engine.detection.lattice import estimate_steps, predict_places
@@ -37,7 +37,7 @@ class Continuation(NamedTuple):
 
     centres: Array
     """(rows, cols, 2) px, of the grid's circles, also of those that were not known and are seen;
-    NaN where there is none."""
+    NaN where there is none. This and what follows has one axis where it was asked by place."""
     is_seen_at: BoolArray
     """(rows, cols) True where a circle is seen."""
     is_in_view: BoolArray
@@ -56,6 +56,8 @@ class Continuation(NamedTuple):
     ends: tuple[bool, ...]
     """(4,) True if there is nothing but paper where one of these would be, and most of it is in the
     image."""
+    leaves: tuple[bool, ...]
+    """(4,) True if the image does not show most of that line."""
 
     @property
     def is_seen(self) -> bool:
@@ -76,6 +78,9 @@ class _Cells(NamedTuple):
     """(m, n, 5) grey levels of the place and of paper around it; NaN where not in the image."""
     are_discs: BoolArray
     """(m, n) True where a disc is seen."""
+    are_surrounded: BoolArray
+    """(m, n) True where all the paper around is in the image: beyond a grid's end a bright ground
+    looks like bright discs as long as only what lies towards the grid is asked."""
 
 
 def find_continuation(
@@ -90,32 +95,60 @@ def find_continuation(
         asymmetric: True if every second row is shifted by half.
         are_bright: True if the discs are brighter than the paper.
     """
-    cells = _look_at_cells(centres, image, asymmetric=asymmetric, are_bright=are_bright)
+    grid_size = centres.shape[:2]
+    xy = (
+        Circles(asymmetric)
+        .locate_points(list_grid_indices(grid_size).astype(np.float64))
+        .astype(np.int64)
+    )
+    seen = look_around(
+        xy, centres.reshape(-1, 2), image, asymmetric=asymmetric, are_bright=are_bright
+    )
+    return seen._replace(
+        centres=seen.centres.reshape(centres.shape),
+        is_seen_at=seen.is_seen_at.reshape(grid_size),
+        is_in_view=seen.is_in_view.reshape(grid_size),
+    )
+
+
+def look_around(
+    xy: IntArray,
+    uv: Array,
+    image: npt.NDArray[np.uint8],
+    *,
+    asymmetric: bool,
+    are_bright: bool = False,
+) -> Continuation:
+    """Do so for the n places `xy` (n, 2), pitches, of a rectangle of a grid, with the known centres
+    `uv` (n, 2) px, by place; see `find_continuation`. An asymmetric grid has columns of every
+    second row here."""
+    places = _find_lattice_places(xy, asymmetric=asymmetric)
+    cells = _look_at_cells(places, uv, image, are_bright=are_bright)
     is_sampled = np.isfinite(cells.levels[..., 0])
-    beyond = ~cells.known & is_sampled
+    beyond = ~cells.known & is_sampled & (cells.are_surrounded | ~cells.are_discs)
     is_disc = cells.are_discs[beyond]
     light = compute_median(_compute_medians(cells.levels[cells.known & is_sampled, 1:]))
     paper = np.nanmin(cells.levels[beyond, 1:], axis=1)
-    places = np.argwhere(beyond) + cells.first
-    lines = _find_lines(places, centres.shape[:2], asymmetric=asymmetric)
-    grid = _find_lattice_places(list_grid_indices(centres.shape[:2]), asymmetric=asymmetric)
-    own = tuple((grid - cells.first).T)
+    lines = _find_lines(
+        np.argwhere(beyond) + cells.first - places[0], xy - xy[0], asymmetric=asymmetric
+    )
+    own = tuple((places - cells.first).T)
     is_seen = cells.are_discs[own]
-    filled = np.where(is_seen[:, None], cells.at[own], np.nan).reshape(centres.shape)
     is_plain = _find_plain(cells)[beyond]
-    lengths = np.repeat(centres.shape[1::-1], 2)
+    lengths = np.repeat(np.ptp(xy, axis=0) + 1, 2) / (2 if asymmetric else 1)
+    in_view = [bool(2 * np.count_nonzero(line) > n) for line, n in zip(lines, lengths, strict=True)]
     return Continuation(
-        np.where(np.isfinite(centres), centres, filled),
-        is_seen.reshape(centres.shape[:2]),
-        is_sampled[own].reshape(centres.shape[:2]),
+        np.where(np.isfinite(uv), uv, np.where(is_seen[:, None], cells.at[own], np.nan)),
+        is_seen,
+        is_sampled[own],
         tuple(bool(2 * np.count_nonzero(is_disc[line]) > np.count_nonzero(line)) for line in lines),
         not all(line.any() for line in lines),
         any(is_disc[line].any() for line in lines),
         any(compute_median(paper[line]) < _SHADE * light for line in lines if line.any()),
         tuple(
-            bool(2 * np.count_nonzero(line) > length and is_plain[line].all())
-            for line, length in zip(lines, lengths, strict=True)
+            shown and bool(is_plain[line].all()) for shown, line in zip(in_view, lines, strict=True)
         ),
+        tuple(not shown for shown in in_view),
     )
 
 
@@ -144,13 +177,13 @@ def _compute_medians(levels: Array) -> Array:
 
 
 def _look_at_cells(
-    centres: Array, image: npt.NDArray[np.uint8], *, asymmetric: bool, are_bright: bool
+    places: IntArray, centres: Array, image: npt.NDArray[np.uint8], *, are_bright: bool
 ) -> _Cells:
-    """Look for discs in the places of a grid and around it; see `find_continuation`."""
-    places = _find_lattice_places(list_grid_indices(centres.shape[:2]), asymmetric=asymmetric)
+    """Look for discs in places (n, 2) of the lattice and around them, of which `centres` (n, 2) px
+    are known; see `find_continuation`."""
     first = places.min(axis=0) - 1
     uv = np.full((*(places.max(axis=0) - first + 2), 2), np.nan)
-    uv[tuple((places - first).T)] = centres.reshape(-1, 2)
+    uv[tuple((places - first).T)] = centres
     known = np.isfinite(uv[..., 0])
     at = predict_places(uv)
     levels = _sample_cells(at, estimate_steps(uv), image)
@@ -162,29 +195,25 @@ def _look_at_cells(
         difference = np.fmin.reduce(seen[..., 1:], axis=2) - seen[..., 0]
         limit = CIRCLE_THRESHOLDS.min_relative_contrast * np.nanmedian(difference[known])
         are_discs |= difference > limit
-    return _Cells(first, at, known, levels, are_discs)
+    return _Cells(first, at, known, levels, are_discs, np.asarray(np.isfinite(levels).all(axis=2)))
 
 
-def _find_lattice_places(grid: IntArray, *, asymmetric: bool) -> IntArray:
-    """Find the places (n, 2) on the lattice of nearest neighbours of rows and columns (n, 2)."""
-    row, col = grid.T
+def _find_lattice_places(xy: IntArray, *, asymmetric: bool) -> IntArray:
+    """Find the places (n, 2) on the lattice of nearest neighbours of places (n, 2), pitches."""
+    x, y = xy.T
     if not asymmetric:
-        return grid
-    x = 2 * col + row % 2
-    return np.column_stack([(row + x) // 2, (row - x) // 2])
+        return np.column_stack([y, x])
+    return np.column_stack([x + y, y - x]) // 2
 
 
-def _find_lines(
-    places: IntArray, grid_size: tuple[int, int], *, asymmetric: bool
-) -> tuple[BoolArray, ...]:
+def _find_lines(places: IntArray, xy: IntArray, *, asymmetric: bool) -> tuple[BoolArray, ...]:
     """Find which places (n, 2) of the lattice are of the line beyond the first row, the last row,
-    the first and the last column: masks (n,)."""
-    rows, cols = grid_size
-    row, x = places.T
-    width = cols
+    the first and the last column of the grid's places `xy` (m, 2), from its first: masks (n,)."""
+    y, x = places.T
     if asymmetric:
-        row, x, width = places.sum(axis=1), places[:, 0] - places[:, 1], 2 * cols
-    return row < 0, row >= rows, x < 0, x >= width
+        y, x = places.sum(axis=1), places[:, 0] - places[:, 1]
+    (left, top), (right, bottom) = xy.min(axis=0), xy.max(axis=0)
+    return y < top, y > bottom, x < left, x > right
 
 
 def _sample_cells(at: Array, steps: tuple[Array, Array], image: npt.NDArray[np.uint8]) -> Array:

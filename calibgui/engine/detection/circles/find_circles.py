@@ -58,6 +58,11 @@ _UNSEEN = (
     " are seen is not certain."
 )
 """Remark on a grid with gaps whose extent rests on circles that are not trusted."""
+_UNPLACED = (
+    "The picture does not show which of the board's rows and columns of circles these are: it would"
+    " if it showed paper beyond the grid's end on two sides that meet."
+)
+"""Remark on a part of a grid that may have several places."""
 _MAX_SCATTER_SIGMAS = 3.0
 """Greatest excess of the variance about the map over the stated one that counts as chance, standard
 deviations of the former."""
@@ -105,6 +110,8 @@ def find_circles(
     first, xy = first[is_seen], all_xy[is_seen]
     fit = _fit_circles(grey, first, xy, pattern)
     verified = _verify_circles(fit, xy, grey, found.in_view)
+    if found.is_part and np.count_nonzero(verified.good) < CIRCLE_THRESHOLDS.min_grid_circles:
+        raise _distrust(_TOO_MANY_FAIL)
     _check_diameter(pattern, 2 * verified.radius)
     order, ambiguity = _number_by_marks(verified, grid_size, pattern.symmetry(grid_size))
     places, is_good = grid[is_seen], verified.good[order]
@@ -120,6 +127,8 @@ def find_circles(
     is_border_trusted = np.all(np.ptp(places[is_good], axis=0) + 1 == grid_size)
     if not (is_seen.all() or found.is_part or is_border_trusted):
         doubts.append(_UNSEEN)
+    if not found.is_placed:
+        doubts.append(_UNPLACED)
     return Corners(
         shape=grid_size,
         grid=places[is_good],
@@ -248,21 +257,22 @@ def _number_by_marks(
 
 
 def _verify_circles(fit: EllipseFit, xy: Array, image: GreyImage, count: int) -> _VerifiedCircles:
-    """Verify the circles that are seen of a grid of `count`, and compute their centres' images.
+    """Verify the circles that are seen of a grid of which the image shows `count`, and compute
+    their centres' images.
 
-    Every ellipse must lie inside the image, be larger than its blur, be what a circle of the common
-    radius or a mark looks like there, where the others predict it, with a contrast like theirs, or
-    like theirs over the light, and no more unexplained.
+    Those that its border cuts are left out. Every ellipse must lie inside the image, be larger than
+    its blur, be what a circle of the common radius or a mark looks like there, where the others
+    predict it, with a contrast like theirs, or like theirs over the light, and no more unexplained.
 
     Raises:
         NoBoardError: if too many fail or are not seen.
     """
     limits = CIRCLE_THRESHOLDS
-    fewest = (1 - limits.max_rejected_share) * count
     if not (np.isfinite(fit.unknowns).all() and find_usable_covariances(fit.covariance).all()):
         raise _distrust(_NO_ELLIPSES)
     half = np.sqrt(np.einsum("nii->ni", fit.spread)) + fit.blur[:, None]
     good = ((fit.uv > half) & (fit.uv + half < np.array(image.shape[::-1]) - 1)).all(axis=1)
+    fewest = (1 - limits.max_rejected_share) * (count - np.count_nonzero(~good))
     shorter = np.sqrt(np.maximum(np.linalg.eigvalsh(fit.spread)[:, 0], 0.0))
     is_sharp = fit.blur < limits.max_blur_over_axis * shorter
     if np.count_nonzero(~is_sharp) > limits.max_rejected_share * len(good):

@@ -147,25 +147,26 @@ def find_lattice(points: Array) -> PointLattice | None:
     return best
 
 
-def list_boxes(lattice: PointLattice) -> Iterator[IntArray]:
-    """List the grids (rows, cols) that hold all points of a symmetric grid's lattice, in any basis
-    and turned by a quarter or not, but for lines that have two or fewer: indices of the points, -1
-    where none is."""
-    for xy in _shear_places(lattice, asymmetric=False):
-        for turn in _TURNS[:2]:
+def list_boxes(lattice: PointLattice, *, asymmetric: bool) -> Iterator[IntArray]:
+    """List the rectangles (h, w), by pitches, that hold all points of a grid's lattice, in any
+    basis and turn, but for lines that have two or fewer, or one where every second place is taken:
+    indices of the points, -1 where none is. A symmetric grid upside down is the same."""
+    strays = _MAX_STRAYS // 2 if asymmetric else _MAX_STRAYS
+    for xy in _shear_places(lattice, asymmetric=asymmetric):
+        for turn in _TURNS if asymmetric else _TURNS[:2]:
             x, y = (xy @ turn.T).T
-            kept = _find_common(x) & _find_common(y)
+            kept = _find_common(x, strays) & _find_common(y, strays)
             if kept.any():
                 x, y = x[kept] - x[kept].min(), y[kept] - y[kept].min()
-                grid = np.full((int(y.max()) + 1, int(x.max()) + 1), -1, dtype=np.int64)
-                grid[y, x] = lattice.points[kept]
-                yield grid
+                box = np.full((int(y.max()) + 1, int(x.max()) + 1), -1, dtype=np.int64)
+                box[y, x] = lattice.points[kept]
+                yield box
 
 
-def _find_common(line: IntArray) -> BoolArray:
-    """Find the points (n,) True that more than one other shares its line with."""
+def _find_common(line: IntArray, strays: int) -> BoolArray:
+    """Find the points (n,) True that share their line with others, and are more than `strays`."""
     start = line.min()
-    return np.asarray(np.bincount(line - start)[line - start] > _MAX_STRAYS)
+    return np.asarray(np.bincount(line - start)[line - start] > strays)
 
 
 def _is_continued(grid: LabelledGrid, points: Array, *, asymmetric: bool) -> bool:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -17,6 +18,7 @@ from calibgui.engine.detection.circles import ellipse_fit, find_circles
 from calibgui.engine.detection.circles.circle_map import fit_circle_map
 from calibgui.engine.detection.circles.continuation import find_continuation
 from calibgui.engine.detection.circles.ellipse_fit import EllipseFit
+from calibgui.engine.detection.corners import Corners
 from calibgui.engine.detection.find_corners import find_corners
 from calibgui.engine.errors import CalibrationError, NoBoardError
 from tests.engine.detection.conftest import CAMERA, Scene
@@ -379,18 +381,18 @@ def test_small_circles_are_found_in_a_large_picture() -> None:
     assert np.abs(scene.error(corners) - [1200, 900]).max() < 0.2
 
 
-def _show_near_fisheye(lens: Array, board: Board, rvec: Array, distance: float) -> GreyImage:
-    """Return a photograph of which a part of the board lies outside."""
+def _show_near_fisheye(lens: Array, board: Board, rvec: Array, distance: float) -> Scene:
+    """Return a scene of which a part of the board lies outside of the image."""
     camera = Camera((640, 480), [lens[0], lens[0], 322.0, 238.0, *lens[1:], 0.0, 0.0, 0.0, 0.0])
-    return Scene(board, camera, (rvec[0], rvec[1], rvec[2]), distance).image()
+    return Scene(board, camera, (rvec[0], rvec[1], rvec[2]), distance)
 
 
 def test_marks_and_a_cut_corner_leave_the_rest_of_a_grid_under_a_fisheye() -> None:
     marks = frozenset({(3, 3), (3, 4), (3, 5), (4, 3)})
     board = Board(6, 7, 26.0, MarkedCircles(False, 0.45, marks, 0.65))
     rvec = np.array([-0.126, 0.1975, 0.9717])
-    image = _show_near_fisheye(np.array([389.0, 0.287, 0.0775]), board, rvec, 130.5)
-    corners = find_corners(image, pattern=Circles())
+    scene = _show_near_fisheye(np.array([389.0, 0.287, 0.0775]), board, rvec, 130.5)
+    corners = find_corners(scene.image(), pattern=Circles())
     assert corners.shape == (6, 7) and len(corners) == 38 and not corners.relative
     missing = set(np.ndindex(6, 7)) - set(map(tuple, corners.grid.tolist()))
     assert missing == {(0, 0), (4, 6), (5, 5), (5, 6)}
@@ -401,10 +403,14 @@ def test_a_part_of_a_grid_under_a_fisheye_is_no_whole() -> None:
     marks = frozenset({(4, 4), (3, 4), (3, 5), (3, 6)})
     board = Board(7, 9, 26.0, MarkedCircles(False, 0.45, marks, 0.95))
     rvec = np.array([-0.579, -0.2457, -1.989])
-    image = _show_near_fisheye(np.array([260.7, 0.327, 0.0173]), board, rvec, 95.5)
-    for grid_size in (None, (7, 9)):
-        corners = find_corners(image, grid_size, pattern=Circles())
-        assert corners.relative and corners.remark
+    scene = _show_near_fisheye(np.array([260.7, 0.327, 0.0173]), board, rvec, 95.5)
+    image = scene.image()
+    corners = find_corners(image, pattern=Circles())
+    assert corners.relative and corners.remark
+    placed = find_corners(image, (7, 9), pattern=Circles())
+    assert len(placed) == 52 and not placed.relative
+    turned = replace(placed, grid=[6, 8] - placed.grid)
+    assert min(np.abs(scene.error(each)).max() for each in (placed, turned)) < 0.2
 
 
 @pytest.mark.parametrize(
@@ -492,12 +498,12 @@ def test_whole_grids_are_told_from_parts_on_each_side(pattern: Circles) -> None:
     image = Scene(Board(7, 6, 26.0, pattern), _SMALL, distance=500.0).image()
     centres = find_corners(image, (7, 6), pattern=pattern).uv.reshape(7, 6, 2)
     whole = find_continuation(centres, image, asymmetric=pattern.asymmetric)
-    assert not whole.is_seen and whole[4:-1] == (False, False, False)
-    assert whole.ends == (True, True, True, True)
+    assert not (whole.is_seen or whole.is_open or whole.has_discs or whole.is_shaded)
+    assert all(whole.ends) and not any(whole.leaves)
     for part in (centres[2:], centres[:-2], centres[:, 1:], centres[:, :-1]):
         seen = find_continuation(part, image, asymmetric=pattern.asymmetric)
-        assert np.count_nonzero(seen.goes_on) == 1 and seen[4:-1] == (False, True, False)
-        assert np.count_nonzero(seen.ends) == 3
+        assert np.count_nonzero(seen.goes_on) == 1 and np.count_nonzero(seen.ends) == 3
+        assert seen.has_discs and not (seen.is_open or seen.is_shaded or any(seen.leaves))
 
 
 def _photograph_screen(scene: Scene, seed: int, depth: float) -> GreyImage:
@@ -580,41 +586,93 @@ def test_spots_beside_a_grid_do_not_turn_it() -> None:
     assert find_corners(image, pattern=Circles(asymmetric=True)).shape == (13, 3)
 
 
-def _photograph_part(cols: int, rows: int = 6) -> tuple[Array, GreyImage]:
-    """Photograph the first columns and the last rows of 6 x 8 circles.
+def _photograph_part(
+    cols: int, rows: int = 6, *, asymmetric: bool = False
+) -> tuple[Scene, GreyImage]:
+    """Photograph the first columns and the last rows of 6 x 8 circles, or 6 x 4 asymmetric ones of
+    which `cols` counts those of every second row.
 
     Returns:
-        (6, 8, 2) px of all circles, and the image.
+        The scene, and the image, which is cut at the right and, if `rows` < 6, on top.
     """
-    board = Board(6, 8, 26.0, Circles(False, 0.45))
+    pattern = Circles(asymmetric, 0.8 if asymmetric else 0.45)
+    board = Board(6, 4 if asymmetric else 8, 26.0, pattern)
     scene = Scene(board, _SMALL, (0.1, 0.1, 0.0), 500.0)
-    uv = project_points(board.points(), scene.camera, scene.pose).reshape(6, 8, 2)
-    right = int(np.mean(uv[:, cols - 1 : cols + 1, 0])) if cols < 8 else None
-    top = int(np.mean(uv[5 - rows : 7 - rows, :, 1])) if rows < 6 else 0
-    return uv - [0, top], np.ascontiguousarray(scene.image()[top:, :right])
+    ends = np.array([(cols - 0.5, 2.5), (3.5, 5.5 - rows)]) * board.square
+    right, top = np.diag(project_points(ends, scene.camera, scene.pose))
+    image = scene.image()[max(int(top), 0) if rows < 6 else 0 :, : int(right) if cols < 8 else None]
+    return scene, np.ascontiguousarray(image)
 
 
-@pytest.mark.parametrize(("cols", "rows"), [(5, 6), (8, 4), (7, 5)])
-def test_a_part_of_a_grid_of_stated_size_is_placed(cols: int, rows: int) -> None:
-    uv, image = _photograph_part(cols, rows)
-    corners = find_corners(image, (6, 8), pattern=Circles())
-    assert len(corners) >= cols * rows - 2 and not corners.relative
-    at = tuple(corners.grid.T)
-    off = [np.linalg.norm(corners.uv - each[at], axis=1) for each in (uv, uv[::-1, ::-1])]
-    assert min(each.max() for each in off) < 0.1
+def _place_on_lattice(scene: Scene, image: GreyImage, corners: Corners) -> Array:
+    """Return the places (n, 2) on the board, pitches, at which the circles found truly are."""
+    full = scene.image()
+    top = full.shape[0] - image.shape[0]
+    uv = project_points(scene.board.points(), scene.camera, scene.pose) - [0, top]
+    distance = np.linalg.norm(corners.uv[:, None] - uv, axis=2)
+    assert distance.min(axis=1).max() < 0.1
+    return np.asarray(scene.board.points()[distance.argmin(axis=1), :2] / scene.board.square)
 
 
-def test_a_part_that_may_have_several_places_is_refused() -> None:
+@pytest.mark.parametrize(
+    ("cols", "rows", "asymmetric"),
+    [(5, 6, False), (8, 4, False), (7, 5, False), (5, 6, True), (6, 6, True), (5, 5, True)],
+)
+def test_a_part_of_a_grid_of_stated_size_is_placed(cols: int, rows: int, asymmetric: bool) -> None:
+    scene, image = _photograph_part(cols, rows, asymmetric=asymmetric)
+    corners = find_corners(image, scene.board.grid_size, pattern=Circles(asymmetric))
+    assert len(corners) >= cols * rows / (2 if asymmetric else 1) - 2 and not corners.relative
+    true = _place_on_lattice(scene, image, corners)
+    seen = scene.board.pattern.locate_points(corners.grid.astype(float))
+    turned = scene.board.points().max(axis=0)[:2] / scene.board.square - seen
+    assert any(np.abs(each - true).max() < 1e-6 for each in (seen, turned))
+
+
+def test_a_part_that_may_have_several_places_says_so() -> None:
     """Of 5 x 5 circles in a corner the rows may be the columns."""
-    _, image = _photograph_part(5, 5)
-    with pytest.raises(NoBoardError, match="but not which of them"):
-        find_corners(image, (6, 8), pattern=Circles())
+    scene, image = _photograph_part(5, 5)
+    _check_relative(scene, image, find_corners(image, (6, 8), pattern=Circles()))
+
+
+def _check_relative(scene: Scene, image: GreyImage, corners: Corners) -> None:
+    """Check that a part is said to have several places, and is in one of them."""
+    assert corners.relative and "which of the board's rows and columns" in corners.remark
+    true = _place_on_lattice(scene, image, corners)
+    seen = scene.board.pattern.locate_points(corners.grid.astype(float))
+    moves = [
+        true - seen @ np.array([(c, -s), (s, c)]) for c, s in ((1, 0), (0, 1), (-1, 0), (0, -1))
+    ]
+    assert min(np.ptp(move, axis=0).max() for move in moves) < 1e-6
 
 
 def test_what_is_covered_is_no_end_of_a_part() -> None:
     """The image cuts two columns, and a hand covers the first."""
-    uv, image = _photograph_part(6)
-    for u, v in np.rint(uv[:, 0]).astype(int):
+    scene, image = _photograph_part(6)
+    first = scene.board.points()[::8]
+    for u, v in np.rint(project_points(first, scene.camera, scene.pose)).astype(int):
         image[max(v - 30, 0) : v + 31, max(u - 20, 0) : u + 16] = 90
-    with pytest.raises(NoBoardError):
+    _check_relative(scene, image, find_corners(image, (6, 8), pattern=Circles()))
+
+
+def test_a_line_that_the_image_should_show_is_not_put_down_to_a_cover() -> None:
+    """On this side white paper lies over it, and on the other the board ends in the dark."""
+    scene = Scene(Board(6, 8, 26.0, Circles(False, 0.45)), _SMALL, (0.1, 0.1, 0.0), 500.0)
+    image = scene.image()
+    uv = project_points(scene.board.points(), scene.camera, scene.pose).reshape(6, 8, 2)
+    light = np.median(image[uv[2, 3, 1].astype(int) - 20])
+    image[:, : int(uv[:, 0, 0].max()) + 12] = light
+    image[:, int(uv[:, -1, 0].max()) + 18 :] = 40
+    with pytest.raises(NoBoardError, match="but one of 6 x 7"):
         find_corners(image, (6, 8), pattern=Circles())
+
+
+def test_a_bright_ground_beside_a_dark_board_is_no_further_line() -> None:
+    """The image ends before it shows what lies beyond the places of the next circles."""
+    scene = Scene(Board(6, 8, 26.0, Circles(False, 0.45)), _SMALL, (0.1, 0.1, 0.0), 500.0)
+    image = 255 - scene.image()
+    uv = project_points(scene.board.points(), scene.camera, scene.pose).reshape(6, 8, 2)
+    step = uv[:, 1, 0] - uv[:, 0, 0]
+    left = int((uv[:, 0, 0] - 0.7 * step).min())
+    image[:, :left] = image.max()
+    cut = np.ascontiguousarray(image[:, int((uv[:, 0, 0] - 1.2 * step).min()) :])
+    assert find_corners(cut, (6, 8), pattern=Circles()).complete
