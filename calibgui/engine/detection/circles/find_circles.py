@@ -3,11 +3,12 @@
 The grid is found coarsely among all parts that may be discs (`blobs`, `grid_labelling`), with gaps
 where a few circles are covered or cut off by the image's border. An ellipse is then fitted to the
 pixels of every circle's edge (`ellipse_fit`), and the image of the circle's centre follows from the
-ellipse's (`circle_map`), for the diameter that the ellipses show. Numbering is right-handed in the
-image; among origins that cannot be told apart the one that makes the grid upright is taken, or the
-one nearest to the first of the marked points. A symmetric grid turned by a quarter is another one
-with rows and columns exchanged: unless its size is stated, the fewer lines are its rows in every
-image.
+ellipse's (`circle_map`), for the diameter that the ellipses show. Circles that the edge of a
+shadow, a glare or a scratch crosses follow from the rest of their edge (`arc_fit`). Numbering is
+right-handed in the image; among origins that cannot be told apart the one that makes the grid
+upright is taken, or the one nearest to the first of the marked points. A symmetric grid turned by a
+quarter is another one with rows and columns exchanged: unless its size is stated, the fewer lines
+are its rows in every image.
 
 Boards of robot cells mark the origin, or the axes, by circles of another size. Such marks are
 circles like the others, and tell turns of the grid apart: of the numberings that remain that one is
@@ -16,7 +17,7 @@ taken by which they come first, row by row, whatever the picture or the user's p
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import numpy.typing as npt
@@ -26,6 +27,7 @@ from calibgui.engine.boards.circle_grid import Circles, list_grid_indices
 from calibgui.engine.boards.pattern import Symmetry
 from calibgui.engine.detection import region_of_interest as region
 from calibgui.engine.detection.circles import ellipse_fit
+from calibgui.engine.detection.circles.arc_fit import fit_arcs
 from calibgui.engine.detection.circles.circle_map import fit_circle_map
 from calibgui.engine.detection.circles.coarse_search import find_grid
 from calibgui.engine.detection.circles.continuation import find_continuation
@@ -110,6 +112,7 @@ def find_circles(
     first, xy = first[is_seen], all_xy[is_seen]
     fit = _fit_circles(grey, first, xy, pattern)
     verified = _verify_circles(fit, xy, grey, found.in_view)
+    verified = _add_arcs(verified, fit, xy, grey, pattern)
     if found.is_part and np.count_nonzero(verified.good) < CIRCLE_THRESHOLDS.min_grid_circles:
         raise _distrust(_TOO_MANY_FAIL)
     _check_diameter(pattern, 2 * verified.radius)
@@ -270,8 +273,7 @@ def _verify_circles(fit: EllipseFit, xy: Array, image: GreyImage, count: int) ->
     limits = CIRCLE_THRESHOLDS
     if not (np.isfinite(fit.unknowns).all() and find_usable_covariances(fit.covariance).all()):
         raise _distrust(_NO_ELLIPSES)
-    half = np.sqrt(np.einsum("nii->ni", fit.spread)) + fit.blur[:, None]
-    good = ((fit.uv > half) & (fit.uv + half < np.array(image.shape[::-1]) - 1)).all(axis=1)
+    good = _find_inside(fit.uv, fit.spread, fit.blur, image)
     fewest = (1 - limits.max_rejected_share) * (count - np.count_nonzero(~good))
     shorter = np.sqrt(np.maximum(np.linalg.eigvalsh(fit.spread)[:, 0], 0.0))
     is_sharp = fit.blur < limits.max_blur_over_axis * shorter
@@ -312,6 +314,43 @@ def _verify_circles(fit: EllipseFit, xy: Array, image: GreyImage, count: int) ->
     covariance = fit.covariance.copy()
     covariance[good] = _widen_covariances(xy[good], uv[good], covariance[good])
     return _VerifiedCircles(good, uv, radius, are_marks & good, covariance)
+
+
+def _add_arcs(
+    circles: _VerifiedCircles, fit: EllipseFit, xy: Array, image: GreyImage, pattern: Circles
+) -> _VerifiedCircles:
+    """Add the circles of which only parts of the edge are seen undisturbed, where the others
+    predict them."""
+    good = circles.good
+    if good.all():
+        return circles
+    circle_map = fit_circle_map(xy[good], circles.uv[good], are_exact=True)
+    J = circle_map.differentiate(xy)
+    spread = circles.radius**2 * J @ J.transpose(0, 2, 1)
+    bias = circle_map.compute_centre_bias(xy, np.full(len(xy), circles.radius))
+    expected = circle_map.locate(xy) + bias
+    blur = float(np.median(fit.blur[good]))
+    tried = np.flatnonzero(~good & _find_inside(expected, spread, blur, image))
+    shortest = np.sqrt(np.linalg.eigvalsh(spread[tried])[:, 0])
+    gap = 2 * (pattern.half_distance / circles.radius - 1) * shortest
+    arcs = fit_arcs(image, expected[tried], spread[tried], gap, blur, are_bright=fit.are_bright)
+    aside = arcs.uv - expected[tried]
+    off = np.linalg.norm(np.linalg.solve(J[tried], aside[..., None])[..., 0], axis=1)
+    is_added = arcs.is_told & (off < _MIN_DISAGREEMENT)
+    added = tried[is_added]
+    uv, covariance, good = circles.uv.copy(), circles.covariance.copy(), good.copy()
+    uv[added], good[added] = (arcs.uv - bias[tried])[is_added], True
+    # What is left of a disturbance draws many ways alike, as the distance from the map tells.
+    own = np.sum(aside**2, axis=1)[:, None, None] / 2 * np.eye(2) + arcs.covariance
+    covariance[added] = own[is_added]
+    return replace(circles, good=good, uv=uv, covariance=covariance)
+
+
+def _find_inside(uv: Array, spread: Array, blur: Array | float, image: GreyImage) -> BoolArray:
+    """Find the ellipses (n,) True, `uv` (n, 2) px and their spread (n, 2, 2) px^2, that the image
+    shows whole with their `blur`, (n,) or one for all, px."""
+    half = np.sqrt(np.einsum("nii->ni", spread)) + np.reshape(blur, (-1, 1))
+    return np.asarray(((uv > half) & (uv + half < np.array(image.shape[::-1]) - 1)).all(axis=1))
 
 
 def _find_agreeing(xy: Array, uv: Array, variance: Array) -> BoolArray:

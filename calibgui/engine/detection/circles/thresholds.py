@@ -67,6 +67,11 @@ class CircleThresholds:
     """Greatest distance of a circle from where the others predict it, pitches."""
     max_shape_difference: float = 0.2
     """Greatest difference of an ellipse from the one predicted by the others, over its size."""
+    min_arc_contrast: float = 0.05
+    """Least contrast of a way across a circle's edge, over the greatest of that circle: in a shadow
+    it is an eighth, and less of ink in it beside paper in the light."""
+    min_arc_share: float = 0.6
+    """Least share of a circle's edge that must be seen where the rest is disturbed."""
     max_rejected_share: float = 0.25
     """Share of circles, rejected or not seen, beyond which the grid itself is rejected."""
     min_mark_radius_difference: float = 0.15

@@ -352,7 +352,7 @@ def test_a_hidden_circle_might_be_a_mark() -> None:
     whole = find_corners(image, (7, 7), pattern=Circles())
     assert whole.ambiguity is Symmetry.NONE
     u, v = np.rint(whole.uv[20]).astype(int)
-    image[v - 2 : v + 3, u + 5 : u + 8] = 200  # a scratch at its rim
+    image[v - 9 : v + 10, u - 9 : u + 1] = 200  # paper over half of it
     corners = find_corners(image, (7, 7), pattern=Circles())
     assert len(corners.rejected) == 1
     assert corners.ambiguity is Symmetry.QUARTER_TURN
