@@ -123,26 +123,20 @@ def _is_filled(part: _Part) -> bool:
 
 def _list_starts(part: _Part, shape: IntArray) -> Iterator[IntArray]:
     """List the places (2,), pitches, of a grid of as many columns and rows as `shape` (2,) says, at
-    which a part of it may begin."""
-    seen, starts = part.seen, []
+    which a part of it may begin; none if the image shows it to go on."""
+    if part.seen.is_seen:
+        return
+    starts = []
     for axis, size in enumerate(part.xy.max(axis=0) + 1):
-        before, after = 2 * (1 - axis), 2 * (1 - axis) + 1
+        sides = np.s_[2 * (1 - axis) : 2 * (1 - axis) + 2]
         missing = int(shape[axis] - size)
-        if missing and not any(seen.leaves[k] or seen.goes_on[k] for k in (before, after)):
+        if missing and not any(part.seen.leaves[sides]):
             return
+        begins, ends = part.seen.ends[sides]
         starts.append(
-            [
-                k
-                for k in range(missing + 1)
-                if _may_lie(k, seen, before) and _may_lie(missing - k, seen, after)
-            ]
+            [k for k in range(missing + 1) if not ((k and begins) or (missing - k and ends))]
         )
     yield from map(np.array, product(*starts))
-
-
-def _may_lie(lines: int, seen: Continuation, side: int) -> bool:
-    """Return whether the grid may have that many lines beyond one of the part's four sides."""
-    return not (seen.ends[side] if lines else seen.goes_on[side])
 
 
 def _describe(centres: Array, symmetry: Symmetry) -> bytes:

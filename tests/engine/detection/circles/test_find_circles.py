@@ -676,3 +676,9 @@ def test_a_bright_ground_beside_a_dark_board_is_no_further_line() -> None:
     image[:, :left] = image.max()
     cut = np.ascontiguousarray(image[:, int((uv[:, 0, 0] - 1.2 * step).min()) :])
     assert find_corners(cut, (6, 8), pattern=Circles()).complete
+
+
+def test_a_part_that_is_seen_to_go_on_is_no_part_of_a_grid() -> None:
+    """Of more dots than a grid of that size has, those that the search takes fill a part of it."""
+    with pytest.raises(NoBoardError):
+        find_corners(draw_without_board(61071), (6, 9), pattern=Circles())
