@@ -58,7 +58,7 @@ _MIN_RELATIVE_MISFIT = 0.005
 fitted."""
 _MAX_MISFIT_RATIO = 0.5
 """Greatest ratio of the rms distance that a lens leaves to that without one at which it is kept."""
-_MIN_LENS_POINTS = 16
+MIN_LENS_POINTS = 16
 """Least number of points that a lens of three coefficients is fitted to."""
 _MIN_EXACT_POINTS = 9
 """The same of exact points: the corners of the smallest board."""
@@ -230,9 +230,9 @@ def fit_radial_homography(
     least, relative = (
         (_MIN_EXACT_POINTS, _MIN_EXACT_MISFIT)
         if are_exact
-        else (_MIN_LENS_POINTS, _MIN_RELATIVE_MISFIT)
+        else (MIN_LENS_POINTS, _MIN_RELATIVE_MISFIT)
     )
-    steps = 0 if is_start or len(uv) < _MIN_LENS_POINTS else _GAUSS_NEWTON_STEPS
+    steps = 0 if is_start or len(uv) < MIN_LENS_POINTS else _GAUSS_NEWTON_STEPS
     return RadialHomography(
         *_fit_map(
             cells,
@@ -455,9 +455,10 @@ def fit_grid_map(lattice: Lattice) -> GridMap:
     return fit_cells(np.argwhere(lattice.found).astype(np.float64), lattice.uv[lattice.found])
 
 
-def fit_cells(cells: Array, uv: Array) -> GridMap:
-    """Fit the map to the cells (n, 2) = (row, col), whole or not, seen at `uv` (n, 2) px."""
-    flat = fit_radial_homography(cells[:, ::-1], uv)
+def fit_cells(cells: Array, uv: Array, *, are_exact: bool = False) -> GridMap:
+    """Fit the map to the cells (n, 2) = (row, col), whole or not, seen at `uv` (n, 2) px, which may
+    be exact as for `fit_radial_homography`."""
+    flat = fit_radial_homography(cells[:, ::-1], uv, are_exact)
     residual = _prepare_residual(cells.tobytes())
     coefficients = residual.inverse @ (uv - flat.locate(cells[:, ::-1]))
     return GridMap(flat, residual.centre, residual.half, residual.powers, coefficients)

@@ -140,7 +140,9 @@ class BoardPriors:
         Returns:
             (n, 2, 2) derivatives of the position by column and by row, px, and (n, 2) kappa, 1/px.
         """
-        flat = grid_map.fit_radial_homography(self._cells, uv)
+        flat = grid_map.fit_radial_homography(
+            self._cells, uv, are_exact=len(uv) < grid_map.MIN_LENS_POINTS
+        )
         first, second = flat.differentiate(self._cells)
         weights, _, _ = self._fit_polynomials(uv - flat.locate(self._cells))
         rest = (self._terms.derivatives @ weights).transpose(1, 0, 2)

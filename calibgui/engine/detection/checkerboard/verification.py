@@ -324,7 +324,7 @@ def measure_displacements(uv: Array, cells: Array, undisturbed: BoolArray) -> Ar
     Returns:
         (n,) px.
     """
-    expected = grid_map.fit_cells(cells[undisturbed], uv[undisturbed]).locate(cells)
+    expected = grid_map.fit_cells(cells[undisturbed], uv[undisturbed], are_exact=True).locate(cells)
     return np.asarray(compute_lengths(uv - expected))
 
 

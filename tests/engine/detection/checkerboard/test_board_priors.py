@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 
 from calibgui.engine.detection.checkerboard.board_priors import BoardPriors
 from calibgui.engine.detection.checkerboard.near_priors import NearPriors
@@ -96,3 +97,20 @@ def test_light_that_breaks_does_not_ring_between_uneven_lines() -> None:
     gradient = NearPriors(places, 1.0).estimate_gradients(steps, values[:, None])[:, 0]
     # The shadow's edge may pass a corner on both sides.
     assert np.quantile(abs(gradient - [0.0, 2.0]).max(axis=1), 0.9) < 1.0
+
+
+def test_the_steps_of_few_corners_follow_a_strong_lens() -> None:
+    """With no corner in one place at the border, by which no polynomial followed it."""
+
+    def see(cells: NDArray[np.float64]) -> NDArray[np.float64]:
+        q = (cells - [1.5, 1.0]) / 2
+        q = q / (1 + q @ np.array([0.15, 0.1]))[:, None]
+        return 300 + 200 * q * (1 - 0.12 * np.sum(q**2, axis=1, keepdims=True))
+
+    found = np.ones((3, 4), dtype=np.bool_)
+    found[2, 0] = False
+    cells = np.argwhere(found)[:, ::-1].astype(np.float64)
+    ends = [[see(cells + end * axis) for end in (-0.01, 0.01)] for axis in np.eye(2)]
+    true = np.stack([(after - before) / 0.02 for before, after in ends], axis=1)
+    steps, _ = BoardPriors(found).estimate_geometry(see(cells))
+    np.testing.assert_allclose(steps, true, atol=10.0)

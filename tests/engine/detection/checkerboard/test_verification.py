@@ -385,6 +385,14 @@ class TestDescribedCorners:
 
 
 class TestDisplacedCorners:
+    def test_a_strong_lens_displaces_none_of_few_corners(self) -> None:
+        """Not even one that the others do not surround."""
+        scene = draw(Conditions(grid_size=(3, 4), square=110.0, distortion=0.43), 0)
+        cells, uv = list_cells(Lattice(scene.uv, True)), scene.uv.reshape(-1, 2)
+        for corner in range(len(uv)):
+            off = verification.measure_displacements(uv, cells, np.arange(len(uv)) != corner)
+            assert off.max() < 0.02 * 110.0
+
     @pytest.mark.parametrize(
         ("residual", "shift", "displaced"),
         [(2.6, 0.029, False), (2.6, 0.031, True), (2.6, np.nan, True), (2.4, 1.0, False)],
