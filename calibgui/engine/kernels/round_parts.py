@@ -19,12 +19,13 @@ from calibgui.engine.kernels.common import compiled, compiled_part, make_read_on
 _Bytes = npt.NDArray[np.unsignedinteger[Any]]
 """Arrays of uint8."""
 _Words = npt.NDArray[np.unsignedinteger[Any]]
-"""The same memory as uint64."""
+"""Arrays of uint64 that view the memory of `_Bytes`, eight pixels each."""
 _WORD = 8
 """Number of pixels that are skipped at once where no run begins or ends among them."""
 _N, _U, _UU, _V, _VV, _UV, _LEFT, _RIGHT, _FIRST, _LAST = range(10)
-"""What is known of a part: the sums of 1, u, u^2, v, v^2 and u v over its pixels, the first of its
-columns and the one after the last, the number of its first pixel row by row, and its last row."""
+"""Columns of the table of parts: the sums of 1, u, u^2, v, v^2 and u v over a part's pixels, the
+first of its columns and the one after the last, the number of its first pixel row by row, and its
+last row."""
 _SUMS = 6
 """Number of the sums."""
 _TOLD = -1

@@ -46,7 +46,7 @@ class Turn(NamedTuple):
     """A way in which some photographs are turned against the others."""
 
     how: str
-    """How they stand."""
+    """Way in which the photographs stand, such as "upside down"."""
     remedy: str
     """The instruction that turns them back."""
     rms: float

@@ -1,4 +1,4 @@
-"""What neighbouring pixels have in common along the outlines of tags.
+"""Growth of the covariances of tags by errors that neighbouring pixels share along outlines.
 
 JPEG, enlarging and denoising make one pixel's error its neighbours', and greater at edges than
 beside them: the outlines are then worse known than pixels by themselves say. As at corners of

@@ -250,7 +250,7 @@ def _compute_bends(board: RadialHomography, first: Array) -> Array:
 
 
 class _Prior(NamedTuple):
-    """What bows and correlations k tags are expected to have, and how well that is known."""
+    """Expected bows and correlations of k tags, with their standard deviations."""
 
     bows: Array
     """(k, 4) px."""

@@ -138,9 +138,9 @@ class _Turn(NamedTuple):
     """The comparison of dots, turned by some quarters, with the maps."""
 
     by_row: _Comparison
-    """Of the dots between rows."""
+    """Comparison of the dots between rows."""
     by_col: _Comparison
-    """Of the dots between columns."""
+    """Comparison of the dots between columns."""
 
 
 def find_place(dots: Dots, board: StatedBoard | None = None) -> Place:
