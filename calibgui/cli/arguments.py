@@ -212,6 +212,7 @@ def search_images(
     """
     images = find_images(paths)
     rois = read_regions(roi, images) if roi else {}
+    say_once = cache(console.print_problem)  # a later search may compile more
 
     def search(pattern: Pattern, grid_size: GridSize | None) -> Detection:
         with console.show_progress("searching") as advance:
@@ -222,7 +223,7 @@ def search_images(
                 lambda done, total, _: advance(done, total),
                 method=corners,
                 pattern=pattern,
-                preparing=lambda: console.print_problem(
+                preparing=lambda: say_once(
                     "Preparing the search for its first use "
                     f"(once, about {estimate_preparation(pattern)} s)…"
                 ),
@@ -231,7 +232,7 @@ def search_images(
     if pattern is not None:
         return search(pattern, grid_size)
     preparing = "Preparing the search for other boards for its first use (once, about 10 s)…"
-    return find_any_board(search, grid_size, lambda: console.print_problem(preparing))
+    return find_any_board(search, grid_size, lambda: say_once(preparing))
 
 
 def require_board(

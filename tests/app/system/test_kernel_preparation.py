@@ -31,6 +31,7 @@ def list_kernels():
 
 photograph = read_image(sys.argv[1]).pixels
 v, u = np.indices(photograph.shape)
+both = np.hstack([photograph, photograph])
 uneven = photograph * (0.8 + 0.2 * np.sin(u / 12) * np.sin(v / 12))
 camera = Camera((480, 360), [490.0, 493.0, 236.0, 182.0, 0.15, 0.03, 0.0, 3e-4, -4e-4, 0.0])
 boards = [
@@ -54,6 +55,7 @@ for depth in (np.uint8, np.uint16):
     prepared = list_kernels()
     find_corners(photograph.astype(depth))
     find_corners(uneven.astype(depth))
+    find_corners(both.astype(depth))
     print(len(prepared), *sorted(list_kernels() - prepared))
     for board, view in zip(boards, views):
         choose_preparation(board.pattern)(depth)
