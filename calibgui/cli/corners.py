@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 from collections.abc import Sequence
 from dataclasses import replace
+from fnmatch import fnmatchcase
 from pathlib import Path
 
 from calibgui.app.photographs.paths import describe_unread_folders, describe_unread_photographs
@@ -43,7 +44,7 @@ def add_corner_options(parser: argparse.ArgumentParser, need: str) -> None:
         nargs="+",
         default=(),
         metavar="IMAGE",
-        help="images to leave out, by their names or paths",
+        help="images to leave out, by names, paths or 'patter*ns'",
     )
 
 
@@ -115,22 +116,26 @@ def _exclude_images(corner_set: CornerSet, names: Sequence[str]) -> CornerSet:
 
     Args:
         corner_set: the views.
-        names: names or paths of images.
+        names: names or paths of images, or patterns as a shell has them of either.
 
     Raises:
-        CalibrationError: for a name that no image has.
+        CalibrationError: for a name that no image has, and a pattern that none fits.
     """
-    known = {name for view in corner_set.views for name in (view.image, Path(view.image).name)}
+    images = [view.image for view in corner_set.views]
+    excluded: set[str] = set()
     for name in names:
-        if name not in known:
+        named = [each for each in images if name in (each, Path(each).name)] or [
+            each for each in images if fnmatchcase(each, name) or fnmatchcase(Path(each).name, name)
+        ]
+        if not named:
             raise CalibrationError(
                 f"There is no image {name!r} to leave out.",
-                "Give the name of one of the images, as it is listed, or its path.",
+                "Give the name of one of the images, as it is listed, its path, or a pattern "
+                "that fits the names of some.",
             )
+        excluded.update(named)
     views = tuple(
-        replace(view, enabled=False)
-        if view.image in names or Path(view.image).name in names
-        else view
+        replace(view, enabled=False) if view.image in excluded else view
         for view in corner_set.views
     )
     return replace(corner_set, views=views) if names else corner_set

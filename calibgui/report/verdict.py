@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import glob
+import itertools
 import shlex
 from collections.abc import Sequence
+from fnmatch import fnmatchcase
 
 import numpy as np
 
@@ -27,8 +30,8 @@ _HEADLINES = {
     Grade.CAN_BE_BETTER: "CAN BE {times} TIMES BETTER",
     Grade.NOT_USABLE: "NOT USABLE",
 }
-
-
+_MOST_NAMES = 3
+"""Number of images up to which all are named."""
 _MIN_BLUR, _MIN_RELATIVE_BLUR = 1.5, 2.0
 """Blur of a photograph's edges, px, and over that of the median one, from which it is called
 blurred. Of photographs that people took for sharp the worst has 1.8 times the median, 0.9 px."""
@@ -136,7 +139,7 @@ def _format_own_options(action: Action, names: Sequence[str]) -> str:
         case ActionKind.LEAVE_OUT_CORNERS:
             return "--robust"
         case ActionKind.LEAVE_OUT_VIEWS:
-            return "--exclude " + shlex.join(names[k] for k in action.views)
+            return "--exclude " + shlex.join(_abbreviate_names(names, action.views))
         case ActionKind.HOLD_AT_ZERO:
             return f"--fix {parameters}"
         case ActionKind.WEIGH_VIEWS:
@@ -145,7 +148,24 @@ def _format_own_options(action: Action, names: Sequence[str]) -> str:
             return ""
 
 
-def join_names(names: Sequence[str], most: int = 3) -> str:
+def _abbreviate_names(names: Sequence[str], chosen: Sequence[int]) -> list[str]:
+    """Return one pattern, as a shell has them, that fits the `chosen` of some names and no others,
+    if they are many and there is such a pattern, and otherwise these names."""
+    those = [names[k] for k in chosen]
+    first = _find_common_start(those)
+    last = _find_common_start([name[len(first) :][::-1] for name in those])[::-1]
+    pattern = f"{glob.escape(first)}*{glob.escape(last)}"
+    are_only_those = sum(fnmatchcase(name, pattern) for name in names) == len(those)
+    return [pattern] if len(those) > _MOST_NAMES and are_only_those else those
+
+
+def _find_common_start(texts: Sequence[str]) -> str:
+    """Return the characters that all of some texts begin with."""
+    alike = itertools.takewhile(lambda each: len(set(each)) == 1, zip(*texts, strict=False))
+    return "".join(each[0] for each in alike)
+
+
+def join_names(names: Sequence[str], most: int = _MOST_NAMES) -> str:
     """Join names to "a, b and c", or to "a, b, c and 4 more"."""
     if len(names) > most:
         return f"{', '.join(names[:most])} and {len(names) - most} more"

@@ -50,6 +50,18 @@ def test_images_are_left_out_by_name(corners_file: Path, capsys: Capture) -> Non
     assert "no image 'nothing.png' to leave out" in capsys.readouterr().err
 
 
+def test_images_are_left_out_by_a_pattern(content: Any, tmp_path: Path, capsys: Capture) -> None:
+    for k, view in enumerate(content["views"]):
+        view["image"] = f"{'left' if k < 2 else 'right'}[{k}].png"
+    file = tmp_path / "corners.json"
+    file.write_text(json.dumps(content))
+    count = len(content["views"])
+    assert main(["calibrate", str(file), "-q", "--exclude", "left*"]) == 0
+    assert f"{count - 2} of {count} images" in capsys.readouterr().out
+    assert main(["calibrate", str(file), "-q", "--exclude", "left[0].png"]) == 0
+    assert f"{count - 1} of {count} images" in capsys.readouterr().out
+
+
 def test_json_holds_the_verdict(corners_file: Path, capsys: Capture) -> None:
     assert main(["calibrate", str(corners_file), "--json", "--fix", "fx=300"]) == 0
     record = json.loads(capsys.readouterr().out)

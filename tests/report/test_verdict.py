@@ -53,3 +53,23 @@ def test_a_blurred_photograph_that_does_no_harm_is_named(blur: float, named: boo
     assert describe_reason(verdict, result) == reason + words
     unusable = replace(verdict, grade=Grade.NOT_USABLE)
     assert describe_reason(unusable, result) == reason
+
+
+@pytest.mark.parametrize(
+    ("names", "chosen", "words"),
+    [
+        ([*"abcd", *(f"right [{k}].png" for k in range(5))], 5, "'right [[]*].png'"),
+        (["right0.png", *(f"right{k}.png" for k in range(5))], 5, "right0.png right1.png"),
+        (["left.png", *(f"right{k}.png" for k in range(3))], 3, "right0.png right1.png"),
+    ],
+)
+def test_many_images_are_named_by_a_pattern_that_fits_no_other(
+    names: list[str], chosen: int, words: str
+) -> None:
+    result = SimpleNamespace(
+        used=[SimpleNamespace(name=name) for name in names],
+        calibration=SimpleNamespace(cost=Cost.IMAGE, settings={}),
+    )
+    views = tuple(range(len(names) - chosen, len(names)))
+    action = Action(ActionKind.LEAVE_OUT_VIEWS, views=views)
+    assert describe_options(action, cast(Result, result)).startswith(f"add --exclude {words}")
