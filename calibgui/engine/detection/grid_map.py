@@ -450,9 +450,10 @@ class GridMap:
         return self.homography.locate(cells[:, ::-1]) + residual
 
 
-def fit_grid_map(lattice: Lattice) -> GridMap:
-    """Fit the map to the corners of `lattice`."""
-    return fit_cells(np.argwhere(lattice.found).astype(np.float64), lattice.uv[lattice.found])
+def fit_grid_map(lattice: Lattice, *, are_exact: bool = False) -> GridMap:
+    """Fit the map to the corners of a lattice, see `fit_cells`."""
+    cells = np.argwhere(lattice.found).astype(np.float64)
+    return fit_cells(cells, lattice.uv[lattice.found], are_exact=are_exact)
 
 
 def fit_cells(cells: Array, uv: Array, *, are_exact: bool = False) -> GridMap:

@@ -101,14 +101,34 @@ def find_sound_corners(
         off = measure_in_steps(uv - marked, *steps)
         astray &= ~(off < THRESHOLDS.verification.max_deviation)
     if astray.any() and not astray[good].all():
-        cells = np.argwhere(astray)
-        expected = grid_map.fit_grid_map(lattice.select(good & ~astray)).locate(
-            cells.astype(np.float64)
-        )
-        right, down = (step[astray] for step in steps)
-        off = measure_in_steps(uv[astray] - expected, right, down)
+        off = _measure_off_map(lattice.select(good & ~astray), lattice, astray)
         astray[astray] = ~(off < THRESHOLDS.verification.max_grid_map_rms)
+    if not is_credible(int(np.count_nonzero(astray)), len(alike)):
+        astray = _find_off_map(alike, astray)
     return np.asarray(good & ~astray)
+
+
+def _measure_off_map(known: Lattice, lattice: Lattice, places: BoolArray) -> Array:
+    """Measure how far the corners of a lattice at some places (rows, cols) lie from the grid map
+    through those `known`, (n,) steps; NaN where there are too few to tell steps."""
+    smooth = grid_map.fit_grid_map(known, are_exact=True)
+    expected = smooth.locate(np.argwhere(places).astype(np.float64))
+    right, down = (step[places] for step in lattice.steps())
+    return measure_in_steps(lattice.uv[places] - expected, right, down)
+
+
+def _find_off_map(lattice: Lattice, astray: BoolArray) -> BoolArray:
+    """Find which of the corners that are `astray` (rows, cols) the grid map through all others does
+    not expect either: a strong lens over few squares misleads most neighbours."""
+    limit = THRESHOLDS.verification.max_grid_map_rms
+    if not (_measure_off_map(lattice, lattice, astray) < limit).any():
+        return astray
+    astray = astray.copy()
+    for place in map(tuple, np.argwhere(astray)):
+        one = np.zeros_like(astray)
+        one[place] = True
+        astray[place] = not _measure_off_map(lattice.select(~one), lattice, one)[0] < limit
+    return astray
 
 
 def _find_sparse_lines(found: BoolArray) -> BoolArray:
@@ -154,7 +174,8 @@ def drop_broken_lines(lattice: Lattice, image: GreyImage) -> Lattice:
     """
     limits = THRESHOLDS.verification
     cells = np.argwhere(lattice.found).astype(np.float64)
-    off = compute_lengths(grid_map.fit_grid_map(lattice).locate(cells) - lattice.uv[lattice.found])
+    smooth = grid_map.fit_grid_map(lattice, are_exact=True)
+    off = compute_lengths(smooth.locate(cells) - lattice.uv[lattice.found])
     if np.sqrt(np.mean((off / lattice.spacing()[lattice.found]) ** 2)) > limits.max_grid_map_rms:
         return drop_isolated_and_crop(lattice.select(np.zeros(lattice.shape, dtype=np.bool_)))
     broken = _find_broken_places(lattice, image)
@@ -183,7 +204,8 @@ def _find_broken_places(lattice: Lattice, image: GreyImage) -> BoolArray:
     places = np.argwhere(broken)
     if not len(places):
         return broken
-    uv = grid_map.fit_grid_map(lattice).locate(places.astype(np.float64))
+    smooth = grid_map.fit_grid_map(lattice, are_exact=True)
+    uv = smooth.locate(places.astype(np.float64))
     dark = lattice.dark ^ (places.sum(axis=1) % 2 == 1)
     contradicted = estimate_template(lattice, image).contradict(
         image, uv, right[broken], down[broken], dark

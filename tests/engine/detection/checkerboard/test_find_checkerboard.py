@@ -14,11 +14,15 @@ from numpy.typing import NDArray
 from calibgui.engine.boards.board import Board
 from calibgui.engine.boards.pattern import Symmetry
 from calibgui.engine.boards.puzzleboard import PuzzleBoard
+from calibgui.engine.camera import Camera
+from calibgui.engine.camera.distortion import project_points
 from calibgui.engine.detection.checkerboard import find_checkerboard
 from calibgui.engine.detection.corners import Corners
 from calibgui.engine.detection.find_corners import find_corners
 from calibgui.engine.detection.lattice import Lattice
 from calibgui.engine.errors import NoBoardError
+from calibgui.engine.geometry import Pose
+from calibgui.engine.images import render_view
 from calibgui.engine.images.reading import read_image
 from tests.scenes.checkerboards import draw as draw_scene
 from tests.scenes.conditions import Conditions
@@ -58,6 +62,27 @@ def test_finds_every_corner_in_its_place(
     noise = scene.get("noise", 0.0) / (np.diff(scene.get("levels", (40.0, 210.0)))[0])
     assert np.abs(error).max() < 0.05 + 2 * noise
     assert np.abs(corners.estimate - corners.uv).max() < 4
+
+
+@pytest.mark.parametrize(
+    ("shape", "rvec", "tvec"),
+    [
+        ((3, 6), [0.66, 0.42, -0.11], [-53.0, -39.0, 76.0]),
+        ((3, 6), [-0.12, 0.33, -0.02], [-105.0, -33.0, 96.0]),
+        ((4, 5), [-0.72, 0.09, -0.95], [-37.0, -31.0, 104.0]),
+    ],
+)
+def test_few_squares_near_a_fisheye_are_all_found(
+    shape: tuple[int, int], rvec: list[float], tvec: list[float]
+) -> None:
+    """No corner lies there where those beside it expect it."""
+    fisheye = [230.0, 230.0, 320.0, 240.0, 0.0, 0.0, 0.0, 0.0]
+    camera = Camera((640, 480), fisheye, "kannala-brandt")
+    pose, board = Pose(np.array(rvec), np.array(tvec)), Board(*shape, 180 / (shape[1] + 1))
+    corners = find_corners(render_view(camera, pose, board, blur=0.6, noise=1.0))
+    assert corners.shape == shape and corners.complete
+    truth = project_points(board.points()[:, :2], camera, pose)
+    assert np.linalg.norm(corners.uv[:, None] - truth, axis=2).min(axis=1).max() < 0.5
 
 
 @pytest.mark.parametrize("given_size", [True, False])
