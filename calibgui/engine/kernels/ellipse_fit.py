@@ -67,6 +67,7 @@ def _differentiate(x: Array, gradient: Array, pixels: Array, J: Array) -> None:
     """Fill J (9, K) with the derivatives by the unknowns and the residuals at `pixels`."""
     uu, uv, vv, blur, m, a = x[2], x[3], x[4], x[5], x[6], x[7]
     bend = (uu * vv - uv * uv) * blur * blur / 2
+    share = a / max(m, abs(a), 1.0)
     for p in range(J.shape[1]):
         grey, qu, qv = pixels[0, p], pixels[1, p], pixels[2, p]
         su, sv = uu * qu + uv * qv, uv * qu + vv * qv
@@ -86,7 +87,8 @@ def _differentiate(x: Array, gradient: Array, pixels: Array, J: Array) -> None:
         J[2, p], J[3, p], J[4, p] = -by_d * qu * qu / 2, -by_d * qu * qv, -by_d * qv * qv / 2
         J[5, p] = a * fall * (_ROOT2 / _ROOT_PI / (2 * box) * (blur / g))
         J[6, p], J[7, p] = 1.0, value
-        J[8, p] = grey - m - gradient[0] * qu - gradient[1] * qv - a * value
+        rise = gradient[0] * qu + gradient[1] * qv
+        J[8, p] = grey - m - a * value - rise * (1 + share * value)
 
 
 @compiled

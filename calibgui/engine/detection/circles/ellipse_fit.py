@@ -11,14 +11,15 @@ is to first order the distance of q inside the curve rho = 1. Of an edge that be
 the curvature kappa = rho^2 det S / |S q|^3 a blur s leaves less, as if it were kappa s^2 / 2
 farther in, and the blurred image is
 
-    I(q) = m + gm.q + a E(d - kappa s^2 / 2),
+    I(q) = (m + a E(d - kappa s^2 / 2)) (1 + g.q),
 
-E the blurred edge of ``edge_intensity``. The unknowns c, S (3), blur, m and a are found by
-Gauss-Newton steps on the pixels near the edge, all circles at once. Under point reflection
-about c the derivatives by c are odd and the others even, so that they decouple, and the
-covariance of c is the Cramer-Rao bound noise^2 (sum of (grad I)(grad I)^T)^-1. The light's
-gradient gm is odd too: it is taken from how m varies from disc to disc. The blur moves the pattern
-by -s^2 grad a / a, and it is moved back.
+E the blurred edge of ``edge_intensity`` and g the gradient of the light over itself. The unknowns
+c, S (3), blur, m and a are found by Gauss-Newton steps on the pixels near the edge, all circles at
+once. Under point reflection about c the derivatives by c are odd and the others even, so that they
+decouple, and the covariance of c is the Cramer-Rao bound noise^2 (sum of (grad I)(grad I)^T)^-1.
+The light's gradient is odd too: m g is taken from how m varies from disc to disc. The blur moves
+the pattern by -s^2 grad a / a, and it is moved back. Much out of focus, m and a are not fitted, but
+read where discs and paper are flat (`defocus`).
 """
 
 from __future__ import annotations
@@ -30,6 +31,7 @@ import scipy
 
 from calibgui.engine import kernels
 from calibgui.engine.arrays import Array, BoolArray, GreyImage, IntArray
+from calibgui.engine.detection.circles.defocus import SeenLevels, estimate_rise, read_levels
 from calibgui.engine.detection.circles.thresholds import CIRCLE_THRESHOLDS
 from calibgui.engine.detection.detector_io import estimate_least_noise
 from calibgui.engine.detection.edge_intensity import compute_edge
@@ -53,6 +55,14 @@ _UNKNOWNS = 8
 _C, _S = np.s_[:, 0:2], np.s_[:, 2:5]
 _BLUR, _M, _A = np.s_[:, 5], np.s_[:, 6], np.s_[:, 7]
 """Columns of the unknowns; S as (uu, uv, vv)."""
+_FIXED_LEVELS = 6
+"""Number of unknowns that are left where m and a are seen."""
+_MIN_DEFOCUS = 1.5
+"""Least blur that may be such that the edge's shape matters, px."""
+_MIN_EXCESS = 0.02
+"""Excess of the fitted contrast over the seen one at which the latter counts."""
+_MAX_UNEVENNESS = 0.025
+"""Loss of contrast beside a disc's middle up to which this shows the ink."""
 _RAYS = 24
 """Number of directions in which the edge is sampled for the start."""
 _SAMPLES = 49
@@ -85,6 +95,9 @@ class EllipseFit:
     noise: Array
     """(n,) standard deviation of the noise from pixel to pixel on the paper beside, grey levels; 0
     where that is not told."""
+    is_out_of_focus: bool = False
+    """True if levels were read where the discs are flat, as their edges are none of a Gaussian
+    blur."""
 
     @property
     def uv(self) -> Array:
@@ -141,8 +154,8 @@ def fit_ellipses(
         neighbours: (2, 2) displacements to its neighbours on one side, in the same unit.
     """
     x = _estimate_start(image, uv, steps, reach, paper)
-    gradient, beside = np.zeros_like(uv), _find_neighbours(uv, steps, neighbours)
-    is_even = np.zeros(len(uv), dtype=bool)
+    start, beside = x, _find_neighbours(uv, steps, neighbours)
+    gradient, is_even = np.zeros_like(uv), np.zeros(len(uv), dtype=bool)
     for step in range(_GAUSS_NEWTON_STEPS):
         fit = _take_step(image, x, gradient, _BAND_HALF_WIDTHS[min(step, 1)])
         x = fit.unknowns
@@ -152,10 +165,60 @@ def fit_ellipses(
         gradient[is_even] = 0.0
     rise = _estimate_gradient(x[_A], x, beside) / x[:, 7:]
     rise[is_even] = 0.0
+    if (x[_BLUR] > _MIN_DEFOCUS).all():
+        seen = read_levels(image, fit.uv, steps, reach, paper)
+        if _is_out_of_focus(x, seen):
+            rise = estimate_rise(seen, uv)
+            fit = _fit_out_of_focus(image, start, seen, rise)
+            x = fit.unknowns
     moved = x.copy()
     moved[_C] += x[_BLUR][:, None] ** 2 * rise
     on_paper = uv[:, None] + (steps @ paper.T).transpose(0, 2, 1)
     return replace(fit, unknowns=moved, noise=_estimate_noise(image, x, on_paper))
+
+
+def _is_out_of_focus(x: Array, seen: SeenLevels) -> bool:
+    """Return whether fits claim more contrast than is seen of discs that are flat in the middle."""
+    excess = float(np.median(2 * x[_A] / seen.contrast)) - 1
+    return excess > _MIN_EXCESS and seen.unevenness < _MAX_UNEVENNESS
+
+
+def _fit_out_of_focus(image: GreyImage, x: Array, seen: SeenLevels, rise: Array) -> EllipseFit:
+    """Fit the model from the start `x` (n, 8) with paper and ink as they are seen, in light of the
+    gradient `rise` (n, 2) over itself, 1/px."""
+    x = x.copy()
+    x[_M], x[_A] = (seen.ink + seen.paper) / 2, seen.contrast / 2
+    gradient = rise * x[:, 6:7]
+    for step in range(_GAUSS_NEWTON_STEPS):
+        fit = _take_step(image, x, gradient, _BAND_HALF_WIDTHS[min(step, 1)], _FIXED_LEVELS)
+        x = fit.unknowns
+    noise = _estimate_odd_noise(image, x, gradient)
+    variance = np.maximum(noise**2, estimate_least_noise(image))
+    before = np.maximum(fit.residual**2, estimate_least_noise(image))
+    covariance = fit.covariance * (variance / before)[:, None, None]
+    return replace(fit, covariance=covariance, is_out_of_focus=True)
+
+
+def _estimate_odd_noise(image: GreyImage, x: Array, gradient: Array) -> Array:
+    """Estimate the standard deviation (n,) of what the model leaves unexplained and differs from
+    one pixel to that on the other side of the disc, grey levels: what does not, as an edge of
+    another shape, moves no centre. The discs' blur is well above the pixel."""
+    half = np.ceil(_find_extent(x, _BAND_HALF_WIDTHS[1])).astype(np.int64)
+    limit = np.array(image.shape[::-1]) - 1
+    variance = []
+    for part in _list_portions(half):
+        its = x[part]
+        grey, qu, qv, weight = _read_bands(image, its, half[part], _BAND_HALF_WIDTHS[1], _MIN_RHO)
+        opposite = np.rint(its[:, None, _C[1]] - np.stack([qu, qv], axis=2)).astype(np.int64)
+        weight *= ((opposite >= 0) & (opposite <= limit)).all(axis=2)
+        u, v = np.moveaxis(np.clip(opposite, 0, limit), 2, 0)
+        own, other = (
+            _differentiate_model(its, gradient[part], level, pu, pv, weight)[:, -1]
+            for level, pu, pv in ((grey, qu, qv), (image[v, u], u - its[:, :1], v - its[:, 1:2]))
+        )
+        count = np.maximum(weight.sum(axis=1) - 2, 1)
+        variance.append(np.sum((own - other) ** 2, axis=1) / 2 / count)
+    return np.sqrt(np.concatenate(variance))
 
 
 def _find_evenly_lit(image: GreyImage, x: Array, gradient: Array) -> BoolArray:
@@ -215,20 +278,25 @@ def _estimate_start(image: GreyImage, uv: Array, steps: Array, reach: float, pap
     return unknowns
 
 
-def _take_step(image: GreyImage, x: Array, gradient: Array, band: float) -> EllipseFit:
-    """Take one Gauss-Newton step on the pixels within `band` blurs of the edges."""
+def _take_step(
+    image: GreyImage, x: Array, gradient: Array, band: float, free: int = _UNKNOWNS
+) -> EllipseFit:
+    """Take one Gauss-Newton step on the pixels within `band` blurs of the edges, by the first
+    unknowns, `free` of them."""
     products = _sum_products(image, x, gradient, band, _MIN_RHO)
-    N, g = products[:, :_UNKNOWNS, :_UNKNOWNS], products[:, :_UNKNOWNS, _UNKNOWNS]
+    N, g = products[:, :free, :free], products[:, :free, -1]
     count = products[:, 6, 6]
     scale = np.sqrt(np.einsum("nii->ni", N)) + 1e-300
-    N = N / scale[:, :, None] / scale[:, None] + 1e-12 * np.eye(_UNKNOWNS)
+    N = N / scale[:, :, None] / scale[:, None] + 1e-12 * np.eye(free)
     g = g / scale
     move = np.linalg.solve(N, g[..., None])[..., 0]
     square = np.maximum(products[:, -1, -1] - np.sum(move * g, axis=1), 0.0)
-    square /= np.maximum(count - _UNKNOWNS, 1)
+    square /= np.maximum(count - free, 1)
     with np.errstate(over="ignore"):  # of a disc without pixels, whose covariance is infinite
         inverse = np.linalg.inv(N)[:, :2, :2] / scale[:, :2, None] / scale[:, None, :2]
-    moved = x + _limit_step(move / scale, x)
+    step = np.zeros_like(x)
+    step[:, :free] = move / scale
+    moved = x + _limit_step(step, x)
     noise = np.maximum(square, estimate_least_noise(image))
     return EllipseFit(moved, noise[:, None, None] * inverse, np.sqrt(square), np.zeros(len(x)))
 
@@ -247,23 +315,32 @@ def _sum_products(
     Args:
         image: (h, w) grey levels.
         x: (n, 8) unknowns.
-        gradient: (n, 2) of the light, grey levels per px.
+        gradient: (n, 2) m g, grey levels per px.
         band: half width of the bands, blurs; their pixels are at most 0.7 px farther away.
         min_rho: least rho of a pixel.
 
     Returns:
         (n, 9, 9) the derivatives by the unknowns first, the residual last.
     """
-    reach = np.sqrt(np.linalg.inv(_assemble_matrix(x[_S])).max(axis=(1, 2))) + band * x[_BLUR] + 2
-    half = np.ceil(reach).astype(np.int64)
-    portion = max(_MAX_PIXELS_AT_ONCE // (2 * int(half.max()) + 1) ** 2, 1)
+    half = np.ceil(_find_extent(x, band)).astype(np.int64)
     products = []
-    for i in range(0, len(x), portion):
-        part = slice(i, i + portion)
+    for part in _list_portions(half):
         band_of = _read_bands(image, x[part], half[part], band, min_rho)
         J = _differentiate_model(x[part], gradient[part], *band_of)
         products.append(J @ J.transpose(0, 2, 1))
     return np.concatenate(products)
+
+
+def _list_portions(half: IntArray) -> list[slice]:
+    """List portions of discs whose bands reach `half` (n,) px that are looked at at once."""
+    portion = max(_MAX_PIXELS_AT_ONCE // (2 * int(half.max()) + 1) ** 2, 1)
+    return [slice(i, i + portion) for i in range(0, len(half), portion)]
+
+
+def _find_extent(x: Array, band: float) -> Array:
+    """Find how far, px, the bands (n,) reach from the centres along u or v."""
+    longest = np.linalg.inv(_assemble_matrix(x[_S])).max(axis=(1, 2))
+    return np.asarray(np.sqrt(longest) + band * x[_BLUR] + 2)
 
 
 def _differentiate_model(
@@ -276,8 +353,10 @@ def _differentiate_model(
     box = np.maximum(abs(su), abs(sv)) / slope / 2
     E = compute_edge(d, np.broadcast_to(x[_BLUR][:, None], d.shape), box)
     a = x[_A][:, None]
-    light = gradient[:, :1] * qu + gradient[:, 1:] * qv
-    r = (grey - x[_M][:, None] - light - a * E.value) * weight
+    m = x[_M][:, None]
+    rise = gradient[:, :1] * qu + gradient[:, 1:] * qv
+    light = rise * (1 + a / np.maximum(np.maximum(m, abs(a)), 1.0) * E.value)
+    r = (grey - m - a * E.value - light) * weight
     # On the edge, where E' is not 0, d changes with q^T S q like -1 / (2 |S q|) and moves with c.
     by_d = a * E.slope * weight
     return np.stack(

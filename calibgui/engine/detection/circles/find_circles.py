@@ -31,6 +31,7 @@ from calibgui.engine.detection.circles.arc_fit import fit_arcs
 from calibgui.engine.detection.circles.circle_map import fit_circle_map
 from calibgui.engine.detection.circles.coarse_search import find_grid
 from calibgui.engine.detection.circles.continuation import find_continuation
+from calibgui.engine.detection.circles.defocus import find_apart, is_size_told
 from calibgui.engine.detection.circles.ellipse_fit import EllipseFit
 from calibgui.engine.detection.circles.thresholds import CIRCLE_THRESHOLDS
 from calibgui.engine.detection.corners import Corners, find_usable_covariances
@@ -113,6 +114,8 @@ def find_circles(
     fit = _fit_circles(grey, first, xy, pattern)
     verified = _verify_circles(fit, xy, grey, found.in_view)
     verified = _add_arcs(verified, fit, xy, grey, pattern)
+    if fit.is_out_of_focus:
+        verified = _check_defocus(verified, fit, xy, found.in_view, pattern)
     if found.is_part and np.count_nonzero(verified.good) < CIRCLE_THRESHOLDS.min_grid_circles:
         raise _distrust(_TOO_MANY_FAIL)
     _check_diameter(pattern, 2 * verified.radius)
@@ -344,6 +347,24 @@ def _add_arcs(
     own = np.sum(aside**2, axis=1)[:, None, None] / 2 * np.eye(2) + arcs.covariance
     covariance[added] = own[is_added]
     return replace(circles, good=good, uv=uv, covariance=covariance)
+
+
+def _check_defocus(
+    circles: _VerifiedCircles, fit: EllipseFit, xy: Array, count: int, pattern: Circles
+) -> _VerifiedCircles:
+    """Leave out circles whose light flows into that of others, of a grid much out of focus of which
+    the image shows `count`.
+
+    Raises:
+        NoBoardError: if too many do, or the circles' size is not told.
+    """
+    good = circles.good & find_apart(fit.blur, fit.spread, circles.radius, pattern.half_distance)
+    if np.count_nonzero(good) < (1 - CIRCLE_THRESHOLDS.max_rejected_share) * count:
+        raise _distrust("it is so much out of focus that its circles flow into one another")
+    circle_map = fit_circle_map(xy[good], circles.uv[good], are_exact=True)
+    if not is_size_told(fit.spread[good], circle_map.differentiate(xy[good])):
+        raise _distrust("it is so much out of focus that the size of its circles is not told")
+    return replace(circles, good=good)
 
 
 def _find_inside(uv: Array, spread: Array, blur: Array | float, image: GreyImage) -> BoolArray:
