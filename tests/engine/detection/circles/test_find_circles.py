@@ -270,6 +270,23 @@ def test_a_sample_of_many_spots_tells_that_they_are_no_circles(
     assert counts == [40, 108]
 
 
+def test_fits_end_where_there_are_no_discs(monkeypatch: pytest.MonkeyPatch) -> None:
+    """In 12 megapixels they take three times as long as to find a grid."""
+    image = np.tile(draw_without_board(3)[:60, :60], (8, 10))
+    v, u = np.indices((7, 9)).reshape(2, -1)
+    uv = np.column_stack([60.0 + 60 * u, 60.0 + 50 * v])
+    steps = np.tile(np.diag([60.0, 50.0]), (len(uv), 1, 1))
+    paper = np.array([(0.5, 0.5), (-0.5, 0.5), (0.5, -0.5), (-0.5, -0.5)])
+    taken = []
+    take_step = ellipse_fit._take_step
+    monkeypatch.setattr(
+        ellipse_fit, "_take_step", lambda *a: taken.append(len(a[1])) or take_step(*a)
+    )
+    fit = ellipse_fit.fit_ellipses(image, uv, steps, 0.5, paper, np.eye(2))
+    assert taken == [63] * 3
+    assert np.median(fit.misfit) > 0.3
+
+
 def test_what_is_wrongly_stated_is_told() -> None:
     image = Scene(Board(5, 7, 20.0, Circles(False, 0.5))).image()
     with pytest.raises(NoBoardError, match=r"measure 0\.50 of their distance, not 0\.70"):
