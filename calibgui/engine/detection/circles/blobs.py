@@ -14,14 +14,20 @@ import numpy.typing as npt
 from calibgui.engine import kernels, opencv
 from calibgui.engine.arrays import Array, GreyImage
 from calibgui.engine.detection.circles.thresholds import CIRCLE_THRESHOLDS
+from calibgui.engine.detection.pixel_noise import estimate_noise_at
+from calibgui.engine.images.sampling import make_mesh
 
 FOG_SHARE = 1 / 16
 """Light that scatters in a lens, over the brightest level: it is added to all levels before their
 logarithm is taken, as below it lies noise."""
 _STEPS_PER_E = 255 / np.log1p(1 / FOG_SHARE)
 """Number of steps of the compressed levels by which they differ where light differs by e."""
-_MIN_DIFFERENCE = 8
-"""Least difference of a part from the mean around, grey levels."""
+MIN_DIFFERENCE = 8
+"""Least difference of a part from the mean around, grey levels ..."""
+_FAINT_SIGMAS, _MIN_FAINT_DIFFERENCE = 3.0, 2
+"""... and for faint parts, standard deviations of the noise, but no fewer grey levels than that."""
+_NOISE_PLACES = 32
+"""Number of places along each side of an image at which its noise is read."""
 
 
 def compress_levels(image: npt.NDArray[np.uint8]) -> npt.NDArray[np.uint8]:
@@ -32,14 +38,28 @@ def compress_levels(image: npt.NDArray[np.uint8]) -> npt.NDArray[np.uint8]:
     return np.asarray(np.rint(table).astype(np.uint8)[image])
 
 
+def find_faint_difference(image: GreyImage) -> int:
+    """Find the least difference, grey levels, that is no noise in an 8-bit image (h, w): in most
+    pictures less than what is asked of parts otherwise, which leaves out what is faint."""
+    v, u = (np.linspace(2, size - 3, _NOISE_PLACES) for size in image.shape)
+    noise = float(estimate_noise_at(make_mesh(u, v).reshape(-1, 2), image))
+    return max(int(np.ceil(_FAINT_SIGMAS * noise)), _MIN_FAINT_DIFFERENCE)
+
+
 def find_blobs(
-    image: GreyImage, window: int, most: int, *, are_bright: bool = False, is_shaded: bool = False
+    image: GreyImage,
+    window: int,
+    most: int,
+    *,
+    are_bright: bool = False,
+    is_shaded: bool = False,
+    difference: int = MIN_DIFFERENCE,
 ) -> Array:
     """Find the centres (n, 2) px of at most `most` parts of an 8-bit image (h, w).
 
-    A part is darker than the mean of the `window` px around, or brighter if they `are_bright`. If
-    the image `is_shaded`, the logarithm of its levels is compared with that of the paper beside the
-    part, on either side of a shadow's edge.
+    A part is darker than the mean of the `window` px around by a `difference`, or brighter if they
+    `are_bright`. If the image `is_shaded`, the logarithm of its levels is compared with that of the
+    paper beside the part, on either side of a shadow's edge.
     """
     limits = CIRCLE_THRESHOLDS
     side = 2 * (window // 2) + 1
@@ -48,7 +68,7 @@ def find_blobs(
         around = opencv.fill_narrow_parts(image, side, are_bright=are_bright)
         least = round(-_STEPS_PER_E * np.log(limits.max_ink_share)) + 1
     else:
-        around, least = opencv.average_around(image, side), _MIN_DIFFERENCE
+        around, least = opencv.average_around(image, side), difference
     upper, lower = (image, around) if are_bright else (around, image)
     u, v, area, fill = _find_round_parts(
         upper,

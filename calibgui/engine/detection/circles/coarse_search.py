@@ -17,7 +17,11 @@ from calibgui.engine import opencv
 from calibgui.engine.arrays import Array, GridSize
 from calibgui.engine.boards.circle_grid import Circles
 from calibgui.engine.detection import region_of_interest as region
-from calibgui.engine.detection.circles.blobs import find_blobs
+from calibgui.engine.detection.circles.blobs import (
+    MIN_DIFFERENCE,
+    find_blobs,
+    find_faint_difference,
+)
 from calibgui.engine.detection.circles.continuation import Continuation, find_continuation
 from calibgui.engine.detection.circles.grid_labelling import LabelledGrid, label_grid
 from calibgui.engine.detection.circles.partial_grid import place_part
@@ -148,16 +152,24 @@ class _Search(NamedTuple):
     """True if circles that are bright are looked for."""
     is_shaded: bool = False
     """True if shadows are evened out."""
+    is_faint: bool = False
+    """True if circles are looked for that differ little from the paper."""
 
     def find_blobs(self, most: int) -> Array:
         """Find the centres (n, 2) px of at most `most` parts that may be circles."""
         window = max(int(min(self.photograph.shape) / self.divisor), 9)
+        difference = MIN_DIFFERENCE
+        if self.is_faint:
+            difference = find_faint_difference(self.photograph)
+            if difference >= MIN_DIFFERENCE:
+                return np.zeros((0, 2))
         return find_blobs(
             self.photograph,
             window,
             most,
             are_bright=self.is_negative,
             is_shaded=self.is_shaded,
+            difference=difference,
         )
 
 
@@ -212,6 +224,8 @@ def _is_needless(
 ) -> bool:
     """Return whether a search would not find more than was `found`, in an image of as many halved
     `copies`: what is rare is looked for where gaps are left, or may be hidden by a shadow."""
+    if search.is_faint:
+        return True
     if not (search.is_shaded or search.depth >= copies):
         return False
     is_whole = grid_size is None and found.grid.is_full
@@ -229,10 +243,13 @@ def _list_searches(levels: list[npt.NDArray[np.uint8]]) -> Iterator[_Search]:
         divisors = _WINDOW_DIVISORS if depth == coarsest else _WINDOW_DIVISORS[-1:]
         for is_negative, divisor in product((False, True), divisors):
             yield _Search(depth, levels[depth], divisor, is_negative)
-    smoothed = levels[coarsest]
+    smoothed = halved = opencv.halve_image(levels[coarsest])
     for depth in range(len(levels), len(levels) + _SMOOTHED_COPIES):
-        smoothed = opencv.halve_image(smoothed)
         yield _Search(depth, smoothed, _WINDOW_DIVISORS[0])
         yield _Search(depth, smoothed, _WINDOW_DIVISORS[0], True)
+        smoothed = opencv.halve_image(smoothed)
     yield _Search(coarsest, levels[coarsest], _SHADED_DIVISOR, False, True)
     yield _Search(coarsest, levels[coarsest], _SHADED_DIVISOR, True, True)
+    for depth, image in ((coarsest, levels[coarsest]), (len(levels), halved)):
+        yield _Search(depth, image, _WINDOW_DIVISORS[0], is_faint=True)
+        yield _Search(depth, image, _WINDOW_DIVISORS[0], True, is_faint=True)

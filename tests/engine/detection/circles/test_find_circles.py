@@ -287,6 +287,27 @@ def test_fits_end_where_there_are_no_discs(monkeypatch: pytest.MonkeyPatch) -> N
     assert np.median(fit.misfit) > 0.3
 
 
+@pytest.mark.parametrize("are_bright", [False, True])
+@pytest.mark.parametrize(
+    ("pattern", "grid_size"), [(Circles(False, 0.5), (6, 8)), (Circles(True, 0.7), (9, 4))]
+)
+def test_faint_circles_are_found(pattern: Circles, grid_size: GridSize, are_bright: bool) -> None:
+    """A few grey levels of contrast, beside something bright, as in the infrared."""
+    scene = Scene(Board(*grid_size, 24.0, pattern), _SMALL, (0.3, 0.2, 0.1), distance=450.0)
+    ink = scene.image(noise=0.0).astype(np.float64)
+    ink = 1 - (ink - ink.min()) / np.ptp(ink)
+    v, u = np.indices(ink.shape)
+    levels = 60 + 8 * (ink if are_bright else -ink) + 0.005 * u + 80.0 * (np.hypot(u, v) < 50)
+    noisy = levels + np.random.default_rng(0).normal(0, 1.0, ink.shape)
+    image = np.clip(np.rint(noisy), 0, 255).astype(np.uint8)
+    for size in (grid_size, None):
+        corners = find_corners(image, size, pattern=Circles(pattern.asymmetric))
+        assert corners.complete and corners.shape == grid_size and corners.cov is not None
+        error = scene.error(corners)
+        chi2 = np.einsum("ni,nij,nj->n", error, np.linalg.inv(corners.cov), error) / 2
+        assert np.abs(error).max() < 0.4 and 0.6 < np.mean(chi2) < 1.6
+
+
 def test_what_is_wrongly_stated_is_told() -> None:
     image = Scene(Board(5, 7, 20.0, Circles(False, 0.5))).image()
     with pytest.raises(NoBoardError, match=r"measure 0\.50 of their distance, not 0\.70"):
