@@ -10,9 +10,10 @@ from __future__ import annotations
 
 import numpy as np
 import numpy.typing as npt
+import scipy
 
 from calibgui.engine import kernels, opencv
-from calibgui.engine.arrays import Array, GreyImage
+from calibgui.engine.arrays import Array, BoolArray, GreyImage
 from calibgui.engine.detection.circles.thresholds import CIRCLE_THRESHOLDS
 from calibgui.engine.detection.pixel_noise import estimate_noise_at
 from calibgui.engine.images.sampling import make_mesh
@@ -26,6 +27,12 @@ MIN_DIFFERENCE = 8
 """Least difference of a part from the mean around, grey levels ..."""
 _FAINT_SIGMAS, _MIN_FAINT_DIFFERENCE = 3.0, 2
 """... and for faint parts, standard deviations of the noise, but no fewer grey levels than that."""
+_ADDED_LINES = 6
+"""Number of lines of discs that may be added at the border of those of like sizes."""
+_BESIDE = 3
+"""Number of the chosen parts nearest to another one, of which all but one must be like it ..."""
+_MAX_STEPS_AWAY = 2.5
+"""... and no farther away than that, distances of these from the next ones."""
 _NOISE_PLACES = 32
 """Number of places along each side of an image at which its noise is read."""
 
@@ -54,12 +61,14 @@ def find_blobs(
     are_bright: bool = False,
     is_shaded: bool = False,
     difference: int = MIN_DIFFERENCE,
+    are_of_any_size: bool = False,
 ) -> Array:
     """Find the centres (n, 2) px of at most `most` parts of an 8-bit image (h, w).
 
     A part is darker than the mean of the `window` px around by a `difference`, or brighter if they
     `are_bright`. If the image `is_shaded`, the logarithm of its levels is compared with that of the
-    paper beside the part, on either side of a shadow's edge.
+    paper beside the part, on either side of a shadow's edge. Parts of like sizes are taken, and if
+    they `are_of_any_size` also those beside them that are little larger or smaller.
     """
     limits = CIRCLE_THRESHOLDS
     side = 2 * (window // 2) + 1
@@ -85,9 +94,39 @@ def find_blobs(
     smallest = sizes[np.argmax(count)]
     alike = area[(area >= smallest) & (area <= ratio * smallest)]
     largest = max(ratio * smallest, limits.max_mark_area_ratio * float(np.median(alike)))
-    chosen = np.flatnonzero((area >= smallest) & (area <= largest))
+    at, is_chosen = np.column_stack([u, v]), (area >= smallest) & (area <= largest)
+    if are_of_any_size:
+        is_chosen = _add_neighbours(at, area, is_chosen, most)
+    chosen = np.flatnonzero(is_chosen)
     best = chosen[np.argsort(np.abs(fill[chosen] - 1), kind="stable")[:most]]
-    return np.column_stack([u[best], v[best]])
+    return at[best]
+
+
+def _add_neighbours(at: Array, area: Array, is_chosen: BoolArray, most: int) -> BoolArray:
+    """Add to the parts (n,) that are chosen by their size those beside them that are little larger
+    or smaller than these, one after the other: towards its border a fisheye shows discs many times
+    smaller. Nothing is added where `most` are chosen already.
+
+    Args:
+        at: (n, 2) the parts' centres, px.
+        area: (n,) their areas, px.
+    """
+    is_chosen = is_chosen.copy()
+    for _ in range(_ADDED_LINES):
+        chosen, others = np.flatnonzero(is_chosen), np.flatnonzero(~is_chosen)
+        if not (_BESIDE < len(chosen) < most and len(others)):
+            break
+        tree = scipy.spatial.cKDTree(at[chosen])
+        distance, index = map(np.asarray, tree.query(at[others], k=_BESIDE))
+        spacing = np.asarray(tree.query(at[chosen], k=2)[0])[:, 1]
+        change = np.abs(np.log(area[chosen][index] / area[others][:, None]))
+        is_near = distance < _MAX_STEPS_AWAY * spacing[index]
+        is_like = is_near & (change < np.log(CIRCLE_THRESHOLDS.max_neighbour_area_ratio))
+        added = others[is_like.sum(axis=1) >= _BESIDE - 1]
+        if not len(added):
+            break
+        is_chosen[added] = True
+    return is_chosen
 
 
 @kernels.with_kernel("round_parts", "find_round_parts")

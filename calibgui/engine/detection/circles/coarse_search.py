@@ -89,7 +89,7 @@ def find_grid(
     for search in _list_searches(levels):
         if largest is not None and _is_needless(search, largest, len(levels), grid_size):
             continue
-        points = search.find_blobs(most)
+        points = search.find_blobs(most, is_stated=grid_size is not None)
         others.append((search, points))
         grid = label_grid(points, grid_size, asymmetric=pattern.asymmetric)
         if grid is None:
@@ -155,8 +155,9 @@ class _Search(NamedTuple):
     is_faint: bool = False
     """True if circles are looked for that differ little from the paper."""
 
-    def find_blobs(self, most: int) -> Array:
-        """Find the centres (n, 2) px of at most `most` parts that may be circles."""
+    def find_blobs(self, most: int, *, is_stated: bool) -> Array:
+        """Find the centres (n, 2) px of at most `most` parts that may be circles, of a grid whose
+        size is stated or not: many more sizes would let others pass for the grid."""
         window = max(int(min(self.photograph.shape) / self.divisor), 9)
         difference = MIN_DIFFERENCE
         if self.is_faint:
@@ -170,6 +171,7 @@ class _Search(NamedTuple):
             are_bright=self.is_negative,
             is_shaded=self.is_shaded,
             difference=difference,
+            are_of_any_size=is_stated,
         )
 
 

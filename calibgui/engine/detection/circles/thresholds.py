@@ -23,7 +23,10 @@ class CircleThresholds:
     max_ink_share: float = 0.6
     """Greatest level of ink over that of the paper beside it, where shadows lie on the board."""
     max_area_ratio: float = 8.0
-    """Greatest ratio of two discs' areas in one grid: what tilt and lens may cause."""
+    """Greatest ratio of the areas of those discs of a grid that are looked for first: what tilt and
+    most lenses may cause."""
+    max_neighbour_area_ratio: float = 2.0
+    """Greatest ratio of the areas of two discs beside each other: what a fisheye may cause."""
     min_box_fill: float = 0.1
     """Least share of its upright bounding box that a disc fills: that of an ellipse ten times as
     long as wide and askew is 0.16."""
