@@ -69,6 +69,7 @@ def _step(
     order: IntArray,
     typical: float,
     damping: float,
+    least_entry: float,
     rho_sigma: float,
     blur_difference_sigma: float,
     max_rho: float,
@@ -104,7 +105,7 @@ def _step(
         for k in range(m):
             largest = max(largest, L[k, k])
         for k in range(m):
-            L[k, k] += damping * largest
+            L[k, k] += damping * max(L[k, k], least_entry * largest)
             step[k] = g[k]
         factor(L)
         substitute(L, step)
@@ -130,6 +131,7 @@ def step_unknowns(
     products: Array,
     order: IntArray,
     damping: float,
+    least_entry: float,
     rho_sigma: float,
     blur_difference_sigma: float,
     max_rho: float,
@@ -139,7 +141,7 @@ def step_unknowns(
     n, m = unknowns.shape
     count = np.maximum(products[:, 6, 6], 1.0)
     typical = float(compute_median(products[:, order[m], order[m]] / count))
-    limits = damping, rho_sigma, blur_difference_sigma, max_rho, min_blur
+    limits = damping, least_entry, rho_sigma, blur_difference_sigma, max_rho, min_blur
     stepped, inverse, square = np.empty((n, m)), np.empty((n, 2, 2)), np.empty(n)
     _step(
         make_contiguous(unknowns),

@@ -88,12 +88,26 @@ def test_the_same_step_of_the_unknowns() -> None:
     upright = [0.0, np.pi / 2]  # one difference of the blurs cannot be seen then
     for directions in (rng.uniform(-np.pi, np.pi, (n, 2)), np.tile(upright, (n, 1))):
         x[:, 2:4] = directions
-        arguments = x, products, np.arange(10), 1e-9, 0.3, 0.03, 0.95, 0.3
+        arguments = x, products, np.arange(10), *x_corner_step.DAMPING, 0.3, 0.03, 0.95, 0.3
         step = x_corner_step._step_unknowns
         mine, its = step.kernel(*arguments), step.reference(*arguments)
         assert np.isfinite(mine[0]).all()
         for one, other in zip(mine, its, strict=True):
             np.testing.assert_allclose(one[1:], other[1:], rtol=1e-6, atol=1e-12)
+
+
+def test_long_arms_hold_no_grey_level_where_it_is() -> None:
+    rng = np.random.default_rng(0)
+    J = rng.normal(size=(1, 2000, 10))
+    J[..., :6] *= 1e4  # pixels of 16 bits
+    J[..., 2:4] *= 300.0  # so many px from the corner
+    J[..., 6] = 1.0
+    J[..., 9] = 5.0  # all of them are brighter
+    x = np.array([[0.0, 0.0, 0.0, np.pi / 2, 1.0, 1.0, 100.0, 50.0, 0.0]])
+    products = J.transpose(0, 2, 1) @ J
+    arguments = x, products, np.arange(10), *x_corner_step.DAMPING, 0.3, 0.03, 0.95, 0.3
+    stepped, _, _ = x_corner_step._step_unknowns.reference(*arguments)
+    assert stepped[0, 6] == pytest.approx(105.0, abs=0.01)
 
 
 @pytest.mark.parametrize(("arm", "thinned"), [(60.0, 1), (250.0, 4), (1000.0, 16)])

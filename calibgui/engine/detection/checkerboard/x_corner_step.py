@@ -36,8 +36,11 @@ from calibgui.engine.detection.checkerboard.x_corner_model import (
 )
 
 _THRESHOLDS = FIT_THRESHOLDS.edges
-_DAMPING = 1e-9
-"""What is added to the diagonal of the normal equations, over its largest entry."""
+DAMPING = 1e-9, 1e-15
+"""What is added to the diagonal of the normal equations, over its own entries, and the least that
+one counts as for that, over the largest one: an edge may have no pixel. Entries by the edges'
+directions grow with the cube of the arms: what is added over the largest one would hold the grey
+levels of large squares where they are."""
 _ORDER = np.arange(UNKNOWNS + 1)
 """Columns of the normal equations that a step takes, the residual last ..."""
 _LIT_ORDER = np.r_[:UNKNOWNS, UNKNOWNS + 1 : UNKNOWNS + 5, UNKNOWNS]
@@ -75,7 +78,7 @@ def _apply_limits(unknowns: Array, products: Array, order: IntArray) -> tuple[Ar
         unknowns,
         products,
         order,
-        _DAMPING,
+        *DAMPING,
         _THRESHOLDS.rho_sigma,
         _THRESHOLDS.blur_difference_sigma,
         _THRESHOLDS.max_rho,
@@ -89,6 +92,7 @@ def _step_unknowns(
     products: Array,
     order: IntArray,
     damping: float,
+    least_entry: float,
     rho_sigma: float,
     blur_difference_sigma: float,
     max_rho: float,
@@ -101,7 +105,8 @@ def _step_unknowns(
         unknowns: of every corner.
         products: (n, k, k) of columns among which are [J r].
         order: (m + 1,) the numbers of these.
-        damping: what is added to the diagonal of the equations, over its largest entry.
+        damping: what is added to the diagonal of the equations, over its own entries.
+        least_entry: least that these count as, over the largest one.
         rho_sigma: standard deviation of rho around that of an isotropic blur.
         blur_difference_sigma: standard deviation of the blurs' difference around what the board
             shows, blurs.
@@ -129,8 +134,10 @@ def _step_unknowns(
     lack = estimate_blur_difference(normals, blurs) - blurs @ difference
     g[BLUR] += (weight * lack)[:, None] * difference
 
-    largest = np.einsum("nkk->nk", N).max(axis=1) + 1e-300
-    inverse = np.linalg.inv(N + damping * largest[:, None, None] * np.eye(m))
+    entries = np.einsum("nkk->nk", N)
+    largest = entries.max(axis=1, keepdims=True) + 1e-300
+    added = damping * np.maximum(entries, least_entry * largest)
+    inverse = np.linalg.inv(N + added[..., None] * np.eye(m))
     step = np.einsum("nij,nj->ni", inverse, g)
     square = np.maximum(squares - np.sum(step * g, axis=1), 0.0) / np.maximum(count - m, 1)
     return unknowns + _limit_step(step, unknowns, max_rho, min_blur), inverse[:, :2, :2], square
