@@ -121,11 +121,18 @@ def _read_band(
             first += 1
         while first < last and not _contains(dx, last - cy, edge):
             last -= 1
-        is_free = done[6] < 0 or not _may_meet(dx, first - cy, last - cy, done)
+        # Numbers without a sign are not asked whether they count from the end.
+        column = np.uintp(x)
+        if done[6] < 0 or not _may_meet(dx, first - cy, last - cy, done):
+            for y in range(first, last + 1):
+                at, row = np.uintp(count + y - first), np.uintp(y)
+                x_offset[at], y_offset[at] = x - x0, y - y0
+                grey[at] = image[row, column] if flat else image[column, row]
+            count += max(last + 1 - first, 0)
+            continue
         for y in range(first, last + 1):
-            if is_free or not _contains(dx, y - cy, done):
-                # Numbers without a sign are not asked whether they count from the end.
-                at, row, column = np.uintp(count), np.uintp(y), np.uintp(x)
+            if not _contains(dx, y - cy, done):
+                at, row = np.uintp(count), np.uintp(y)
                 x_offset[at], y_offset[at] = x - x0, y - y0
                 grey[at] = image[row, column] if flat else image[column, row]
                 count += 1
