@@ -74,6 +74,8 @@ class _Model(Protocol):
     @property
     def curvature(self) -> Array: ...
     @property
+    def curvature_change(self) -> Array: ...
+    @property
     def ink_spread(self) -> Array: ...
     @property
     def level_gradient(self) -> Array: ...
@@ -96,6 +98,7 @@ def _fill_geometry(
     t: _Floats,
     n: _Floats,
     kappa: _Floats,
+    change: _Floats,
     blur: _Floats,
     size: _Floats,
     growth: _Single,
@@ -107,8 +110,8 @@ def _fill_geometry(
     for p in range(m):
         s1, s2 = t[0] * u[p] + t[1] * v[p], t[2] * u[p] + t[3] * v[p]
         w[_S1 + p], w[_S2 + p] = s1, s2
-        w[_D1 + p] = n[0] * u[p] + n[1] * v[p] - kappa[0] * s1 * s1
-        w[_D2 + p] = n[2] * u[p] + n[3] * v[p] - kappa[1] * s2 * s2
+        w[_D1 + p] = n[0] * u[p] + n[1] * v[p] - (kappa[0] + change[0] * s1) * s1 * s1
+        w[_D2 + p] = n[2] * u[p] + n[3] * v[p] - (kappa[1] + change[1] * s2) * s2 * s2
     for p in range(m):
         w[_B1 + p] = max(blur[0] + blur[2] * u[p] + blur[3] * v[p], _MIN_BLUR)
         w[_B2 + p] = max(blur[1] + blur[4] * u[p] + blur[5] * v[p], _MIN_BLUR)
@@ -264,16 +267,16 @@ def _add_corner(
     scores: Array,
 ) -> None:
     """Add to out (columns, columns) the products of one corner's pixels, or to scores (2, 2, k) if
-    that is not empty, and leave in grey the residuals; near (33,) is laid out as `_pack_model`
+    that is not empty, and leave in grey the residuals; near (35,) is laid out as `_pack_model`
     says."""
     t, n, kappa = near[0:4], near[4:8], near[8:10]
     blur, size, level, swing = near[10:16], near[16:22], near[22:25], near[25:28]
-    rho, sign, growth, box = near[28], near[29], near[30], near[31:33]
+    rho, sign, growth, box, change = near[28], near[29], near[30], near[31:33], near[33:35]
     for begin in range(0, grey.shape[0], BLOCK):
         m = min(grey.shape[0] - begin, BLOCK)
         for p in range(m):
             u[p], v[p] = offset[0, begin + p] + du, offset[1, begin + p] + dv
-        _fill_geometry(w, u, v, t, n, kappa, blur, size, growth, m)
+        _fill_geometry(w, u, v, t, n, kappa, change, blur, size, growth, m)
         if growth == _ZERO:
             _fill_crossing(w, rho, box, m)
         else:
@@ -352,7 +355,7 @@ def _accumulate(
     (n, 2, 2, k).
 
     What follows from the directions among the unknowns (n, 9) is filled into bands (n, 2, 7) and
-    near (n, 33)."""
+    near (n, 35)."""
     n, frame = unknowns.shape[0], np.empty(8)
     for i in range(n):
         point_edges(unknowns[i], frame)
@@ -416,19 +419,20 @@ def _run(image: GreyImage, model: _Model, out: Array, odd: Array, scores: Array)
 
 
 def _pack_model(model: _Model) -> _Floats:
-    """Pack the model at n corners (n, 33).
+    """Pack the model at n corners (n, 35).
 
     In this order: t_1, t_2, n_1, n_2, kappa_1 / 2, kappa_2 / 2; blur and height of edges 1 and 2
     (s_1, s_2, their gradients); m and gm; a and ga; rho, p, growth of the squares (+, +) over the
-    height of a square, half widths of the pixel across edges 1 and 2 or 0. The directions, and what
-    follows from them, are left to the kernel.
+    height of a square, half widths of the pixel across edges 1 and 2 or 0; kappa_1' / 6 and
+    kappa_2' / 6. The directions, and what follows from them, are left to the kernel.
     """
     x, n = model.unknowns, len(model.unknowns)
-    near = np.empty((n, 33), dtype=_F)
+    near = np.empty((n, 35), dtype=_F)
     near[:, 8:10], near[:, 10:12] = model.curvature / 2, x[:, 4:6]
     near[:, 12:16], near[:, 16:18] = model.blur_gradient.reshape(n, 4), model.square_height
     near[:, 18:22] = model.height_gradient.reshape(n, 4)
     near[:, 22], near[:, 23:25] = x[:, 6], model.level_gradient
     near[:, 25], near[:, 26:28] = x[:, 7], model.contrast_gradient
     near[:, 28], near[:, 29], near[:, 30] = x[:, 8], model.sign, model.sign * model.ink_spread
+    near[:, 33:35] = model.curvature_change / 6
     return near

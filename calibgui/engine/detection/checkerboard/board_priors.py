@@ -168,7 +168,8 @@ class BoardPriors:
     def _bend_edges(self, edges: ReadEdges) -> EdgeGeometry:
         """Return the geometry that the corners alone give."""
         steps, curvature = self.estimate_geometry(edges.uv)
-        return EdgeGeometry(steps, edges.measure_bend(curvature), np.zeros((len(edges.uv), 2)))
+        zeros = np.zeros_like(curvature)
+        return EdgeGeometry(steps, edges.measure_bend(curvature), zeros, zeros)
 
     def estimate_gradients(self, steps: Array, values: Array) -> Array:
         """Estimate gradients (n, k, 2) over the image, per px, of `values` (n, k) at the corners.

@@ -20,7 +20,7 @@ from calibgui.engine.arrays import Array, Size
 
 
 class ReadEdges(NamedTuple):
-    """The edges at n corners as they were fitted: parabolas of given curvatures."""
+    """The edges at n corners as they were fitted, given how their curvatures run."""
 
     uv: Array
     """(n, 2) the corners, px."""
@@ -28,7 +28,9 @@ class ReadEdges(NamedTuple):
     """(n, 2, 2) unit normals of the row's edge towards the next row, and of the column's edge
     towards the next column."""
     curvature: Array
-    """(n, 2) that they were taken to have, 1/px."""
+    """(n, 2) that they were taken to have at the corner, 1/px ..."""
+    curvature_change: Array
+    """(n, 2) ... and by how much it was taken to change along them, 1/px^2."""
     middle: Array
     """(n, 2) m, px."""
     half: Array

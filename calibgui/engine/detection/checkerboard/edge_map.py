@@ -67,6 +67,9 @@ class EdgeGeometry:
     """(n, 2) how far the edges along both are bent aside, px; see ``edge_bend``."""
     variance: Array
     """(n, 2) of the bends, px^2; 0 where it does not matter."""
+    curvature_change: Array
+    """(n, 2) by how much the edges' curvatures change along them, 1/px^2; 0 where it does not
+    matter."""
 
 
 class _Terms(NamedTuple):
@@ -117,7 +120,8 @@ def fit_edge_map(found: BoolArray, edges: ReadEdges, sigma: float = np.inf) -> E
             lines = follow_lines(found, edges, lens.rest)
             if lines.misfit < misfit:
                 misfit = lines.misfit
-                geometry = EdgeGeometry(lens.first, lens.bend.T + lines.bend, lines.variance)
+                bend = lens.bend.T + lines.bend
+                geometry = EdgeGeometry(lens.first, bend, lines.variance, lens.curvature_change)
     return geometry
 
 
@@ -164,6 +168,7 @@ def _fit_polynomial(
         lens.first,
         (lens.bend + bends @ (inverse @ share[used])).T,
         rss[best] / (len(rest) - counts[best]) * spread.T,
+        lens.curvature_change,
     )
 
 

@@ -105,8 +105,10 @@ class EdgeFitThresholds:
     min_arm: float = 8.0
     """Length up to which arms are read even where something was printed on them, px."""
     max_near_arm: float = 9.0
-    """Longest arm that is read for the first two approximations, px. The last one reads all of the
+    """Longest arm that is read for the first approximation, px. The last one reads all of the
     arms: with 18 to 74 px of them corners in 12 megapixels lay 1.2 to 1.6 times off the bound."""
+    max_arm_growth: float = 6.0
+    """Greatest factor by which arms grow from one approximation to the next before that."""
     max_short_arm: float = 25.0
     """Length of the arms up to which many corners tell enough of how edges bend, unless the image
     cuts these, px. To follow the edges takes up to a third of the search's time."""

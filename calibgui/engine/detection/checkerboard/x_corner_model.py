@@ -6,10 +6,12 @@ Around a corner c the grey level is modelled by
 
 with q from c, G the blurred pattern of two crossing edges (``edge_intensity``), p = -1 where the
 square (+, +) is dark and 1 where it is bright. Edge 1 runs along the row of corners, edge 2 along
-the column; with its unit tangent t_i, its normal n_i towards the next row or column and its
-curvature kappa_i, the distance of q from edge i is
+the column; with its unit tangent t_i, its normal n_i towards the next row or column, its curvature
+kappa_i and what that changes by along it, kappa_i', the distance of q from edge i is
 
-    d_i = n_i.q - kappa_i (t_i.q)^2 / 2.
+    d_i = n_i.q - kappa_i (t_i.q)^2 / 2 - kappa_i' (t_i.q)^3 / 6.
+
+The last term is small, and of no matter to c, but by way of m it would turn the edges.
 
 Only pixels near the edges hold information on c, so only those within 2.3 blurs + 0.7 px of an edge
 and half a square along it are read: the support of the edges (`EdgeSupport`). An edge that runs
@@ -167,6 +169,8 @@ class XCornerModel:
     """(n, 2) how far across them the squares are of one colour, px."""
     curvature: Array
     """(n, 2) kappa_1, kappa_2, 1/px."""
+    curvature_change: Array
+    """(n, 2) kappa_1', kappa_2', 1/px^2."""
     ink_spread: Array
     """(n,) w, growth of the dark squares on every side, over the height of a square."""
     level_gradient: Array
@@ -328,8 +332,9 @@ def _compute_columns(model: XCornerModel, window: _Window) -> Floats:
     s1, s2 = _project(q, model.tangents())
     d1, d2 = _project(q, normals)
     kappa = (model.curvature / 2).astype(np.float32)
-    d1 -= kappa[:, :1] * s1 * s1
-    d2 -= kappa[:, 1:] * s2 * s2
+    change = (model.curvature_change / 6).astype(np.float32)
+    d1 -= (kappa[:, :1] + change[:, :1] * s1) * s1 * s1
+    d2 -= (kappa[:, 1:] + change[:, 1:] * s2) * s2 * s2
     sign = model.sign[:, None].astype(np.float32)
     G = _compute_intensity(model, q, (d1, d2))
     swing = sign * _extrapolate(x[A], model.contrast_gradient, q)

@@ -35,6 +35,11 @@ def draw_edges(camera: Camera, grid_size: tuple[int, int]) -> tuple[Array, Array
     return at, normals, compute_curvatures(first, second), length / 2
 
 
+def list_edges(at: Array, normals: Array, kappa: Array, arm: Array) -> ReadEdges:
+    """Parabolas of curvatures `kappa` read over arms to both sides."""
+    return ReadEdges(at, normals, kappa, np.zeros_like(arm), np.zeros_like(arm), arm)
+
+
 def read_edges(camera: Camera, cells: Array, edges: ReadEdges) -> tuple[Array, Array]:
     """What is left of the edges' means, px, and slopes at cells (col, row) by parabolas of the
     right curvatures: under a strong lens edges are none."""
@@ -75,7 +80,7 @@ def measure(
     camera, size = kind(conditions, rng), np.array(conditions.size)
     at, normals, kappa, arm = draw_edges(camera, grid_size)
     seen = np.all((at > 8) & (at < size - 9), axis=1)
-    whole = ReadEdges(at[seen], normals[seen], kappa[seen], np.zeros_like(arm[seen]), arm[seen])
+    whole = list_edges(at[seen], normals[seen], kappa[seen], arm[seen])
     middle, half = clip_arms(whole.uv, whole.compute_tangents(), whole.half, conditions.size)
     edges = whole._replace(middle=middle, half=half)
     cells = np.argwhere(np.ones(grid_size))[seen, ::-1].astype(float)
@@ -176,8 +181,28 @@ def test_a_line_meets_the_corner_of_a_bent_edge_as_far_off_as_stated() -> None:
     s = np.linspace(middle - half, middle + half, 20001)
     line = np.polynomial.Polynomial.fit(s, kappa * s**2 / 2, 1)
     one = np.ones((1, 2))
-    edges = ReadEdges(one, np.ones((1, 2, 2)), 0 * one, middle * one, half * one)
+    edges = ReadEdges(one, np.ones((1, 2, 2)), 0 * one, 0 * one, middle * one, half * one)
     assert edges.measure_bend(kappa * one) == pytest.approx(line(0.0) * one, rel=2e-3)
+
+
+def test_edges_tell_how_their_curvature_changes() -> None:
+    grid_size = (3, 3)
+    camera = Camera(
+        Conditions(grid_size=grid_size, square=300.0, size=(2200, 2200), distortion=0.43),
+        np.random.default_rng(3),
+    )
+    at, normals, kappa, arm = draw_edges(camera, grid_size)
+    edges = list_edges(at, normals, kappa, arm)
+    cells = np.argwhere(np.ones(grid_size))[:, ::-1].astype(float)
+    mean, slope = read_edges(camera, cells, edges)
+    seen = edges._replace(
+        uv=at + np.linalg.solve(normals, mean[..., None])[..., 0],
+        normals=normals - slope[..., None] * edges.compute_tangents(),
+    )
+    right = 10 * slope / arm**2  # of the cubic to which the nearest line is so inclined
+    got = fit_edge_map(np.ones(grid_size, np.bool_), seen).curvature_change
+    assert abs(right * arm**3 / 6).max() > 0.02
+    assert np.abs((got - right) * arm**3 / 6).max() < 0.002
 
 
 def test_corners_that_a_wrong_curvature_moved_tell_the_same() -> None:
@@ -191,7 +216,7 @@ def test_corners_that_a_wrong_curvature_moved_tell_the_same() -> None:
         """With corners where edges of the curvatures `taken` have the same mean."""
         bend = arm**2 / 6 * (kappa - taken)
         uv = at + np.linalg.solve(normals, bend[..., None])[..., 0]
-        edges = ReadEdges(uv, normals, taken, np.zeros_like(arm), arm)
+        edges = list_edges(uv, normals, taken, arm)
         return fit_edge_map(np.ones(grid_size, np.bool_), edges)
 
     right, wrong = fit(kappa), fit(np.zeros_like(kappa))
@@ -205,7 +230,7 @@ def test_a_handful_of_corners_has_a_geometry_too() -> None:
     found = np.array([[1, 1, 0], [1, 1, 1], [0, 0, 1]], np.bool_)
     camera = Camera(Conditions(grid_size=(3, 3), square=100.0), np.random.default_rng(1))
     at, normals, kappa, arm = (values[found.ravel()] for values in draw_edges(camera, (3, 3)))
-    got = fit_edge_map(found, ReadEdges(at, normals, kappa, np.zeros_like(arm), arm))
+    got = fit_edge_map(found, list_edges(at, normals, kappa, arm))
     assert np.abs(got.bend).max() < 1e-3
     assert np.isfinite(got.variance).all()
 
@@ -223,6 +248,7 @@ def test_perspective_bends_no_edges(seed: int) -> None:
     edges = ReadEdges(
         at + rng.normal(0, 0.005, at.shape),
         turned / np.linalg.norm(turned, axis=2, keepdims=True),
+        nothing,
         nothing,
         nothing,
         np.tile([25.0, 14.0], (54, 1)),

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 import scipy
 
+from calibgui.engine.detection.checkerboard import x_corner_fit
 from calibgui.engine.detection.corners import find_usable_covariances
 from calibgui.engine.detection.find_corners import find_corners
 from tests.scenes.checkerboards import draw
@@ -52,6 +53,16 @@ def test_errors_are_the_bound_and_what_the_covariance_says(condition: dict[str, 
         honest.append(np.einsum("ni,nij,nj->n", error, np.linalg.inv(corners.cov), error) / 2)
     assert np.sqrt(np.mean(np.concatenate(squares)) / np.mean(np.concatenate(limits))) < 1.15
     assert 0.75 < np.mean(np.concatenate(honest)) < 1.25
+
+
+@pytest.mark.parametrize("arm", [4.0, 25.0, 150.0, 2000.0])
+def test_ever_more_of_long_arms_is_read(arm: float) -> None:
+    first, *others = x_corner_fit._choose_reaches(arm)
+    reaches = np.array([first, *others, max(arm, others[-1])])
+    assert first == 9.0
+    assert others[-1] == pytest.approx(max(arm / 3, 9.0))
+    assert (reaches[1:] / reaches[:-1]).max() <= 6.0
+    assert len(others) == (3 if arm == 2000.0 else 1)
 
 
 @pytest.mark.parametrize("distortion", [0.136, 0.43])
