@@ -16,7 +16,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from calibgui.engine.arrays import Array, IntArray, compute_median
+from calibgui.engine.arrays import Array, IntArray, compute_lengths, compute_median
 from calibgui.engine.detection.grid_map import fit_radial_homography
 from calibgui.engine.errors import NoBoardError
 
@@ -57,12 +57,9 @@ def measure_gap(uv: Array, gap: float) -> float:
     """
     ratios = []
     for lines in (uv, uv.transpose(1, 0, 2)):
-        a, b, c, d = (lines[:, k : lines.shape[1] - 2 + k : 2] for k in (0, 1, 2, 3))
-        a, b = a[:, : d.shape[1]], b[:, : d.shape[1]]
-        c = c[:, : d.shape[1]]
-        ac, bd, bc, ad = (
-            np.linalg.norm(p - q, axis=2) for p, q in ((a, c), (b, d), (b, c), (a, d))
-        )
+        count = max(lines.shape[1] // 2 - 1, 0)
+        a, b, c, d = (lines[:, k::2][:, :count] for k in range(4))
+        ac, bd, bc, ad = (compute_lengths(p - q) for p, q in ((a, c), (b, d), (b, c), (a, d)))
         ratios.append((ac * bd / (bc * ad)).ravel())
     ratio = np.concatenate(ratios)
     ratio = ratio[np.isfinite(ratio) & (ratio > 1)]

@@ -41,29 +41,32 @@ from calibgui.engine.images.sampling import make_mesh, sample_image
 
 _MAX_FREE_STEPS, _LAST_STEPS = 8, 2
 """Numbers of steps, each tag by itself, and with the bows that the lens of all tags gives them."""
-_CONVERGED_STEP = 0.05
-"""Step of no corner beyond which the next, of second order, is nothing, px."""
+_CLOSE_STEP, _CONVERGED_STEP = 0.15, 0.05
+"""Steps of a tag's corners up to which the next, of second order, is 0.005 px, which the last steps
+take up, and up to which it is nothing, px."""
 _START_ROUNDS = 2
 """Number of times that edges are moved to where their profiles rise before the first step."""
-_SAMPLES_ALONG, _SAMPLES_ACROSS = 24, 33
-"""Numbers of samples of a profile, along its edge and across it."""
+_PROFILES, _SHADED_PROFILES = (12, 17), (24, 33)
+"""Numbers of profiles of an edge and of the samples of each: for a start, from which steps follow,
+and where the image is shaded, from which none do."""
 _PARTS = 3
 """Number of parts of an edge whose profiles are averaged: as many as the ways in which it moves."""
 _ALONG_MARGIN = 0.15
-"""Part of an edge at both ends that its profile leaves out, lengths: the corners are blurred."""
-_SHARES = np.linspace(_ALONG_MARGIN, 1 - _ALONG_MARGIN, _SAMPLES_ALONG)
-"""(samples along,) where profiles lie along an edge, lengths."""
+"""Part of an edge at both ends that has no profiles, lengths: the corners are blurred."""
 _PROFILE_REACH = 0.75
 """Reach of a profile to either side, over the narrower of border and gap: what follows these is
 blurred into its ends."""
-_INTEGRATION = np.ones((_SAMPLES_ACROSS, 2)) * 2 / (_SAMPLES_ACROSS - 1)
-"""(samples across, 2) weights of the integral over a profile from -1 to 1, and of that times the
-place, by the trapezoidal rule."""
-_INTEGRATION[[0, -1]] /= 2
-_INTEGRATION[:, 1] *= np.linspace(-1, 1, _SAMPLES_ACROSS)
-_BLUR_REACH = 3.0
-"""Distance, in blurs, over which the blur of what follows the border or the gap is felt. With 1.5
-corners of tags of 40 px under a blur of 2 px lay 0.06 px outside; now less than 0.01."""
+_NEAR_BLURS, _NEAR_MARGIN = 3.0, 1.0
+"""Greatest reach of a profile once the edge is found: blurs, and px in addition."""
+_MAX_OVERSHOOT = 0.25
+"""Greatest distance of a profile beyond its levels of paper and ink, over their difference: if it
+is cut off there noise passes for blur."""
+_INTERPOLATION = 1 / 6
+"""Variance of the blur of linear interpolation between pixels, px^2."""
+_BLUR_REACH, _BLUR_REACH_MARGIN = 3.0, 0.35
+"""Distance over which the blur of what follows the border or the gap is felt: blurs, and px in
+addition. With 1.5 blurs corners of tags of 40 px under a blur of 2 px lay 0.06 px outside; now less
+than 0.01."""
 _MIN_BAND_BLURS = 1.0
 """Least half width of the band that is read along an edge, blurs."""
 _MIN_BLUR = 0.3
@@ -136,13 +139,13 @@ def fit_tag_outlines(
     )
     least = estimate_least_noise(image)
     noise = np.full(n, least)
-    model, equations, square = _take_steps(image, model, usual, noise, _MAX_FREE_STEPS)
+    model, equations, square = _take_steps(image, model, usual, noise, _MAX_FREE_STEPS, _CLOSE_STEP)
     noise = np.maximum(square, least)
     places = _locate_corners(squares, measure_gap_of_tags(squares, model.corners, gap))
     variance = noise[:, None] * np.einsum("nkk->nk", _invert_part(equations, slice(16, 21)))
     bows, bow_sd, board = _estimate_bows(model, variance[:, :4], places)
     prior = _Prior(bows, bow_sd, *_pool_correlations(model.correlation, variance[:, 4]))
-    model, equations, square = _take_steps(image, model, prior, noise, _LAST_STEPS)
+    model, equations, square = _take_steps(image, model, prior, noise, _LAST_STEPS, _CONVERGED_STEP)
     noise = np.maximum(square, least)
     growth = estimate_outline_growth(image, model, noise)
     pairs = _invert_part(equations, slice(8)).reshape(-1, 4, 2, 4, 2)
@@ -221,14 +224,17 @@ def _estimate_start(image: GreyImage, corners: Array, border: float, gap: float)
     model = _start_from(corners)
     side = _measure_heights(model)
     reach = _PROFILE_REACH * min(border, gap) * side
+    near = reach
     for _ in range(_START_ROUNDS):
-        ends, offset, variance = _measure_profiles(image, model, reach)
+        ends, offset, variance = _measure_profiles(image, model, near)
         model = _move_edges(model, offset)
-    variance = (variance[:, :2] + variance[:, 2:]) / 2
-    blurs = np.clip(np.sqrt(np.maximum(variance, 0)), _MIN_BLUR, reach[:, None] / 2)
+        variance = (variance[:, :2] + variance[:, 2:]) / 2
+        blurs = np.clip(np.sqrt(np.maximum(variance, 0)), _MIN_BLUR, near[:, None] / 2)
+        near = np.minimum(near, _NEAR_BLURS * blurs.max(axis=1) + _NEAR_MARGIN)
     levels = np.zeros((len(corners), 2, 3))
     levels[..., 0] = ends
-    felt, least = (share * blurs.mean(axis=1) for share in (_BLUR_REACH, _MIN_BAND_BLURS))
+    blur = blurs.mean(axis=1)
+    felt, least = _BLUR_REACH * blur + _BLUR_REACH_MARGIN, _MIN_BAND_BLURS * blur
     return replace(
         model,
         blurs=blurs,
@@ -260,6 +266,10 @@ class _Prior(NamedTuple):
     """(k,)"""
     correlation_sd: Array
     """(k,)"""
+
+    def select(self, index: IntArray) -> _Prior:
+        """Select the tags `index` (m,)."""
+        return _Prior(*(values[index] for values in self))
 
 
 def _estimate_bows(
@@ -327,32 +337,53 @@ def _measure_profiles(
         Levels (n, 2) of paper and ink, offsets (n, 4, 3) px inwards of the edges at their beginning
         and end, and of their middle from the chord, and variances (n, 4) px^2 of their blur.
     """
-    seen = _average_profiles(image, model, reach, _SHARES, _SAMPLES_ACROSS)
-    n, quarter = len(seen), _SAMPLES_ACROSS // 4
+    layout = _lay_out_profiles(is_shaded)
+    samples = len(layout.integration)
+    seen = _average_profiles(image, model, reach, layout.shares, samples)
+    n, quarter = len(seen), samples // 4
     shape = (n, *seen.shape[1:3], 1) if is_shaded else (n, 1, 1, 1)
     paper, ink = (
         compute_median(ends.reshape(*shape[:-1], -1)).reshape(shape)
         for ends in (seen[..., :quarter], seen[..., -quarter:])
     )
     swing = np.where(ink == paper, 1.0, ink - paper)
-    rise = np.clip((seen - paper) / swing, 0.0, 1.0)
-    integral, moment = np.moveaxis(rise @ _INTEGRATION, 3, 0)
+    beyond = 0.0 if is_shaded else _MAX_OVERSHOOT
+    rise = np.clip((seen - paper) / swing, -beyond, 1 + beyond)
+    integral, moment = np.moveaxis(rise @ layout.integration, 3, 0)
     mean, square = 1 - integral, 1 - 2 * moment
-    variance = reach[:, None] ** 2 * (square - mean**2).mean(axis=2)
+    variance = reach[:, None] ** 2 * (square - mean**2).mean(axis=2) - _INTERPOLATION
     offset = np.zeros((*mean.shape[:2], 3))
-    count = 2 if is_shaded else 3
-    offset[..., :count] = reach[:, None, None] * mean @ _weigh_parts(count)
+    weights = layout.weights
+    offset[..., : weights.shape[1]] = reach[:, None, None] * mean @ weights
     levels = [compute_median(each.reshape(n, -1)) for each in (paper, ink)]
     return np.column_stack(levels), offset, variance
 
 
+class _ProfileLayout(NamedTuple):
+    """Where the profiles of an edge lie, and how they count."""
+
+    shares: Array
+    """(m,) where they lie along the edge, lengths."""
+    integration: Array
+    """(samples, 2) weights of the integral over a profile from -1 to 1, and of that times the
+    place, by the trapezoidal rule."""
+    weights: Array
+    """(parts, k) of the offsets of an edge's parts in those of its chord's ends and, if k is 3, in
+    its bow: each part feels them all."""
+
+
 @cache
-def _weigh_parts(count: int) -> Array:
-    """Return the weights (parts, count) of the offsets of an edge's parts in those of its chord's
-    ends and, if `count` is 3, in its bow: each part feels them all."""
-    moves = np.stack([1 - _SHARES, _SHARES, 4 * _SHARES * (1 - _SHARES)], axis=1)
+def _lay_out_profiles(is_shaded: bool) -> _ProfileLayout:
+    """Lay out the profiles of an edge, whose bow stays as it is where the image is shaded."""
+    count, samples = _SHADED_PROFILES if is_shaded else _PROFILES
+    shares = np.linspace(_ALONG_MARGIN, 1 - _ALONG_MARGIN, count)
+    integration = np.ones((samples, 2)) * 2 / (samples - 1)
+    integration[[0, -1]] /= 2
+    integration[:, 1] *= np.linspace(-1, 1, samples)
+    moves = np.stack([1 - shares, shares, 4 * shares * (1 - shares)], axis=1)
     felt = moves.reshape(_PARTS, -1, 3).mean(axis=1)
-    return np.asarray(np.linalg.pinv(felt[:, :count]).T)
+    weights = np.linalg.pinv(felt[:, :2] if is_shaded else felt).T
+    return _ProfileLayout(shares, integration, np.asarray(weights))
 
 
 @kernels.with_kernel("tag_outlines", "average_profiles")
@@ -396,7 +427,7 @@ def _compute_bend_covariances(model: OutlineModel) -> Array:
 
 
 def _take_steps(
-    image: GreyImage, model: OutlineModel, prior: _Prior, noise: Array, steps: int
+    image: GreyImage, model: OutlineModel, prior: _Prior, noise: Array, steps: int, enough: float
 ) -> tuple[OutlineModel, Array, Array]:
     """Take Gauss-Newton steps until they are small.
 
@@ -406,17 +437,25 @@ def _take_steps(
         prior: what is known of bows and correlations.
         noise: (n,) variance of the grey levels, by which that counts.
         steps: their number, at most.
+        enough: step of a tag's corners up to which it takes no other, px.
 
     Returns:
-        The model after them, the last equations (n, 21, 21), and the mean square
-        (n,) of what is left unexplained.
+        The model after them, the last equations (n, 21, 21), and the mean square (n,) of what is
+        left unexplained.
     """
+    n = len(model.corners)
+    equations, square = np.empty((n, UNKNOWNS, UNKNOWNS)), np.empty(n)
+    left = np.arange(n)
     for _ in range(steps):
         is_sharp = bool(compute_median(model.blurs.ravel()) < _MAX_SHARP_BLUR)
-        products = accumulate_normal_equations(image, model, is_sharp)
-        before = model.corners
-        model, equations, square = _take_step(model, products, prior, noise)
-        if abs(model.corners - before).max() < _CONVERGED_STEP:
+        some = model.select(left)
+        products = accumulate_normal_equations(image, some, is_sharp)
+        after, equations[left], square[left] = _take_step(
+            some, products, prior.select(left), noise[left]
+        )
+        model = model.put(left, after)
+        left = left[abs(after.corners - some.corners).max(axis=(1, 2)) > enough]
+        if not len(left):
             break
     return model, equations, square
 
