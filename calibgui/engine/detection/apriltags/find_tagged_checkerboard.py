@@ -58,6 +58,9 @@ _MAX_LOOKED_AT, _MIN_SEEN_SHARE = 256, 0.5
 """Number of corners, in the middle of a lattice of hundreds, between which tags are looked for
 before it grows, and the least share of them that are not hidden: a texture's has none, and to grow,
 refine and read all of it would take longer than all else."""
+_MAX_OVERSIZE = 3.0
+"""Number of corners of a lattice, over those of a stated board, from which on it is not placed on
+it by all tags together (`lattice_placement`): most of its squares would lie beside the board."""
 
 
 def find_tagged_checkerboard(
@@ -73,14 +76,19 @@ def find_tagged_checkerboard(
     searched = None if outline is None else region.enlarge_outline(outline)
     tried: list[Candidate] = []
     make_negative = cache(lambda: invert_levels(grey))  # for the candidates that are asked for it
-    # Tags of a stated board need not be read one by one, and those of a lattice that grows were.
-    may_show_tags = None not in (grid_size, pattern.family, pattern.step)
+    are_tags_stated = None not in (pattern.family, pattern.step)
+    may_show_tags = False  # those of a lattice that grows were read
 
     def is_other(lattice: Lattice, _: int) -> bool:
         nonlocal may_show_tags
         if may_show_tags or len(lattice) < THRESHOLDS.search.min_judged_corners:
             return False
-        may_show_tags = _may_show_tags(grey, make_negative, lattice, pattern)
+        looked_at = lattice
+        if grid_size is None or not are_tags_stated:
+            looked_at = _cut_looked_at(lattice)
+        elif len(lattice) < _MAX_OVERSIZE * grid_size[0] * grid_size[1]:
+            return False  # its tags need not be read one by one
+        may_show_tags = _may_show_tags(grey, make_negative, looked_at, pattern)
         return not may_show_tags
 
     for candidates in find_candidates(grey, searched, plain=_PLAIN, is_other=is_other):
@@ -105,22 +113,26 @@ def find_tagged_checkerboard(
     )
 
 
+def _cut_looked_at(lattice: Lattice) -> Lattice:
+    """Cut the middle of a lattice, where tags are looked for before it grows."""
+    return cut_middle(lattice, int(np.sqrt(_MAX_LOOKED_AT / compute_filled_share(lattice))))
+
+
 def _may_show_tags(
     grey: GreyImage,
     make_negative: Callable[[], GreyImage],
     lattice: Lattice,
     pattern: TaggedCheckerboard,
 ) -> bool:
-    """Return whether tags are read in the middle of a lattice, or too much is hidden there to tell;
-    the arguments are those of `_identify_board`."""
-    middle = cut_middle(lattice, int(np.sqrt(_MAX_LOOKED_AT / compute_filled_share(lattice))))
-    if len(middle) < _MIN_SEEN_SHARE * _MAX_LOOKED_AT:
+    """Return whether tags are read in a lattice that may be part of another, or too much is hidden
+    there to tell; the arguments are those of `_identify_board`."""
+    if len(lattice) < _MIN_SEEN_SHARE * _MAX_LOOKED_AT:
         return True
-    part, _ = refine_lattice(grey, middle, plain=_PLAIN)
+    refined, _ = refine_lattice(grey, lattice, plain=_PLAIN)
     prints = list_prints(pattern.family, pattern.border)
     return any(
         len(reader.read(tag_print).which)
-        for _, reader in _list_readers(grey, make_negative, part)
+        for _, reader in _list_readers(grey, make_negative, refined)
         for tag_print in prints
     )
 

@@ -211,8 +211,12 @@ def test_a_board_of_hundreds_of_corners(step: int, is_inverted: bool) -> None:
     assert corners.pattern == board.pattern
 
 
+@pytest.mark.parametrize(
+    ("stated", "grid_size"),
+    [(TaggedCheckerboard(), None), (FROM_TOP.board.pattern, FROM_TOP.board.grid_size)],
+)
 def test_a_large_lattice_without_tags_is_neither_grown_nor_read(
-    monkeypatch: pytest.MonkeyPatch,
+    stated: TaggedCheckerboard, grid_size: tuple[int, int] | None, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """In the "stripes" of 12 megapixels one of 2100 corners took five times as long as a board."""
     image = photograph_board((640, 480), (21, 29), 14.0, 0.8)
@@ -221,7 +225,25 @@ def test_a_large_lattice_without_tags_is_neither_grown_nor_read(
         find_tagged_checkerboard, "_identify_board", lambda *_: pytest.fail("it was read")
     )
     with pytest.raises(NoBoardError, match="no tags"):
-        find_corners(image, pattern=TaggedCheckerboard())
+        find_corners(image, grid_size, pattern=stated)
+
+
+def test_a_stated_board_is_found_in_a_corner_of_a_floor_that_goes_on_from_it() -> None:
+    """The middle of their lattice, which is as large as twenty boards, has no tags."""
+    pattern, pitch = TaggedCheckerboard("t36h11", 1, 2, True), 20
+    row, col = np.indices((36, 48))
+    is_dark = (row + col) % 2 == 1 - int(pattern.is_first_square_dark((8, 10)))
+    drawing = np.kron(np.where(is_dark, 45, 205), np.ones((pitch, pitch)))
+    x, y = (np.arange(-1, end, 1 / pitch) + 0.5 / pitch for end in (10, 8))
+    XY = np.stack(np.meshgrid(x, y), axis=-1)
+    slopes = np.broadcast_to(np.eye(2) / pitch, (*XY.shape[:2], 2, 2))
+    ink, _ = pattern.draw((8, 10)).compute_ink_share(XY, slopes)
+    drawing[2 * pitch : 11 * pitch, 2 * pitch : 13 * pitch] = 205 - 160 * ink
+    image = np.rint(cv2.GaussianBlur(drawing, (0, 0), 0.8)).astype(np.uint8)
+    corners = find_corners(image, (8, 10), pattern=pattern)
+    expected = pitch * (corners.grid[:, ::-1] + 3) - 0.5
+    assert len(corners) == 80
+    assert np.abs(corners.uv - expected).max() < 0.1
 
 
 def test_the_negative_is_made_once_and_for_boards_without_dark_tags(
