@@ -17,7 +17,9 @@ its image proves it. The way of an image, entry first:
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import cache
 
 import numpy as np
 import numpy.typing as npt
@@ -171,12 +173,16 @@ def _find_wanted_board(
     boards: list[RefinedBoard] = []
     wanted, others = None, boards
     tried: dict[Candidate, list[RefinedBoard | Refusal]] = {}
+    unwanted: list[Candidate] = []  # those of `tried` that are no boards of that size
     refused: list[Refusal] = []
     searched = None if outline is None else region.enlarge_outline(outline)
+    may_be_wanted = cache(
+        lambda board: grid_size is None or _may_have_size(grey, board.lattice, grid_size)
+    )
     for candidates in find_candidates(grey, searched, on_refusal=refused.append):
         for candidate in candidates:
             if candidate not in tried:
-                same = find_same(candidate, (each for each in tried if _is_refused(tried[each])))
+                same = find_same(candidate, unwanted)
                 tried[candidate] = (
                     _verify_parts(grey, candidate, grid_size, method)
                     if same is None
@@ -184,10 +190,11 @@ def _find_wanted_board(
                 )
         results = (result for candidate in candidates for result in tried[candidate])
         boards = [board for board in results if isinstance(board, RefinedBoard)]
-        if chosen := _choose_board(grey, boards, grid_size):
+        if chosen := _choose_board(grey, boards, may_be_wanted):
             wanted, others = chosen, [board for board in boards if board is not chosen]
             if not board_ends.may_surround_a_board(wanted.lattice, grey):
                 break
+        unwanted += [each for each in candidates if chosen is None or _is_refused(tried[each])]
     if wanted is not None:
         return wanted, others
     if boards and grid_size is not None:
@@ -205,21 +212,17 @@ def _find_wanted_board(
 
 
 def _choose_board(
-    grey: GreyImage, boards: list[RefinedBoard], grid_size: GridSize | None
+    grey: GreyImage, boards: list[RefinedBoard], may_be_wanted: Callable[[RefinedBoard], bool]
 ) -> RefinedBoard | None:
     """Sort boards by the strength of their edges and return the first that may be of the stated
-    size, None if none may.
+    size, which is asked of each, None if none may.
 
     A chequered floor or cloth has stronger edges than the board that lies on it, but no end in the
     image: before such a one comes what is seen to end on most sides, or on two if the floor is all
     around it.
     """
     boards.sort(key=lambda board: board.edge_strength, reverse=True)
-    fitting = [
-        board
-        for board in boards
-        if grid_size is None or _may_have_size(grey, board.lattice, grid_size)
-    ]
+    fitting = list(filter(may_be_wanted, boards))
     if len(fitting) > 1 and not any(board_ends.find_ends(fitting[0].lattice, grey)):
         floor, *others = fitting
         ends = [sum(board_ends.find_ends(board.lattice, grey)) for board in others]

@@ -12,8 +12,9 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 from calibgui.engine.boards.board import Board
-from calibgui.engine.boards.pattern import Symmetry
+from calibgui.engine.boards.pattern import Pattern, Symmetry
 from calibgui.engine.boards.puzzleboard import PuzzleBoard
+from calibgui.engine.boards.tagged_checkerboard import TaggedCheckerboard
 from calibgui.engine.camera import Camera
 from calibgui.engine.camera.distortion import project_points
 from calibgui.engine.detection.checkerboard import find_checkerboard
@@ -325,17 +326,26 @@ def test_ragged_corners_of_a_houndstooth_are_no_board() -> None:
         find_corners(draw_without_board(556))
 
 
-def test_what_every_level_shows_is_verified_once(monkeypatch: pytest.MonkeyPatch) -> None:
-    """To a search for a checkerboard a PuzzleBoard's edges are too ragged, in each size of the
-    image."""
+@pytest.mark.parametrize(
+    ("pattern", "grid_size", "match"),
+    [
+        (PuzzleBoard((50, 101)), None, "7 x 10 inner corners"),
+        (TaggedCheckerboard("t36h11", 1, 2, True), (6, 9), "7 x 10 inner corners, not 6 x 9"),
+    ],
+)
+def test_what_every_level_shows_is_verified_once(
+    pattern: Pattern, grid_size: tuple[int, int] | None, match: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """To a search for a checkerboard a PuzzleBoard's edges are too ragged, and a checkerboard with
+    tags is of another size than is stated, in each size of the image."""
     verified: list[int] = []
     refine = find_checkerboard.refine_board
     monkeypatch.setattr(
         find_checkerboard, "refine_board", lambda *args: verified.append(1) or refine(*args)
     )
-    image = photograph_pattern((1600, 1200), Board(7, 10, 26.0, PuzzleBoard((50, 101))), 0.7, 1.0)
-    with pytest.raises(NoBoardError, match="7 x 10 inner corners"):
-        find_corners(image)
+    image = photograph_pattern((1600, 1200), Board(7, 10, 26.0, pattern), 0.7, 1.0)
+    with pytest.raises(NoBoardError, match=match):
+        find_corners(image, grid_size)
     assert len(verified) == 1
 
 
