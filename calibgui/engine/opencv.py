@@ -189,19 +189,25 @@ def list_dictionaries() -> Mapping[str, int]:
     return MappingProxyType({name: len(_load_dictionary(name).bytesList) for name in sorted(names)})
 
 
-def detect_markers(image: GreyImage, dictionary: str) -> tuple[IntArray, Array]:
-    """Detect the square markers of a predefined dictionary in an 8-bit image (h, w).
+class DetectedMarkers(NamedTuple):
+    """The square markers of a dictionary in an image, and what else may be markers."""
 
-    Returns:
-        Their numbers (n,) and corners (n, 4, 2) px, clockwise as printed from the upper left.
-    """
+    numbers: IntArray
+    """(n,)"""
+    corners: Array
+    """(n, 4, 2) px, clockwise as printed from the upper left."""
+    unread: Array
+    """(m, 4, 2) px, corners of the other dark quadrilaterals."""
+
+
+def detect_markers(image: GreyImage, dictionary: str) -> DetectedMarkers:
+    """Detect the square markers of a predefined dictionary in an 8-bit image (h, w)."""
     parameters = _marker_parameters(image)
     parameters.cornerRefinementMethod = cv2.aruco.CORNER_REFINE_SUBPIX
     detector = cv2.aruco.ArucoDetector(_load_dictionary(dictionary), parameters)
-    corners, ids, *_ = detector.detectMarkers(image)
-    if ids is None or not len(corners):
-        return np.zeros(0, np.int64), np.zeros((0, 4, 2))
-    return np.asarray(ids, np.int64).ravel(), np.array(corners, np.float64).reshape(-1, 4, 2)
+    corners, ids, unread = detector.detectMarkers(image)
+    numbers = np.zeros(0, np.int64) if ids is None else np.asarray(ids, np.int64).ravel()
+    return DetectedMarkers(numbers, _stack_quads(corners), _stack_quads(unread))
 
 
 def detect_dark_quads(
@@ -222,7 +228,12 @@ def detect_dark_quads(
         parameters.adaptiveThreshWinSizeMin = parameters.adaptiveThreshWinSizeMax = QUICK_WINDOW
     detector = cv2.aruco.ArucoDetector(any_one, parameters)
     read, _, others = detector.detectMarkers(image)
-    return np.array([*read, *others], np.float64).reshape(-1, 4, 2)
+    return _stack_quads([*read, *others])
+
+
+def _stack_quads(quads: Sequence[Any]) -> Array:
+    """Return the corners (n, 4, 2) px of quadrilaterals as OpenCV lists them."""
+    return np.array(quads, np.float64).reshape(-1, 4, 2)
 
 
 def count_quads(image: GreyImage, window: int, perimeter: int, enough: int) -> int:

@@ -15,7 +15,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import replace
-from typing import NamedTuple
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
@@ -44,6 +44,7 @@ from calibgui.engine.detection.charuco.markers import Markers
 from calibgui.engine.detection.charuco.stated_board import (
     contradict,
     count_rows,
+    explain_missing_board,
     list_layouts,
     open_readers,
     read_board,
@@ -84,6 +85,10 @@ class _FoundBoard(NamedTuple):
     """Number of its first marker."""
 
 
+_FittedBoard: TypeAlias = tuple[_FoundBoard, XCornerFit | None]
+"""A board and the fit of its corners, if they were fitted."""
+
+
 class _LocatedBoard(NamedTuple):
     """One reading of a board's markers and the corners found beside them."""
 
@@ -114,31 +119,61 @@ def find_charuco(
     grey = check_grey_levels(image)
     outline = None if roi is None else region.check_outline(roi)
     readers = open_readers(grey, outline)
-    fit: XCornerFit | None = None
-    try:
-        board = _find_board(grey, pattern, grid_size, outline, readers)
-        lattice, rejected = board.lattice, board.rejected
-        if method == "edges":
-            lattice, fit, more = fit_corners(grey, lattice, board.marks)
-            rejected += more
-        require_enough_corners(lattice)
-    except NoBoardError:
-        if grid_size is None:
-            raise
-        few = _find_few_corners(grey, pattern, grid_size, readers, method)
-        if few is None:
-            raise
-        board, fit = few
-        lattice, rejected = board.lattice, board.rejected
-    corners = assemble_corners(grey, lattice, fit, outline, rejected, board.pattern)
+    found = _find_fitted_board(grey, pattern, grid_size, outline, readers, method)
+    if found is None:
+        raise explain_missing_board(pattern, readers, grid_size)
+    board, fit = found
+    corners = assemble_corners(grey, board.lattice, fit, outline, board.rejected, board.pattern)
     if not board.first:
         return corners
     return replace(corners, remark=f"The board's markers are numbered from {board.first} on.")
 
 
+def _find_fitted_board(
+    grey: GreyImage,
+    pattern: Charuco,
+    grid_size: GridSize | None,
+    outline: Array | None,
+    readers: list[MarkerReader],
+    method: str,
+) -> _FittedBoard | None:
+    """Find the board, and fit its corners if the `method` says so; None if nothing of it is seen.
+
+    Raises:
+        NoBoardError: if it is not the stated one, or too little of it is seen.
+    """
+    failure: NoBoardError | None = None
+    try:
+        board = _find_board(grey, pattern, grid_size, outline, readers)
+        if board is not None:
+            return _fit_board(grey, board, method)
+    except NoBoardError as error:
+        failure = error
+    few = None
+    if grid_size is not None:
+        few = _find_few_corners(grey, pattern, grid_size, readers, method)
+    if few is None and failure is not None:
+        raise failure
+    return few
+
+
+def _fit_board(grey: GreyImage, board: _FoundBoard, method: str) -> _FittedBoard:
+    """Fit the corners of a board if the `method` says so.
+
+    Raises:
+        NoBoardError: if too few are left.
+    """
+    fit: XCornerFit | None = None
+    if method == "edges":
+        lattice, fit, more = fit_corners(grey, board.lattice, board.marks)
+        board = board._replace(lattice=lattice, rejected=board.rejected + more)
+    require_enough_corners(board.lattice)
+    return board, fit
+
+
 def _find_few_corners(
     grey: GreyImage, pattern: Charuco, grid_size: GridSize, readers: list[MarkerReader], method: str
-) -> tuple[_FoundBoard, XCornerFit | None] | None:
+) -> _FittedBoard | None:
     """Find corners between markers that were read, two of which are enough, where they are too few
     to be a board's, and fit them if the `method` says so. None if there are none."""
     for least in (CHARUCO_THRESHOLDS.min_markers, CHARUCO_THRESHOLDS.min_markers_if_stated):
@@ -155,7 +190,7 @@ def _locate_between(
     board: ReadBoard,
     is_inverted: bool,
     method: str,
-) -> tuple[_FoundBoard, XCornerFit | None] | None:
+) -> _FittedBoard | None:
     """Locate the corners between markers that were read; see `_find_few_corners`."""
     if len(board.readings) > 1 or contradict(board.readings[0], pattern, grid_size) is not None:
         return None
@@ -174,12 +209,12 @@ def _find_board(
     grid_size: GridSize | None,
     outline: Array | None,
     readers: list[MarkerReader],
-) -> _FoundBoard:
+) -> _FoundBoard | None:
     """Find the board by markers that are read one by one, or, where these tell hardly half of the
-    corners of a stated one, by all of them together.
+    corners of a stated one, by all of them together; None if neither finds it.
 
     Raises:
-        NoBoardError: if neither finds it.
+        NoBoardError: if its markers are not the stated ones, or tell too few of its corners.
     """
     try:
         board = _find_by_markers(grey, pattern, grid_size, readers)
@@ -188,23 +223,26 @@ def _find_board(
         if other is None:
             raise
         return other
-    rows, cols = board.lattice.shape
-    if len(board.lattice) < _FEW_CORNERS * rows * cols:
-        other = _find_by_lattice(grey, pattern, grid_size, outline)
-        if other is not None and len(other.lattice) > len(board.lattice):
-            return other
+    if board is not None and len(board.lattice) >= _FEW_CORNERS * board.lattice.found.size:
+        return board
+    other = _find_by_lattice(grey, pattern, grid_size, outline)
+    if board is None or (other is not None and len(other.lattice) > len(board.lattice)):
+        return other
     return board
 
 
 def _find_by_markers(
     grey: GreyImage, pattern: Charuco, grid_size: GridSize | None, readers: list[MarkerReader]
-) -> _FoundBoard:
-    """Find the board by its markers, read one by one.
+) -> _FoundBoard | None:
+    """Find the board by its markers, read one by one; None if too few are read.
 
     Raises:
-        NoBoardError: if too few are read, or they are of another board.
+        NoBoardError: if they are of another board, or tell too few of its corners.
     """
-    read, is_inverted = read_board(pattern, readers, grid_size)
+    found = read_board(pattern, readers, grid_size)
+    if found is None:
+        return None
+    read, is_inverted = found
     located = _choose_reading(grey, read.readings, grid_size, is_inverted=is_inverted)
     lattice, rejected = located.lattice, located.rejected
     board = _describe_board(read.dictionary, pattern, located.markers, lattice, rejected)

@@ -69,6 +69,8 @@ class MarkerCandidates:
         self, dictionary: str, is_inverted: bool, is_mirrored: bool
     ) -> tuple[IntArray, IntArray]:
         """Compare the cells of all quadrilaterals with a dictionary; see `_match_dictionary`."""
+        if not len(self._quads):
+            return np.zeros(0, np.int64), np.zeros(0, np.int64)
         codes, correctable = _encode_markers(dictionary)
         k = int(np.sqrt(codes.shape[1]))
         if k not in self._cells:

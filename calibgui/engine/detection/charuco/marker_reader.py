@@ -115,7 +115,7 @@ class MarkerReader:
             is_coarsest = depth == len(self._levels) - 1
             if is_coarsest and not self._quads.are_many:
                 return [name]
-            return self._select_likely([name], least, depth)
+            return self._select_likely([name], least, False, depth)
 
         return self._read_first(list_if_likely, layouts, count, least)
 
@@ -124,9 +124,15 @@ class MarkerReader:
         layouts: Collection[MarkerLayout],
         count: int | None = None,
         least: int = CHARUCO_THRESHOLDS.min_markers,
+        *,
+        must_agree: bool = False,
     ) -> ReadBoard | None:
-        """Read the markers of an unknown dictionary on a board of one of the layouts; the arguments
-        are those of `read_dictionary`.
+        """Read the markers of an unknown dictionary on a board of one of the layouts.
+
+        Args:
+            layouts: as of `read_dictionary`, like `count` and `least`.
+            must_agree: True to read only dictionaries of which even a quick look shows markers that
+                agree on a board: it takes half of the time, and misses boards that hardly show any.
 
         Returns:
             The smallest dictionary of its family that reads the most markers, and these; None if
@@ -135,7 +141,7 @@ class MarkerReader:
         best: ReadBoard | None = None
         for rank in (0, 2):
             best = best or self._read_first(
-                partial(self._select_likely, _list_family_members(rank), least),
+                partial(self._select_likely, _list_family_members(rank), least, must_agree),
                 layouts,
                 count,
                 least,
@@ -157,7 +163,7 @@ class MarkerReader:
         coarsest = self._find_candidates(len(self._levels) - 1)
         for name in [dictionary] if dictionary else _list_family_members(2):
             read = coarsest.read_fitting(name, is_mirrored=True)
-            boards = identify_board(*read, MARKER_LAYOUTS, MARKER_LAYOUTS)
+            boards = _place(read, CHARUCO_THRESHOLDS.min_markers)
             if boards and tell_rows_apart(boards[0].squares, MARKER_NEIGHBOURS):
                 return True
         return False
@@ -193,28 +199,33 @@ class MarkerReader:
                 self.is_undecided = True
         return None
 
-    def _select_likely(self, names: list[str], least: int, depth: int) -> list[str]:
+    def _select_likely(
+        self, names: list[str], least: int, must_agree: bool, depth: int
+    ) -> list[str]:
         """Select the dictionaries of which enough quadrilaterals may be markers, two of them near
-        each other where two are enough, and at a finer size, which takes long to read, agree on a
-        board: among thousands some fit by chance."""
-        if depth == len(self._levels) - 1:
-            coarsest = self._find_candidates(depth)
-            likely = [name for name in names if coarsest.count_fitting(name) >= least]
-            if least >= CHARUCO_THRESHOLDS.min_markers:
-                return likely
-            return [name for name in likely if are_some_near(coarsest.read_fitting(name)[1])]
-        return [name for name in names if self._agree_on_board(name, least, depth)]
+        each other where two are enough, and at a finer size, which takes long to read, or where
+        they must, agree on a board: among thousands some fit by chance."""
+        if depth < len(self._levels) - 1:
+            return [name for name in names if self._agree_on_board(name, least, must_agree, depth)]
+        coarsest = self._find_candidates(depth)
+        likely = [name for name in names if coarsest.count_fitting(name) >= least]
+        if must_agree:
+            return [name for name in likely if _place(coarsest.read_fitting(name), least)]
+        if least >= CHARUCO_THRESHOLDS.min_markers:
+            return likely
+        return [name for name in likely if are_some_near(coarsest.read_fitting(name)[1])]
 
-    def _agree_on_board(self, dictionary: str, least: int, depth: int) -> bool:
+    def _agree_on_board(self, dictionary: str, least: int, must_agree: bool, depth: int) -> bool:
         """Return whether quadrilaterals of one of the finer levels may be markers of a dictionary
-        that lie as on a board; only if a sample shows two near to each other all are looked for."""
+        that lie as on a board; only if a sample shows two near to each other, which must agree on
+        one or not, all are looked for."""
         is_inverted = self._positive is not None
         positive = self._positive or self
-        _, sampled = positive._sample_candidates(depth).read_fitting(dictionary, is_inverted)
-        if not are_some_near(sampled):
+        sampled = positive._sample_candidates(depth).read_fitting(dictionary, is_inverted)
+        if not (_place(sampled, 2) if must_agree else are_some_near(sampled[1])):
             return False
         read = positive._find_candidates(depth).read_fitting(dictionary, is_inverted)
-        boards = identify_board(*read, MARKER_LAYOUTS, MARKER_LAYOUTS, least)
+        boards = _place(read, least)
         if boards:
             self._boxes[depth, dictionary] = _find_box(boards[0].corners, self._levels[depth].shape)
         return bool(boards)
@@ -243,13 +254,22 @@ class MarkerReader:
             level = self._levels[depth]
             left, top, right, bottom = self._boxes.get((depth, name), (0, 0, *level.shape[::-1]))
             part = np.ascontiguousarray(level[top:bottom, left:right])
-            numbers, corners = opencv.detect_markers(part, name)
+            numbers, corners, unread = opencv.detect_markers(part, name)
+            if depth == len(self._levels) - 1 and depth not in self._candidates:
+                quads = np.concatenate([corners, unread])
+                self._candidates[depth] = MarkerCandidates(level, quads)
             corners = (corners + np.array([left, top]) + 0.5) * 2**depth - 0.5
             if self._outline is not None and len(numbers):
                 inside = are_inside(self._outline, corners.mean(axis=1))
                 numbers, corners = numbers[inside], corners[inside]
             self._read[depth, name] = numbers, corners
         return self._read[depth, name]
+
+
+def _place(read: tuple[IntArray, Array], least: int) -> list[Markers[MarkerLayout]]:
+    """Place markers, numbers (n,) and corners (n, 4, 2) px, on a board of any layout if at least so
+    many agree; see `identify_board`."""
+    return identify_board(*read, MARKER_LAYOUTS, MARKER_LAYOUTS, least)
 
 
 def _find_box(corners: Array, shape: tuple[int, ...]) -> Box:

@@ -2,7 +2,8 @@
 
 Only markers that agree with what is stated of dictionary, layout, size and markers' side are
 accepted, in the image or in its negative; where the size is stated, also those of a board that
-begins with another number than 0.
+begins with another number than 0. What is there instead is looked for among all dictionaries, which
+takes as long once more: only after all else has failed.
 """
 
 from __future__ import annotations
@@ -33,22 +34,23 @@ def open_readers(grey: GreyImage, outline: Array | None) -> list[MarkerReader]:
 
 def read_board(
     pattern: Charuco, readers: list[MarkerReader], grid_size: GridSize | None
-) -> tuple[ReadBoard, bool]:
+) -> tuple[ReadBoard, bool] | None:
     """Read the dictionary and the board's markers in an image and its negative.
 
     Only what agrees with the statements in `pattern` and `grid_size` is accepted.
 
     Returns:
-        The board, and whether it is printed bright on dark.
+        The board, and whether it is printed bright on dark; None if there is no such board:
+        `explain_missing_board` names the one that is there instead.
 
     Raises:
-        NoBoardError: if there is no such board; the message names the one that is there instead.
+        NoBoardError: if the markers contradict what is stated of their side or of the size.
     """
     read = read_markers(pattern, readers, grid_size, CHARUCO_THRESHOLDS.min_markers)
     if grid_size is not None and (read is None or count_rows(read[0].readings[0]) > grid_size[0]):
         read = _read_numbered_board(pattern, readers, grid_size) or read
     if read is None:
-        raise _explain_missing_board(pattern, readers, grid_size)
+        return None
     if (contradiction := contradict(read[0].readings[0], pattern, grid_size)) is not None:
         raise contradiction
     return read
@@ -127,7 +129,7 @@ def list_layouts(pattern: Charuco, grid_size: GridSize | None) -> list[MarkerLay
     return [MarkerLayout(grid_size[1] + 1, dark) for dark in both]
 
 
-def _explain_missing_board(
+def explain_missing_board(
     pattern: Charuco, readers: list[MarkerReader], grid_size: GridSize | None
 ) -> NoBoardError:
     """Return the error that says what the image shows instead of the stated board."""
@@ -136,7 +138,7 @@ def _explain_missing_board(
     for reader in readers if is_anything_stated else ():
         if pattern.dictionary:
             found = found or reader.read_dictionary(pattern.dictionary, MARKER_LAYOUTS)
-        found = found or reader.search_dictionaries(MARKER_LAYOUTS)
+        found = found or reader.search_dictionaries(MARKER_LAYOUTS, must_agree=True)
     if found is None and any(reader.is_undecided for reader in readers):
         return UnknownPartError(
             "The markers seen do not tell how many squares the board has in a row.",

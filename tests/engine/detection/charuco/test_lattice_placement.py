@@ -15,6 +15,7 @@ from calibgui.engine.boards.tagged_checkerboard import TaggedCheckerboard
 from calibgui.engine.detection.charuco import lattice_placement
 from calibgui.engine.detection.charuco.lattice_placement import MarkedBoard
 from calibgui.engine.detection.charuco.mark_removal import Marks
+from calibgui.engine.detection.charuco.marker_reader import MarkerReader
 from calibgui.engine.detection.find_corners import find_corners
 from calibgui.engine.detection.lattice import Lattice
 from calibgui.engine.errors import NoBoardError
@@ -49,6 +50,19 @@ def test_opencv_reads_none_of_these_markers() -> None:
     dictionary = cv2.aruco.getPredefinedDictionary(cv2.aruco.DICT_5X5_250)
     _, numbers, *_ = cv2.aruco.ArucoDetector(dictionary).detectMarkers(SMALL.image(BLUR, NOISE))
     assert numbers is None
+
+
+def test_other_dictionaries_are_not_searched_for_a_board_that_is_there(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """They serve to tell what is there instead."""
+
+    def fail(*_: object, **__: object) -> None:
+        raise AssertionError("nothing is to be told")
+
+    monkeypatch.setattr(MarkerReader, "search_dictionaries", fail)
+    corners = find_corners(SMALL.image(BLUR, NOISE), (8, 11), pattern=SMALL.board.pattern)
+    assert corners.complete
 
 
 def test_the_side_of_a_marker_need_not_be_stated() -> None:

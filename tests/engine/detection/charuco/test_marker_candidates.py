@@ -11,10 +11,12 @@ import pytest
 from calibgui.engine import arrays, opencv
 from calibgui.engine.boards.board import Board
 from calibgui.engine.boards.charuco import Charuco
+from calibgui.engine.boards.tagged_checkerboard import TaggedCheckerboard
 from calibgui.engine.detection.charuco.marker_candidates import MarkerCandidates
 from calibgui.engine.detection.find_corners import find_corners
 from calibgui.engine.errors import NoBoardError
 from tests.engine.detection.conftest import Scene
+from tests.scenes.perspective import photograph_pattern
 from tests.scenes.without_board import draw_without_board
 
 NAMES = ["DICT_4X4_50", "DICT_5X5_250", "DICT_6X6_50", "DICT_7X7_1000", "DICT_ARUCO_ORIGINAL"]
@@ -75,7 +77,7 @@ def read(monkeypatch: pytest.MonkeyPatch) -> list[tuple[int, ...]]:
     shapes = []
     markers = opencv.detect_markers
 
-    def detect(image: arrays.GreyImage, name: str) -> tuple[arrays.IntArray, arrays.Array]:
+    def detect(image: arrays.GreyImage, name: str) -> opencv.DetectedMarkers:
         shapes.append(image.shape)
         return markers(image, name)
 
@@ -109,7 +111,7 @@ def test_markers_that_show_at_full_size_only_are_read(
 def test_numbers_and_corners_are_those_that_opencv_reads(name: str) -> None:
     image = page(name, 0.5, 2.0)
     numbers, corners = MarkerCandidates(image, opencv.detect_dark_quads(image)).read_fitting(name)
-    expected, places = opencv.detect_markers(image, name)
+    expected, places, _ = opencv.detect_markers(image, name)
     at = dict(zip(numbers.tolist(), corners, strict=True))
     assert len(at) == len(numbers) >= len(expected)
     for number, quad in zip(expected.tolist(), places, strict=True):
@@ -133,3 +135,32 @@ def test_markers_that_fit_by_chance_are_not_read(monkeypatch: pytest.MonkeyPatch
         find_corners(draw_without_board(17, (3000, 4000), 2.5), None, pattern=Charuco())
     assert not read
     assert max(searched) <= 750 * 1000
+
+
+def test_outlines_are_looked_for_once_to_refuse_a_stated_board(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """What OpenCV could not read of the stated dictionary is what others may be read in."""
+    searched: list[str] = []
+    for name in ("detect_markers", "detect_dark_quads"):
+        search = getattr(opencv, name)
+
+        def detect(*image: Any, search: Any = search, name: str = name, **how: Any) -> Any:
+            searched.append(name)
+            return search(*image, **how)
+
+        monkeypatch.setattr(opencv, name, detect)
+    with pytest.raises(NoBoardError, match="No ChArUco"):
+        find_corners(draw_without_board(0), (5, 8), pattern=Charuco(NAMES[0], 0.7, False))
+    assert searched == 2 * ["detect_markers"]  # dark and bright
+
+
+def test_tags_of_another_kind_of_board_are_not_read_to_tell_what_is_there(
+    read: list[tuple[int, ...]],
+) -> None:
+    """OpenCV would compare each with the hundreds of its dictionary."""
+    board = Board(8, 10, 20.0, TaggedCheckerboard("t36h11", 1, 2, from_top=True))
+    image = photograph_pattern((1000, 750), board, 0.7, 0.8)
+    with pytest.raises(NoBoardError, match="No ChArUco"):
+        find_corners(image, (7, 10), pattern=Charuco(NAMES[0], 0.75, False))
+    assert len(read) == 2  # of the stated dictionary, dark and bright
