@@ -194,6 +194,26 @@ class LightThresholds:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class StrayLightThresholds:
+    """Thresholds of light that strays (`stray_light`)."""
+
+    min_corners: int = 16
+    """Least number of corners that tell it."""
+    least_loss: float = 1e-3
+    """Least variance in a direction by which gradients cost corners, over that in all."""
+    min_sigmas: float = 3.0
+    """Least excess of H over 1 that is believed, standard deviations."""
+    max_below_clipping: float = 0.01
+    """Greatest distance of clipped paper from the image's greatest level, over that."""
+    clipped_share: float = 0.45
+    """Share of D that is true beside clipped paper: without stray light H was 0.1 to 0.7 on
+    rendered boards, 0.42 on average."""
+    unseen_share: float = 0.5
+    """Share of (H - 1) D that is added there. On boards rendered with 15 % of the light strayed
+    over 6 to 12 px chi2 was 1.2 to 1.7 without, and is 0.8 to 1.3."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class HardEdgeThresholds:
     """Thresholds of edges without a grey pixel (`hard_edges`)."""
 
@@ -226,6 +246,7 @@ class FitThresholds:
     edges: EdgeFitThresholds = field(default_factory=EdgeFitThresholds)
     noise: NoiseThresholds = field(default_factory=NoiseThresholds)
     light: LightThresholds = field(default_factory=LightThresholds)
+    stray_light: StrayLightThresholds = field(default_factory=StrayLightThresholds)
     hard_edges: HardEdgeThresholds = field(default_factory=HardEdgeThresholds)
 
 

@@ -47,9 +47,9 @@ _STEPS = 3
 
 
 def find_uneven_light(
-    model: XCornerModel,
     products: Array,
     square: Array,
+    lit_square: Array,
     least_noise: float,
     is_plain: bool,
     is_bare: bool,
@@ -57,16 +57,15 @@ def find_uneven_light(
     """Find the corners (n,) that gradients of the light of their own describe clearly better.
 
     Args:
-        model: before its last step.
-        products: (n, 14, 14) that this step was taken from.
+        products: (n, 14, 14) that the last step was taken from.
         square: (n,) mean square that it leaves unexplained.
+        lit_square: (n,) what a step leaves that changes the gradients of every corner as well.
         least_noise: least square of the noise that is believed, grey levels^2.
         is_plain: whether nothing is printed in the squares: blurred, that looks like light at all
             corners.
         is_bare: whether that was taken out of the image: some corners are left more of it than
             others, and none stands out.
     """
-    _, _, lit_square = take_lit_step(model, products)
     free = products[:, 6, 6] - UNKNOWNS
     gain = free * square - (free - _GRADIENTS) * lit_square
     is_clear = gain > _THRESHOLDS.min_gain * _GRADIENTS * np.maximum(lit_square, least_noise)

@@ -27,7 +27,8 @@ are unknowns of the last step, which the board holds, and where it leaves them o
 lies between the edges (`flat_squares`). Light that varies slowly is known best from the whole
 board, light that varies from square to square from the squares at the corner. What is printed in
 squares looks like light where it is blurred: there the gradients are the board's, but where the
-light ends at a corner (`local_light`), and what it leaves open of gm is added to the covariance.
+light ends at a corner (`local_light`) or strays (`stray_light`), and what it leaves open of gm is
+added to the covariance.
 
 **Light.** The model lights the blurred pattern, where a camera blurs the lit one. Under light L
 that rises by l = grad L / L,
@@ -72,6 +73,11 @@ from calibgui.engine.detection.checkerboard.hard_edges import (
     has_hard_edges,
 )
 from calibgui.engine.detection.checkerboard.local_light import find_uneven_light, fit_local_light
+from calibgui.engine.detection.checkerboard.stray_light import (
+    estimate_stray_light,
+    find_clipped_corners,
+    go_to_own_light,
+)
 from calibgui.engine.detection.checkerboard.x_corner_model import (
     BLUR,
     LIGHT,
@@ -201,15 +207,17 @@ def fit_x_corners(
     products, odd_part = accumulate_normal_equations(image, model, odd=True)
     before = model
     model, inverse, square = take_step(before, products)
+    own, own_inverse, own_square = take_lit_step(before, products)
     least_noise = estimate_least_noise(image)
     # What is printed looks like light where it is blurred.
     is_plain = priors is None and min(plain, bare_edge) == 0.5
-    uneven = find_uneven_light(before, products, square, least_noise, is_plain, is_bare)
+    uneven = find_uneven_light(products, square, own_square, least_noise, is_plain, is_bare)
     freedom = products[M][M] - UNKNOWNS  # the derivative by m is 1
     noise = pool_noise(estimate_noise(square, odd_part), freedom)
     noise = np.maximum(noise, least_noise)
     covariance = noise[:, None, None] * inverse
     by_bend = np.zeros_like(covariance)
+    boards = model
     if is_large:
         edges = _list_edges(model, image.shape[::-1])
         is_told = is_long or bool(edges.middle.any())
@@ -230,13 +238,22 @@ def fit_x_corners(
             model = _correct_for_bend(model, better, edges, bend)
             covariance = noise[:, None, None] * opened
         else:
-            model = _correct_for_light_told(model, inverse, better, edges)
-            model = _correct_for_bend(model, better, edges, bend)
+            boards = _correct_for_light_told(model, inverse, better, edges)
+            model = _correct_for_bend(boards, better, edges, bend)
             covariance = covariance + _compute_light_covariance(model, inverse, edges, of_level)
         by_bend = _compute_bend_covariance(model, followed.variance)
     if has_hard_edges(image, model):
         by_bend = by_bend + _compute_bend_covariance(model, compute_rounding_variance(model))
     growth = estimate_growth(image, model, noise, ~uneven)
+    if not is_plain:
+        lost = noise[:, None, None] * (own_inverse - inverse)
+        shift = own.unknowns[C] - boards.unknowns[C]
+        clipped = find_clipped_corners(image, model)
+        share, added = estimate_stray_light(shift, growth * lost, ~uneven, clipped)
+        if share > 0:
+            model = go_to_own_light(model, boards, own, share)
+            covariance = covariance + added[:, None, None] * lost
+            growth = estimate_growth(image, model, noise, ~uneven)
     covariance = growth * covariance
     residual = np.sqrt(square)
     fit = XCornerFit(_correct_for_light(model), covariance + by_bend, residual, residual)

@@ -42,6 +42,17 @@ def test_all_is_inferred(scene: Scene, inverted: bool) -> None:
     assert_at_bound(scene, corners, (0.8, 1.3))
 
 
+@pytest.mark.parametrize("exposure", [1.0, 1.3], ids=["", "overexposed"])
+def test_light_that_strays_is_told(exposure: float) -> None:
+    """With the board's gradients of light alone chi2 was 7.7 and 8.0."""
+    light = exposure * FROM_TOP.image().astype(np.float64)
+    light = 0.85 * light + 0.15 * cv2.GaussianBlur(light, (0, 0), 8.0)
+    image = np.clip(np.rint(light), 0, 255).astype(np.uint8)
+    corners = find_corners(image, FROM_TOP.board.grid_size, pattern=FROM_TOP.board.pattern)
+    assert corners.complete
+    assert_at_bound(FROM_TOP, corners, (0.5, 1.4))
+
+
 def test_a_narrow_border_is_not_read_as_a_wide_one() -> None:
     """With cells of another size some of its tags can be read, and their cells disturb corners."""
     scene = Scene(
