@@ -58,10 +58,11 @@ _MAX_BLUR_DIFFERENCE = 0.1
 itself."""
 _CLIPPED_SHARE = 0.3
 """Share of the paper beside a corner that has the image's greatest level where light is clipped."""
-_RELATIVE_ERROR, _RELATIVE_ERROR_ALONE = 0.15, 0.3
-"""Standard deviation of the shift of all tags over that shift, besides its scatter, and of the
-moves of a tag's corners by themselves. On rendered boards the former was up to 0.1 of shifts by
-gamma curves, and up to 0.4 of the small ones by sharpening."""
+_RELATIVE_ERRORS, _RELATIVE_ERROR_ALONE = (0.1, 0.5), 0.3
+"""Standard deviations of the shift of all tags over that shift, besides its scatter, where bright
+parts have grown and where dark ones have, and of the moves of a tag's corners by themselves. On
+rendered boards errors were up to 0.1 of shifts by gamma curves, and 0.3 to 0.5 of the other ones,
+which sharpening and blurs of other shapes make."""
 SIGMA_OF_MEDIAN = 1.4826 * 1.2533
 """Standard deviation of the median of n normal numbers, times the root of n, over the median of
 their absolute deviations."""
@@ -119,7 +120,8 @@ def measure_corner_moves(
     shifts = np.einsum("nkij,nki->nj", out, moves) / np.einsum("nkij,nkij->nj", out, out)
     shift = np.median(shifts, axis=0)
     deviation = np.median(abs(shifts - shift), axis=0)
-    sd = np.hypot(SIGMA_OF_MEDIAN * deviation / len(index) ** 0.5, _RELATIVE_ERROR * shift)
+    error = shift * np.where(shift > 0, *_RELATIVE_ERRORS)
+    sd = np.hypot(SIGMA_OF_MEDIAN * deviation / len(index) ** 0.5, error)
     outwards = _list_outwards(quads)
     move, scaled = outwards @ shift, outwards * sd
     covariance = scaled @ scaled.swapaxes(2, 3)

@@ -54,6 +54,14 @@ def test_sharpening_does_not_enlarge_tags(light: Array) -> None:
     assert sigmas.max() < 5
 
 
+def test_a_lens_out_of_focus_makes_no_corner_too_sure(light: Array) -> None:
+    """Its blur is a disc: what it enlarges tags by is told to a half only. chi2 was 2.7."""
+    y, x = np.mgrid[-4:5, -4:5]
+    disc = np.clip(4 - np.hypot(x, y), 0, 1)
+    _, sigmas = read(cv2.filter2D(light, -1, disc / disc.sum(), borderType=cv2.BORDER_REPLICATE))
+    assert np.mean(sigmas**2) / 2 < 1.5
+
+
 def test_glare_that_clips_the_paper_misleads_no_corners(light: Array) -> None:
     """Some edges are drawn by up to a pixel into the ink."""
     v, u = np.indices(light.shape)
