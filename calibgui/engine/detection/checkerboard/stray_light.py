@@ -65,7 +65,8 @@ def estimate_stray_light(
     h = np.einsum("ni,nij,nj->n", v, told, v) / 2
     H = float(compute_median(h)) / np.log(2)
     # The median of n such numbers deviates from log 2 by n^-1/2.
-    if H < 1 + _THRESHOLDS.min_sigmas / (np.log(2) * np.sqrt(number)):
+    is_clear = H >= 1 + _THRESHOLDS.min_sigmas / (np.log(2) * np.sqrt(number))
+    if not is_clear or compute_median(np.hypot(*v.T)) > _THRESHOLDS.max_shift:
         return 0.0, np.zeros(len(shift))
     share = 1 - 1 / H
     unseen = np.where(clipped, _THRESHOLDS.unseen_share * (H - 1), 0.0)

@@ -8,7 +8,7 @@ import pytest
 from calibgui.engine.arrays import Array
 from calibgui.engine.detection.checkerboard.stray_light import estimate_stray_light
 
-COST = np.array([[4e-4, 1e-4], [1e-4, 2e-4]])
+COST = np.array([[4e-5, 1e-5], [1e-5, 2e-5]])
 COUNT = 400
 
 
