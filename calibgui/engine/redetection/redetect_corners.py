@@ -28,12 +28,13 @@ from calibgui.engine.boards.board import Board
 from calibgui.engine.calibration.result import Calibration
 from calibgui.engine.camera.distortion import project_points
 from calibgui.engine.detection.checkerboard import board_ends, verification, x_corner_fit
+from calibgui.engine.detection.checkerboard.board_refinement import RefinedBoard
 from calibgui.engine.detection.checkerboard.corner_template import (
     compare_sectors,
     estimate_template,
     orient_corners,
 )
-from calibgui.engine.detection.checkerboard.find_checkerboard import RefinedBoard, assemble_corners
+from calibgui.engine.detection.checkerboard.find_checkerboard import assemble_corners
 from calibgui.engine.detection.checkerboard.fit_thresholds import FIT_THRESHOLDS
 from calibgui.engine.detection.checkerboard.numbering import Numbering, Sides, list_numberings
 from calibgui.engine.detection.checkerboard.prefilter import is_plausible

@@ -3,7 +3,8 @@
 ``find_checkerboard`` is the entry. The search: ``pyramid_search`` goes through the levels of the
 image; in each ``x_junctions`` finds X-junctions, ``neighbour_graph`` joins them to lattices,
 ``prefilter`` drops those that cannot be boards and ``lattice_growth`` extends the others. Then
-``saddle`` and ``x_corner_fit`` locate the corners, ``verification`` and ``a_contrario`` decide
-whether they are a board's, and ``numbering`` gives them their rows and columns. The limits that the
-search and the verification ask for are in ``thresholds``.
+``board_refinement`` makes boards of them: ``saddle`` and ``x_corner_fit`` locate the corners, and
+``verification`` and ``a_contrario`` decide whether they are a board's. ``numbering`` gives them
+their rows and columns. The limits that the search and the verification ask for are in
+``thresholds``.
 """

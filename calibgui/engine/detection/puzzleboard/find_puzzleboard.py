@@ -17,11 +17,8 @@ from calibgui.engine.boards.pattern import Symmetry
 from calibgui.engine.boards.puzzleboard import PuzzleBoard
 from calibgui.engine.detection import region_of_interest as region
 from calibgui.engine.detection.checkerboard import a_contrario
-from calibgui.engine.detection.checkerboard.find_checkerboard import (
-    RefinedBoard,
-    assemble_corners,
-    refine_board,
-)
+from calibgui.engine.detection.checkerboard.board_refinement import RefinedBoard, refine_board
+from calibgui.engine.detection.checkerboard.find_checkerboard import assemble_corners
 from calibgui.engine.detection.checkerboard.numbering import Numbering, turn_lattice
 from calibgui.engine.detection.checkerboard.prefilter import Refusal
 from calibgui.engine.detection.checkerboard.pyramid_search import (

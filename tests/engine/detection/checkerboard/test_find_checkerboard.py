@@ -17,7 +17,7 @@ from calibgui.engine.boards.puzzleboard import PuzzleBoard
 from calibgui.engine.boards.tagged_checkerboard import TaggedCheckerboard
 from calibgui.engine.camera import Camera
 from calibgui.engine.camera.distortion import project_points
-from calibgui.engine.detection.checkerboard import find_checkerboard
+from calibgui.engine.detection.checkerboard import board_refinement
 from calibgui.engine.detection.corners import Corners
 from calibgui.engine.detection.find_corners import find_corners
 from calibgui.engine.detection.lattice import Lattice
@@ -339,9 +339,9 @@ def test_what_every_level_shows_is_verified_once(
     """To a search for a checkerboard a PuzzleBoard's edges are too ragged, and a checkerboard with
     tags is of another size than is stated, in each size of the image."""
     verified: list[int] = []
-    refine = find_checkerboard.refine_board
+    refine = board_refinement.refine_board
     monkeypatch.setattr(
-        find_checkerboard, "refine_board", lambda *args: verified.append(1) or refine(*args)
+        board_refinement, "refine_board", lambda *args: verified.append(1) or refine(*args)
     )
     image = photograph_pattern((1600, 1200), Board(7, 10, 26.0, pattern), 0.7, 1.0)
     with pytest.raises(NoBoardError, match=match):
@@ -440,6 +440,6 @@ def test_a_wide_gap_is_filled_line_by_line() -> None:
     scene = draw_scene(Conditions(grid_size=(5, 18), square=28.0, tilt=10.0, turn=0.0, parts=2), 1)
     col = np.indices((5, 18))[1]
     ends = Lattice(scene.uv, dark=True).select((col < 2) | (col > 15))
-    board = find_checkerboard.refine_board(scene.photograph(1), ends, "edges")
-    assert isinstance(board, find_checkerboard.RefinedBoard)
+    board = board_refinement.refine_board(scene.photograph(1), ends, "edges")
+    assert isinstance(board, board_refinement.RefinedBoard)
     assert len(board) == 90
