@@ -236,10 +236,10 @@ def _stack_quads(quads: Sequence[Any]) -> Array:
     return np.array(quads, np.float64).reshape(-1, 4, 2)
 
 
-def count_quads(image: GreyImage, window: int, perimeter: int, enough: int) -> int:
+def count_quads(image: GreyImage, window: int, perimeter: int, least: int, most: int) -> int:
     """Count the quadrilaterals of an 8-bit image (h, w) that are darker than the mean of the
-    `window` px around and have a `perimeter` px or more, up to `enough`; 0 if there are no outlines
-    `enough`."""
+    `window` px around and have a `perimeter` px or more, up to the `most`; 0 if fewer outlines than
+    the `least` number are there."""
     dark = cv2.adaptiveThreshold(
         image, 255, cv2.ADAPTIVE_THRESH_MEAN_C, cv2.THRESH_BINARY_INV, window, DARKER
     )
@@ -249,14 +249,14 @@ def count_quads(image: GreyImage, window: int, perimeter: int, enough: int) -> i
         sides = stats[:, cv2.CC_STAT_WIDTH] + stats[:, cv2.CC_STAT_HEIGHT]
         dark[(sides - 2 < _SPECK_SHARE * perimeter)[labels]] = 0
     outlines, _ = cv2.findContours(dark, cv2.RETR_LIST, cv2.CHAIN_APPROX_SIMPLE)
-    if len(outlines) < enough:
+    if len(outlines) < least:
         return 0
     count = 0
     for outline in outlines:
         length = cv2.arcLength(outline, closed=True)
         if length >= perimeter:
             count += len(cv2.approxPolyDP(outline, _OFF_QUAD * length, closed=True)) == 4
-            if count == enough:
+            if count == most:
                 break
     return count
 

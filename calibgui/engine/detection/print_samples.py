@@ -47,6 +47,9 @@ have, within and around them, and brickwork has thousands."""
 _COUNTING_WINDOW, _MIN_PERIMETER = 11, 20
 """Side of the surroundings with which quadrilaterals are counted, and the perimeter of those that
 count, px of the halved image: that of the smallest marks."""
+_MAX_COMPARED = 300
+"""Number of quadrilaterals beyond which OpenCV's comparison of each with all markers takes longer
+than to find them: 0.1 s for 500 bricks in 640 x 480; a board of 130 marks has as many."""
 _MAX_COUNT = 600
 """Number of quadrilaterals beyond which OpenCV's search, whose time grows with its square, takes
 longer than to find a board: brickwork has 600 to 2000, a board of 300 marks no more than 600."""
@@ -64,16 +67,27 @@ class QuadSearch:
         self._image = image
 
     @cached_property
-    def _sampled(self) -> Array | None:
-        """The quadrilaterals of a sample, None if small ones are looked for everywhere."""
-        halved = opencv.halve_image(self._image)
-        count = opencv.count_quads(halved, _COUNTING_WINDOW, _MIN_PERIMETER, _MAX_COUNT)
-        return None if count < _MAX_COUNT else PrintSample(halved).detect_dark_quads(self._image)
+    def _halved(self) -> GreyImage:
+        """The image in half its size."""
+        return opencv.halve_image(self._image)
+
+    @cached_property
+    def _count(self) -> int:
+        """Number of quadrilaterals as far as it is of interest; 0 if there are few."""
+        limits = _MAX_COMPARED, _MAX_COUNT
+        return opencv.count_quads(self._halved, _COUNTING_WINDOW, _MIN_PERIMETER, *limits)
 
     @property
     def are_many(self) -> bool:
-        """True if there are hundreds: OpenCV's search for markers takes seconds for thousands."""
-        return self._sampled is not None
+        """True if there are hundreds: OpenCV compares each of them with each marker."""
+        return self._count >= _MAX_COMPARED
+
+    @cached_property
+    def _sampled(self) -> Array | None:
+        """The quadrilaterals of a sample, None if small ones are looked for everywhere."""
+        if self._count < _MAX_COUNT:
+            return None
+        return PrintSample(self._halved).detect_dark_quads(self._image)
 
     def detect_dark_quads(self, is_quick: bool = False) -> Array:
         """Return corners (n, 4, 2) px of the dark quadrilaterals, quickly or not. Where there are

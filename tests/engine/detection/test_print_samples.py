@@ -122,7 +122,7 @@ def test_quadrilaterals_are_counted_among_specks_up_to_enough() -> None:
         top, left = 10 + 60 * (k // 10), 10 + 38 * (k % 10)
         image[top - 4 : top + 18, left - 4 : left + 18] = 200
         image[top : top + 14, left : left + 14] = 60
-    counts = [opencv.count_quads(image, 11, 20, enough) for enough in (20, 50, 100)]
+    counts = [opencv.count_quads(image, 11, 20, enough, enough) for enough in (20, 50, 100)]
     assert counts == [20, 30, 0]
 
 

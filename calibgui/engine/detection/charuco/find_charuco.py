@@ -34,6 +34,7 @@ from calibgui.engine.detection.charuco.corners_between_markers import (
 from calibgui.engine.detection.charuco.few_corners import fit_few_corners, locate_few_corners
 from calibgui.engine.detection.charuco.lattice_placement import (
     MarkedBoard,
+    is_too_large,
     measure_margin,
     place_by_marks,
 )
@@ -279,7 +280,11 @@ def _find_by_lattice(
     searched = None if outline is None else region.enlarge_outline(outline)
     boards = list(_list_stated_boards(pattern, pattern.dictionary, grid_size))
     tried: list[Candidate] = []
-    for candidates in find_candidates(grey, searched, plain=_PLAIN):
+
+    def is_other(lattice: Lattice, _: int) -> bool:
+        return is_too_large(lattice, grid_size)
+
+    for candidates in find_candidates(grey, searched, plain=_PLAIN, is_other=is_other):
         for candidate in candidates:
             if find_same(candidate, tried):
                 continue

@@ -88,6 +88,13 @@ def place_by_marks(image: GreyImage, lattice: Lattice, board: MarkedBoard) -> La
     return Lattice(uv, board.first_dark)
 
 
+def is_too_large(lattice: Lattice, grid_size: GridSize) -> bool:
+    """Return whether a lattice has so many squares that most of them would lie beside a board of a
+    size, rows and columns of corners, wherever it were placed."""
+    whole = len(_list_squares(lattice)[0])
+    return (grid_size[0] + 1) * (grid_size[1] + 1) < _MIN_SHARE_INSIDE * whole
+
+
 def measure_margin(image: GreyImage, placed: Lattice, board: MarkedBoard) -> float:
     """Measure how far the cells of the marks are from the edges of their squares, squares: where
     what is seen in those of a `placed` lattice is most like what is printed."""
@@ -111,9 +118,9 @@ def _rate(place: _Place) -> tuple[float, float]:
 
 def _list_places(image: GreyImage, lattice: Lattice, board: MarkedBoard) -> Iterator[_Place]:
     """List the places on the board that the colours of the squares allow."""
+    if is_too_large(lattice, board.grid_size):
+        return
     size, numbers = np.array(board.grid_size), _number_squares(board)
-    if numbers.size < _MIN_SHARE_INSIDE * len(_list_squares(lattice)[0]):
-        return  # most squares would lie beside the board
     for quarters in range(4):
         turned = turn_lattice(lattice, quarters)
         squares, quads = _list_squares(turned)

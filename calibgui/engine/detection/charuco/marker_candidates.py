@@ -80,7 +80,13 @@ class MarkerCandidates:
             dark = dark.swapaxes(1, 2)
         inner = dark[:, 1:-1, 1:-1]
         bright = (k + 2) ** 2 - k * k - (dark.sum(axis=(1, 2)) - inner.sum(axis=(1, 2)))
-        which = np.flatnonzero(bright <= CHARUCO_THRESHOLDS.max_border_error_share * k * k)
+        # What is as dark or as bright all over as bricks, unlike any marker, need not be compared.
+        darkness, marked = inner.sum(axis=(1, 2)), np.sum(codes > 0, axis=1)
+        may_be_marked = (darkness >= marked.min() - correctable) & (
+            darkness <= marked.max() + correctable
+        )
+        has_border = bright <= CHARUCO_THRESHOLDS.max_border_error_share * k * k
+        which = np.flatnonzero(has_border & may_be_marked)
         alike = np.where(inner[which].reshape(-1, k * k), 1.0, -1.0).astype(np.float32) @ codes.T
         fits = alike.max(axis=1, initial=-np.inf) >= k * k - 2 * correctable
         return which[fits], alike[fits].argmax(axis=1)

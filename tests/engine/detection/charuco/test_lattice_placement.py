@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import replace
+from typing import Any
 
 import cv2
 import numpy as np
@@ -12,15 +14,17 @@ from calibgui.engine.boards.board import Board
 from calibgui.engine.boards.charuco import Charuco
 from calibgui.engine.boards.pattern import Pattern
 from calibgui.engine.boards.tagged_checkerboard import TaggedCheckerboard
-from calibgui.engine.detection.charuco import lattice_placement
+from calibgui.engine.detection.charuco import find_charuco, lattice_placement
 from calibgui.engine.detection.charuco.lattice_placement import MarkedBoard
 from calibgui.engine.detection.charuco.mark_removal import Marks
 from calibgui.engine.detection.charuco.marker_reader import MarkerReader
+from calibgui.engine.detection.checkerboard.pyramid_search import Candidate
 from calibgui.engine.detection.find_corners import find_corners
 from calibgui.engine.detection.lattice import Lattice
 from calibgui.engine.errors import NoBoardError
 from tests.engine.detection.apriltags.test_april_grid import CAMERA, assert_at_bound
 from tests.engine.detection.conftest import Scene
+from tests.scenes.without_board import draw_without_board
 
 SMALL = Scene(
     Board(8, 11, 20.0, Charuco("DICT_5X5_250", 0.7, legacy=False)),
@@ -146,3 +150,27 @@ def test_a_lattice_that_is_much_larger_than_the_board_is_not_looked_at(
     uv = 5.0 * np.stack(np.meshgrid(np.arange(10), np.arange(12)), axis=-1)
     image = np.zeros((80, 80), np.uint8)
     assert lattice_placement.place_by_marks(image, Lattice(uv, True), board) is None
+
+
+def test_a_lattice_that_fits_on_no_board_of_the_size_does_not_grow(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """The dots of a printed picture take longer to follow than all else."""
+    large: list[bool] = []
+    search = find_charuco.find_candidates
+
+    def note_large(*args: Any, **options: Any) -> Iterator[list[Candidate]]:
+        for candidates in search(*args, **options):
+            large.extend(each.is_other for each in candidates if len(each.lattice) > 500)
+            yield candidates
+
+    monkeypatch.setattr(find_charuco, "find_candidates", note_large)
+    with pytest.raises(NoBoardError):
+        find_corners(draw_without_board(35), (5, 8), pattern=Charuco("DICT_4X4_50", 0.7, False))
+    assert large and all(large)
+    assert lattice_placement.is_too_large(_make_lattice(12, 11), (5, 8))
+    assert not lattice_placement.is_too_large(_make_lattice(11, 11), (5, 8))
+
+
+def _make_lattice(rows: int, cols: int) -> Lattice:
+    return Lattice(np.moveaxis(np.indices((rows, cols)), 0, -1) * 20.0, dark=True)
