@@ -198,12 +198,7 @@ def fit_x_corners(
     arm = model.arm
     is_large = bool((arm > _THRESHOLDS.max_near_arm).any())
     is_long = float(compute_median(arm.ravel())) > _THRESHOLDS.max_short_arm
-    is_few = len(arm) < FIT_THRESHOLDS.priors.many_corners
-    for i, reach in enumerate(_choose_reaches(float(arm.max()) if is_few else 0.0)):
-        near, sigma = _approach(image, model, reach)
-        known = sigma if is_long else np.inf
-        followed = board.follow_edges(_list_edges(near), known) if i and is_large else None
-        model = _update_priors(near, board, arm, followed)
+    model = _approach(image, model, board, is_large=is_large, is_long=is_long)
     products, odd_part = accumulate_normal_equations(image, model, odd=True)
     before = model
     model, inverse, square = take_step(before, products)
@@ -280,13 +275,28 @@ def _choose_reaches(arm: float) -> Array:
     return nearest * growth ** (np.arange(count + 1) / count)
 
 
-def _approach(image: GreyImage, model: XCornerModel, reach: float) -> tuple[XCornerModel, float]:
-    """Return the model after a step from what is within `reach` px of the corners, and their
-    standard deviation, px."""
-    near = replace(model, arm=np.minimum(model.arm, reach))
-    products, _ = accumulate_normal_equations(image, near, odd=False)
-    stepped, inverse, square = take_step(near, products)
-    return stepped, _average_sigma(square[:, None, None] * inverse)
+def _approach(
+    image: GreyImage, model: XCornerModel, board: BoardPriors, *, is_large: bool, is_long: bool
+) -> XCornerModel:
+    """Return the model after steps from what is near the corners, its arms as they were.
+
+    Args:
+        image: (h, w) grey levels.
+        model: the start.
+        board: what all corners tell.
+        is_large: whether arms are longer than what is read first: edges are then followed.
+        is_long: whether they are so long that the edges' directions tell how they bend.
+    """
+    arm = model.arm
+    is_few = len(arm) < FIT_THRESHOLDS.priors.many_corners
+    for i, reach in enumerate(_choose_reaches(float(arm.max()) if is_few else 0.0)):
+        near = replace(model, arm=np.minimum(arm, reach))
+        products, _ = accumulate_normal_equations(image, near, odd=False)
+        near, inverse, square = take_step(near, products)
+        sigma = _average_sigma(square[:, None, None] * inverse) if is_long else np.inf
+        followed = board.follow_edges(_list_edges(near), sigma) if i and is_large else None
+        model = _update_priors(near, board, arm, followed)
+    return model
 
 
 def _average_sigma(covariance: Array) -> float:
