@@ -11,11 +11,7 @@ from scipy.ndimage import gaussian_filter
 
 from calibgui.engine.boards.board import Board
 from calibgui.engine.boards.circle_grid import Circles
-from calibgui.engine.detection.checkerboard import (
-    board_ends,
-    find_checkerboard,
-    prefilter,
-)
+from calibgui.engine.detection.checkerboard import board_ends, board_refinement, prefilter
 from calibgui.engine.detection.checkerboard.thresholds import THRESHOLDS
 from calibgui.engine.detection.find_corners import find_corners
 from calibgui.engine.detection.lattice import Lattice
@@ -230,7 +226,7 @@ def test_who_photographs_a_part_of_a_grid_of_circles_is_told_of_circles_first() 
 
 def test_the_message_names_the_test_that_refused(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(
-        find_checkerboard, "find_objection", lambda *_, **__: "its squares differ in size"
+        board_refinement, "find_objection", lambda *_, **__: "its squares differ in size"
     )
     with pytest.raises(NoBoardError, match=r"6 x 9 inner corners .*: its squares differ in size"):
         find_corners(draw(Conditions(parts=2), 0).photograph(0))
