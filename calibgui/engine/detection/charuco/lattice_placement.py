@@ -125,20 +125,32 @@ def _list_places(image: GreyImage, lattice: Lattice, board: MarkedBoard) -> Iter
         turned = turn_lattice(lattice, quarters)
         squares, quads = _list_squares(turned)
         correlation = _correlate_squares(image, quads, board)
-        spare = size - turned.shape
-        for offset in np.ndindex(*(abs(spare) + 1)):
-            origin = np.minimum(spare, 0) + offset
+        for origin in _list_origins(squares, size, turned.shape):
             if turned.dark ^ bool(origin.sum() % 2) != board.first_dark:
                 continue
             at = squares + origin + 1  # the squares of the board begin one before its first corner
             inside = np.flatnonzero(((at >= 0) & (at <= size)).all(axis=1))
-            if len(inside) < _MIN_SHARE_INSIDE * len(squares):
-                continue
             number = numbers[tuple(at[inside].T)]
             marked = number >= 0
             if np.count_nonzero(marked) >= _MIN_SQUARES:
                 there = correlation[inside[marked], number[marked]]
                 yield _Place(there, turned, (int(origin[0]), int(origin[1])))
+
+
+def _list_origins(squares: IntArray, size: IntArray, shape: GridSize) -> IntArray:
+    """List the places (n, 2) on a board of a `size`, rows and columns, where the first corner of a
+    lattice of a `shape` may lie so that most of its squares (m, 2) lie on the board."""
+    spare = size - shape
+    steps = (np.arange(abs(each) + 1) + min(each, 0) for each in spare.tolist())
+    origins = np.stack(np.meshgrid(*steps, indexing="ij"), axis=-1).reshape(-1, 2)
+    whole = np.zeros((shape[0] + 1, shape[1] + 1), dtype=np.int64)
+    whole[tuple(squares.T + 1)] = 1
+    before = whole.cumsum(axis=0).cumsum(axis=1)  # of the squares above and left of each
+    (top, left), (bottom, right) = (
+        np.clip(each, 0, shape).T for each in (-origins - 1, size - origins)
+    )
+    count = before[bottom, right] - before[top, right] - before[bottom, left] + before[top, left]
+    return np.asarray(origins[count >= _MIN_SHARE_INSIDE * len(squares)])
 
 
 def _number_squares(board: MarkedBoard) -> IntArray:

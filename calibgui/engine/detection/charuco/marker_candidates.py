@@ -10,6 +10,7 @@ number of cells that differ. As many may differ as OpenCV would correct.
 from __future__ import annotations
 
 from functools import lru_cache
+from typing import NamedTuple
 
 import numpy as np
 
@@ -32,6 +33,7 @@ class MarkerCandidates:
         self._image = image
         self._quads = quads
         self._cells: dict[int, BoolArray] = {}
+        self._bordered: dict[tuple[int, bool], tuple[IntArray, FloatImage, IntArray]] = {}
         self._matches: dict[tuple[str, bool, bool], tuple[IntArray, IntArray]] = {}
 
     def count_fitting(self, dictionary: str, is_inverted: bool = False) -> int:
@@ -71,25 +73,45 @@ class MarkerCandidates:
         """Compare the cells of all quadrilaterals with a dictionary; see `_match_dictionary`."""
         if not len(self._quads):
             return np.zeros(0, np.int64), np.zeros(0, np.int64)
-        codes, correctable = _encode_markers(dictionary)
-        k = int(np.sqrt(codes.shape[1]))
+        codes = _encode_markers(dictionary)
+        k = int(np.sqrt(codes.cells.shape[1]))
+        which, cells, darkness = self._find_bordered(k, is_inverted)
+        # What is as dark or as bright all over as bricks, unlike any marker, need not be compared.
+        is_like = np.abs(darkness - codes.middle) <= codes.half_range + codes.correctable
+        which, seen = which[is_like], cells[is_like]
+        if is_mirrored:
+            seen = seen.swapaxes(1, 2)
+        alike = seen.reshape(-1, k * k) @ codes.cells.T
+        fits = alike.max(axis=1, initial=-np.inf) >= k * k - 2 * codes.correctable
+        return which[fits], alike[fits].argmax(axis=1)
+
+    def _find_bordered(self, k: int, is_inverted: bool) -> tuple[IntArray, FloatImage, IntArray]:
+        """Find the quadrilaterals (n,) with the border of a marker of k x k cells, these cells
+        (n, k, k), +1 or -1, and how many of them are dark (n,); once."""
         if k not in self._cells:
             self._cells[k] = find_dark_cells(self._image, self._quads, k + 2)
-        dark = ~self._cells[k] if is_inverted else self._cells[k]
-        if is_mirrored:
-            dark = dark.swapaxes(1, 2)
-        inner = dark[:, 1:-1, 1:-1]
-        bright = (k + 2) ** 2 - k * k - (dark.sum(axis=(1, 2)) - inner.sum(axis=(1, 2)))
-        # What is as dark or as bright all over as bricks, unlike any marker, need not be compared.
-        darkness, marked = inner.sum(axis=(1, 2)), np.sum(codes > 0, axis=1)
-        may_be_marked = (darkness >= marked.min() - correctable) & (
-            darkness <= marked.max() + correctable
-        )
-        has_border = bright <= CHARUCO_THRESHOLDS.max_border_error_share * k * k
-        which = np.flatnonzero(has_border & may_be_marked)
-        alike = np.where(inner[which].reshape(-1, k * k), 1.0, -1.0).astype(np.float32) @ codes.T
-        fits = alike.max(axis=1, initial=-np.inf) >= k * k - 2 * correctable
-        return which[fits], alike[fits].argmax(axis=1)
+        if (k, is_inverted) not in self._bordered:
+            dark = ~self._cells[k] if is_inverted else self._cells[k]
+            inner = dark[:, 1:-1, 1:-1]
+            darkness = inner.sum(axis=(1, 2))
+            bright = (k + 2) ** 2 - k * k - (dark.sum(axis=(1, 2)) - darkness)
+            which = np.flatnonzero(bright <= CHARUCO_THRESHOLDS.max_border_error_share * k * k)
+            cells = np.where(inner[which], 1.0, -1.0).astype(np.float32)
+            self._bordered[k, is_inverted] = which, cells, darkness[which]
+        return self._bordered[k, is_inverted]
+
+
+class _Codes(NamedTuple):
+    """The markers of a dictionary."""
+
+    cells: FloatImage
+    """(4 m, k^2) float32, +1 where dark and -1 where bright, in all four turns."""
+    middle: float
+    """Middle of the numbers of their dark cells."""
+    half_range: float
+    """Half the range of these numbers."""
+    correctable: int
+    """Number of misread cells that OpenCV corrects."""
 
 
 @lru_cache
@@ -101,12 +123,15 @@ def draw_markers(dictionary: str) -> BoolArray:
 
 
 @lru_cache
-def _encode_markers(dictionary: str) -> tuple[FloatImage, int]:
-    """Return the dark (+1) and bright (-1) cells (4 m, k^2), float32, of a dictionary's markers in
-    all four turns, and the number of misread cells that OpenCV corrects."""
-    correctable = opencv.count_correctable_cells(dictionary)
+def _encode_markers(dictionary: str) -> _Codes:
+    """Encode the markers of a dictionary."""
     cells = draw_markers(dictionary)[:, 1:-1, 1:-1]
-    count = len(cells)
     turned = np.stack([np.rot90(cells, turn, axes=(1, 2)) for turn in range(4)], axis=1)
-    codes = np.where(turned, 1.0, -1.0).astype(np.float32)
-    return codes.reshape(4 * count, -1), correctable
+    darkness = cells.sum(axis=(1, 2))
+    least, most = float(darkness.min()), float(darkness.max())
+    return _Codes(
+        np.where(turned, 1.0, -1.0).astype(np.float32).reshape(4 * len(cells), -1),
+        (least + most) / 2,
+        (most - least) / 2,
+        opencv.count_correctable_cells(dictionary),
+    )

@@ -172,5 +172,18 @@ def test_a_lattice_that_fits_on_no_board_of_the_size_does_not_grow(
     assert not lattice_placement.is_too_large(_make_lattice(11, 11), (5, 8))
 
 
+def test_places_are_those_where_most_squares_lie_on_the_board() -> None:
+    rng = np.random.default_rng(4)
+    for _ in range(50):
+        shape, size = (rng.integers(3, 12, 2) for _ in range(2))
+        squares = np.argwhere(rng.random(shape - 1) < rng.uniform(0.3, 1))
+        first, last = np.minimum(size - shape, 0), np.maximum(size - shape, 0)
+        places = np.argwhere(np.ones(last - first + 1, np.bool_)) + first
+        at = squares + places[:, None] + 1
+        are_most = ((at >= 0) & (at <= size)).all(axis=2).mean(axis=1) >= 0.5
+        listed = lattice_placement._list_origins(squares, size, tuple(shape))
+        np.testing.assert_array_equal(listed, places[are_most])
+
+
 def _make_lattice(rows: int, cols: int) -> Lattice:
     return Lattice(np.moveaxis(np.indices((rows, cols)), 0, -1) * 20.0, dark=True)
