@@ -360,7 +360,7 @@ def _measure_profiles(
 
 
 class _ProfileLayout(NamedTuple):
-    """Where the profiles of an edge lie, and how they count."""
+    """Places and weights of the profiles across an edge."""
 
     shares: Array
     """(m,) where they lie along the edge, lengths."""

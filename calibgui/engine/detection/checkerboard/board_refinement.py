@@ -1,4 +1,4 @@
-"""From a candidate to a board: its corners refined, fitted and verified.
+"""The way from a candidate to a board: its corners refined, fitted and verified.
 
 A candidate of the search (`pyramid_search`) is taken apart where boards hang together
 (`board_separation`). The corners of each part move to their saddle points at full resolution; its

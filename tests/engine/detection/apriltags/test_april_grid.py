@@ -51,14 +51,17 @@ OTHERS = [
 ]
 
 
-def assert_at_bound(scene: Scene, corners: Corners, chi2: tuple[float, float]) -> None:
-    """Check corners against the truth: none wrong, their covariances honest."""
+def assert_at_bound(
+    scene: Scene, corners: Corners, chi2: tuple[float, float] = (0.0, np.inf)
+) -> float:
+    """Check corners against the truth: none wrong, their covariances honest. Return chi2/dof."""
     error = scene.error(corners)
     assert corners.cov is not None
     sigma = np.sqrt(corners.cov[:, [0, 1], [0, 1]])
     assert np.abs(error / sigma).max() < 6
     found = np.einsum("ni,nij,nj->n", error, np.linalg.inv(corners.cov), error).mean() / 2
     assert chi2[0] < found < chi2[1]
+    return float(found)
 
 
 @pytest.mark.parametrize("inverted", [False, True], ids=["", "inverted"])
@@ -183,9 +186,12 @@ def test_other_families_orders_and_gaps(board: Board) -> None:
     ],
 )
 def test_hard_conditions(scene: Scene, blur: float, noise: float, least: int) -> None:
-    corners = find_corners(scene.image(blur, noise), pattern=AprilGrid())
-    assert len(corners) >= least
-    assert_at_bound(scene, corners, (0.65, 1.4))
+    chi2 = []
+    for seed in range(3):  # that of one image scatters by up to 0.17
+        corners = find_corners(scene.image(blur, noise, seed), pattern=AprilGrid())
+        assert len(corners) >= least
+        chi2.append(assert_at_bound(scene, corners))
+    assert 0.7 < np.mean(chi2) < 1.4
 
 
 @pytest.mark.parametrize("inverted", [False, True], ids=["", "inverted"])
@@ -514,7 +520,7 @@ def test_few_steps_lead_to_outlines(
 
     monkeypatch.setattr(tag_outlines, "accumulate_normal_equations", count)
     corners = find_corners(BARE.image(noise=noise), pattern=AprilGrid())
-    assert_at_bound(BARE, corners, (0.6, 1.4))
+    assert_at_bound(BARE, corners, (0.7, 1.4))
     assert sum(taken) <= most * taken[0]
 
 
