@@ -1,9 +1,62 @@
 """Geometric camera calibration through multi-view rectification.
 
-``from calibgui import engine`` is the interface for programs: arrays in, frozen records out.
+In a script or a notebook:
+
+    >>> import calibgui
+    >>> camera = calibgui.calibrate("photographs", square=25)  # doctest: +SKIP
+    >>> print(camera)  # doctest: +SKIP
+
+``from calibgui import engine`` is the interface for arrays: arrays in, frozen records out.
 ``calibgui.dataset`` keeps photographs with what was found in them, ``calibgui.formats`` reads and
 writes the files of other programs, and ``python -m calibgui`` is the command line, whose arguments
 may be photographs to open in the window.
 """
 
-__version__ = "0.1.0"
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from calibgui.engine.faces import load_on_demand
+from calibgui.version import __version__ as __version__
+
+if TYPE_CHECKING:
+    from calibgui.scripting.calibrated_camera import CalibratedCamera as CalibratedCamera
+    from calibgui.scripting.calibration import (
+        calibrate as calibrate,
+    )
+    from calibgui.scripting.calibration import (
+        calibrate_corners as calibrate_corners,
+    )
+    from calibgui.scripting.calibration import (
+        load as load,
+    )
+    from calibgui.scripting.figures import (
+        plot_board_shape as plot_board_shape,
+    )
+    from calibgui.scripting.figures import (
+        plot_convergence as plot_convergence,
+    )
+    from calibgui.scripting.figures import (
+        plot_distortion as plot_distortion,
+    )
+    from calibgui.scripting.figures import (
+        plot_residuals as plot_residuals,
+    )
+    from calibgui.scripting.figures import (
+        plot_uncertainty as plot_uncertainty,
+    )
+
+load_on_demand(
+    __name__,
+    {
+        "scripting.calibrated_camera": ["CalibratedCamera"],
+        "scripting.calibration": ["calibrate", "calibrate_corners", "load"],
+        "scripting.figures": [
+            "plot_board_shape",
+            "plot_convergence",
+            "plot_distortion",
+            "plot_residuals",
+            "plot_uncertainty",
+        ],
+    },
+)

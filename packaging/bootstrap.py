@@ -270,8 +270,12 @@ class Environment:
             for name, value in self.variables().items()
             if name in ("LD_LIBRARY_PATH", "FONTCONFIG_FILE", "XKB_CONFIG_ROOT")
         ]
-        for name, module in (("calibgui", "calibgui"), ("calibgui-window", "calibgui.gui")):
-            start = f'exec {shlex.quote(str(self.python))} -m {module} "$@"'
+        for name, function in (("calibgui", "main"), ("calibgui-window", "open_window")):
+            program = (
+                f"import sys; sys.argv[0] = '{name}'; "
+                f"from calibgui.cli.main import {function}; sys.exit({function}())"
+            )
+            start = f'exec {shlex.quote(str(self.python))} -c {shlex.quote(program)} "$@"'
             text = "\n".join(["#!/bin/sh", *settings, start, ""])
             command = self.python.with_name(name)
             if command.exists() and command.read_text(encoding="utf-8") != text:
@@ -280,14 +284,10 @@ class Environment:
     def compile(self) -> None:
         """Compile the kernels, so that the first calibration need not wait for them.
 
-        Nothing is lost if that fails: they are compiled when they are needed.
+        Nothing is lost if that fails: readable functions do their work.
         """
         say("compiling what is slow in Python (about a minute, once)")
-        succeeds(self.python, "-m", "calibgui.app.system.kernel_preparation", env=self.variables())
-        sample = ROOT / "resources" / "sample"
-        calibrate = ["-m", "calibgui", "calibrate", sample, "--square", "25", "--quiet"]
-        # The window's choice of a lens model needs the solver of the other models as well.
-        succeeds(self.python, *calibrate, "--model", "auto", env=self.variables())
+        succeeds(self.python, "-m", "calibgui", "prepare", "--quiet", env=self.variables())
 
     def pip(self, *arguments: str) -> None:
         """Run pip; if nobody watches it work, only its messages on a failure are shown."""

@@ -214,7 +214,6 @@ class Photographer:
         for name, text in (
             ("export", "&Export…"),
             ("print-board", "&Print a board…"),
-            ("print", "&Print results…"),
             ("palette", "&Find an action…"),
             ("help", "&How it works"),
         ):

@@ -134,7 +134,7 @@ def test_no_layer_imports_a_higher_one(copy: Path, tmp_path: Path) -> None:
         ("app.paths", f"{ENGINE}.camera.camera", FACES),
         ("report.numbers", f"{ENGINE}.calibration.refinement.schur", FACES),
         ("engine.geometry.frames", f"{ENGINE}.geometry", INSIDE),
-        ("engine.calibration.options", f"{ENGINE}.camera", INSIDE),
+        ("engine.calibration.observations", f"{ENGINE}.camera", INSIDE),
         ("engine.calibration.refinement.schur", f"{ENGINE}.calibration.calibrate", CIRCLES),
         ("app.paths", "calibgui.app.projects.document", ""),
         ("engine.geometry.frames", "matplotlib", "The engine draws nothing"),

@@ -14,6 +14,7 @@ import pytest
 
 from calibgui.app.calibrating.settings import MODEL_CHOICES
 from calibgui.cli.main import main
+from calibgui.engine.assessment import Grade
 from calibgui.engine.assessment.choices import method_comparison
 from calibgui.engine.assessment.choices.lens_choice import choose_lens
 from calibgui.engine.boards import KINDS
@@ -40,7 +41,7 @@ def elsewhere(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 @pytest.fixture
 def few_candidates(monkeypatch: pytest.MonkeyPatch) -> None:
     """Lens models and methods to compare are few, which is quick; tests/cli compares all."""
-    few_lenses = partial(choose_lens, candidates=("lucchese", "pinhole"), folds=2)
+    few_lenses = partial(choose_lens, candidates=("lucchese", "pinhole"))
     monkeypatch.setattr("calibgui.app.calibrating.lens_comparison.choose_lens", few_lenses)
     listed = method_comparison.list_compared_methods()
     few_methods = {name: listed[name] for name in ("lucchese", "bouguet", "stein")}
@@ -67,8 +68,12 @@ def test_command_lines(elsewhere: Path, capsys: pytest.CaptureFixture[str]) -> N
 @pytest.mark.slow
 @pytest.mark.usefixtures("elsewhere")
 def test_python() -> None:
-    (example,) = blocks("python")
+    short, example = blocks("python")
     scope: dict[str, Any] = {}
+    exec(short, scope)
+    assert scope["camera"].verdict.grade is Grade.GOOD and scope["K"].shape == (3, 3)
+    assert Path("camera.json").exists() and Path("camera.yaml").exists()
+    assert scope["figure"].axes
     exec(example, scope)
     truth = json.loads(Path("resources/sample/truth.json").read_text(encoding="utf-8"))
     true_values = list(truth["camera"]["params"].values())

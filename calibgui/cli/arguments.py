@@ -20,17 +20,25 @@ from calibgui.app.photographs.detection import (
 )
 from calibgui.app.photographs.paths import find_images
 from calibgui.app.photographs.regions import read_regions
-from calibgui.app.system.kernel_preparation import estimate_preparation
+from calibgui.app.photographs.videos import (
+    DEFAULT_CHOICE,
+    DEFAULT_FRAMES,
+    FrameChoice,
+    search_photographs,
+)
 from calibgui.cli.console import Console
 from calibgui.engine.arrays import GridSize
 from calibgui.engine.boards import CHECKERBOARD, Pattern
-from calibgui.engine.detection import METHODS, MIN_LINES
 from calibgui.engine.errors import CalibrationError
+from calibgui.engine.features import METHODS, MIN_LINES
+from calibgui.engine.images import FORMATS
 from calibgui.formats import EXPORTERS, find_exporter
+from calibgui.formats.corner_import import SUFFIXES
 from calibgui.report.tables import list_unused_views
 
 _UNITS_MM = {"mm": 1.0, "cm": 10.0, "m": 1000.0, "in": 25.4}
 """Units of lengths, mm."""
+_MAX_FRAMES = 10_000
 _MIN_LENGTH_MM = 0.5
 """Length from which a number without a unit is taken for millimetres."""
 
@@ -98,13 +106,13 @@ def parse_length(text: str) -> float:
 def add_image_paths(parser: argparse.ArgumentParser, nargs: str = "+") -> None:
     """Add the paths of the images to work on."""
     parser.add_argument(
-        "paths", nargs=nargs, metavar="PATH", help="image, folder of images or pattern"
+        "paths", nargs=nargs, metavar="PATH", help="image, folder of images, pattern or video"
     )
 
 
 def is_corners_file(paths: Sequence[str]) -> bool:
     """Return whether the paths name a file of corners to read, not photographs to search."""
-    return list(paths) == ["-"] or [Path(path).suffix.lower() for path in paths] == [".json"]
+    return list(paths) == ["-"] or (len(paths) == 1 and Path(paths[0]).suffix.lower() in SUFFIXES)
 
 
 @contextlib.contextmanager
@@ -125,6 +133,22 @@ def _read_once(stream: BinaryIO) -> bytes:
     return stream.read()
 
 
+@contextlib.contextmanager
+def open_camera_file(path: str | Path) -> Iterator[Path]:
+    """Give a camera's file as `open_input` does.
+
+    Raises:
+        CalibrationError: if `path` holds photographs, which commands on a camera name after it.
+    """
+    if Path(path).is_dir() or Path(path).suffix.lower() in FORMATS:
+        raise CalibrationError(
+            f"{path} holds photographs, where a camera's file is expected.",
+            "Commands that take both expect the camera's file first.",
+        )
+    with open_input(path) as file:
+        yield file
+
+
 def list_input_files(paths: Sequence[str]) -> Sequence[str | Path]:
     """Return the files that will be read."""
     return paths if is_corners_file(paths) else find_images(paths)
@@ -141,6 +165,28 @@ def add_search_options(parser: argparse.ArgumentParser) -> None:
     )
 
     add_corner_method(parser)
+    parser.add_argument(
+        "--frames",
+        type=_parse_count,
+        default=DEFAULT_FRAMES,
+        metavar="N",
+        help="frames to take of each video, sharp ones with the board in different poses "
+        f"(default {DEFAULT_FRAMES})",
+    )
+    parser.add_argument(
+        "--frames-folder",
+        type=Path,
+        metavar="DIR",
+        help="where the frames of VIDEO are written, in a folder VIDEO-frames (default: beside the "
+        "output)",
+    )
+
+
+def _parse_count(text: str) -> int:
+    """Read a whole number above 0."""
+    if not text.isdecimal() or not 0 < int(text) <= _MAX_FRAMES:
+        raise argparse.ArgumentTypeError(f"{text!r} is not a number of frames, 1 to {_MAX_FRAMES}")
+    return int(text)
 
 
 def add_grid_size_option(parser: argparse.ArgumentParser) -> None:
@@ -179,6 +225,18 @@ def add_map_options(parser: argparse.ArgumentParser, points: str) -> None:
     )
 
 
+def add_reader_option(parser: argparse.ArgumentParser) -> None:
+    """Add the option that calibrates for a program that has not all lens models."""
+    parser.add_argument(
+        "--for",
+        dest="reader",
+        type=parse_export,
+        metavar="FORMAT=FILE",
+        help="write another format, and choose the lens model among those that it has, so that the "
+        "file holds the camera as it was calibrated and not a refit of it",
+    )
+
+
 def add_export_option(parser: argparse.ArgumentParser, purpose: str) -> None:
     """Add the option on files of other formats, whose help begins with its `purpose`.
 
@@ -186,7 +244,7 @@ def add_export_option(parser: argparse.ArgumentParser, purpose: str) -> None:
     """
     parser.add_argument(
         "--export",
-        type=_parse_export,
+        type=parse_export,
         action="append",
         default=[],
         metavar="FORMAT=FILE",
@@ -201,6 +259,7 @@ def search_images(
     roi: Path | None = None,
     corners: str = METHODS[0],
     pattern: Pattern | None = CHECKERBOARD,
+    choice: FrameChoice = DEFAULT_CHOICE,
 ) -> Detection:
     """Find the images that `paths` name and search them for the board, showing progress.
 
@@ -210,29 +269,24 @@ def search_images(
     Raises:
         CalibrationError: if a path names no image, or the regions in `roi` cannot be used.
     """
-    images = find_images(paths)
-    rois = read_regions(roi, images) if roi else {}
-    say_once = cache(console.print_problem)  # a later search may compile more
 
-    def search(pattern: Pattern, grid_size: GridSize | None) -> Detection:
-        with console.show_progress("searching") as advance:
-            return find_views(
-                images,
-                grid_size,
-                rois,
-                lambda done, total, _: advance(done, total),
-                method=corners,
-                pattern=pattern,
-                preparing=lambda: say_once(
-                    "Preparing the search for its first use "
-                    f"(once, about {estimate_preparation(pattern)} s)…"
-                ),
-            )
+    def search_files(images: Sequence[Path]) -> Detection:
+        rois = read_regions(roi, images) if roi else {}
 
-    if pattern is not None:
-        return search(pattern, grid_size)
-    preparing = "Preparing the search for other boards for its first use (once, about 10 s)…"
-    return find_any_board(search, grid_size, lambda: say_once(preparing))
+        def search(pattern: Pattern, grid_size: GridSize | None) -> Detection:
+            with console.show_progress("searching") as advance:
+                return find_views(
+                    images,
+                    grid_size,
+                    rois,
+                    lambda done, total, _: advance(done, total),
+                    method=corners,
+                    pattern=pattern,
+                )
+
+        return search(pattern, grid_size) if pattern else find_any_board(search, grid_size)
+
+    return search_photographs(list(paths), choice, search_files, console.show_progress)
 
 
 def require_board(
@@ -260,7 +314,7 @@ def require_board(
     raise error
 
 
-def _parse_export(text: str) -> tuple[str, Path]:
+def parse_export(text: str) -> tuple[str, Path]:
     """Read the name of a format and a file such as "ros=camera.yaml"."""
     name, equals, file = text.partition("=")
     if not equals:

@@ -10,12 +10,14 @@ camera fails: no calibration was possible or it is not usable, or it breaks a li
 from __future__ import annotations
 
 import argparse
+import re
 from pathlib import Path
 
 from calibgui.app.fleet import (
     NO_LIMITS,
     BatchSummary,
     BoardSought,
+    describe_trust,
     open_scheduler,
     read_limits,
     read_manifest,
@@ -57,8 +59,11 @@ def configure(parser: argparse.ArgumentParser) -> None:
     )
     where.add_argument(
         "--scheduler",
+        type=_parse_address,
         metavar="ADDRESS",
-        help="of a scheduler of Dask, as tcp://host:8786, whose workers see the same folders",
+        help="of a scheduler of Dask, as tls://host:8786, whose workers see the same folders; "
+        "whoever can reach it can run code as you, and you as its workers: with tls:// only who "
+        "has a certificate (Dask's settings name yours), with tcp:// anyone",
     )
     parser.add_argument(
         "--limits",
@@ -98,9 +103,11 @@ def run(options: argparse.Namespace, console: Console) -> int:
         read = [options.manifest, options.output, *filter(None, [options.limits])]
         check_outputs([(options.parquet, FLEET_TABLE)], read, options.overwrite)
     tasks = read_manifest(options.manifest, board, settings)
+    if options.scheduler is not None:
+        console.print_text(describe_trust(options.scheduler))
     with (
         open_ledger(options.output.resolve(), create=True) as ledger,
-        open_scheduler(options.workers, options.scheduler, console.print_text) as scheduler,
+        open_scheduler(options.workers, options.scheduler) as scheduler,
     ):
         with console.show_progress("calibrating", "camera") as advance:
             summary = run_batch(tasks, ledger, scheduler, limits, advance)
@@ -125,6 +132,13 @@ def _print_summary(summary: BatchSummary, options: argparse.Namespace, console: 
         text += f"\n\n{tabulate_failures(summary.failed)}"
     written = [path for path in (options.output, options.parquet) if path]
     console.print_text("\n".join([text, "", *(f"Wrote {path}." for path in written)]))
+
+
+def _parse_address(text: str) -> str:
+    """Read the address of a scheduler."""
+    if not re.fullmatch(r"(tcp|tls)://.+:\d+", text):
+        raise argparse.ArgumentTypeError(f"{text!r} is no address such as tls://host:8786")
+    return text
 
 
 def _parse_count(text: str) -> int:

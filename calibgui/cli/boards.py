@@ -22,6 +22,7 @@ _PATTERN_OPTIONS = {
     "from_top": "aprilgrid or tagged-checkerboard",
     "spacing": "aprilgrid",
     "corner_squares": "aprilgrid",
+    "first_tag": "aprilgrid",
     "step": "tagged-checkerboard",
     "origin": "puzzleboard",
 }
@@ -30,13 +31,14 @@ _LENGTH_OPTIONS = ("marker", "diameter")
 """Names of the options in mm, which a pattern keeps as fractions of the side of a square."""
 
 
-def add_board_options(parser: argparse.ArgumentParser) -> None:
-    """Add the options that describe the board."""
+def add_board_options(
+    parser: argparse.ArgumentParser,
+    unstated: str = "Properties of markers and tags that are not given are read from the "
+    "photographs.",
+) -> None:
+    """Add the options that describe the board; a sentence says what becomes of others."""
     parser.set_defaults(usage_error=parser.error)
-    group = parser.add_argument_group(
-        "board",
-        "Properties of markers and tags that are not given are read from the photographs.",
-    )
+    group = parser.add_argument_group("board", unstated)
     group.add_argument(
         "--target",
         choices=list(KINDS),
@@ -103,6 +105,12 @@ def add_board_options(parser: argparse.ArgumentParser) -> None:
         default=None,
         help="small dark squares stand between the corners of the tags of an AprilGrid, as on "
         "Kalibr's, or do not",
+    )
+    group.add_argument(
+        "--first-tag",
+        type=int,
+        metavar="NUMBER",
+        help="number of the first tag of an AprilGrid, the lowest on the board: 0 on most",
     )
     group.add_argument(
         "--origin",

@@ -1,4 +1,4 @@
-"""Calibrate a camera from photographs of a board, or from a corners.json file.
+"""Calibrate a camera from photographs of a board, or from a file of corners.
 
 If the views do not determine the camera, the command prints and writes a partial calibration,
 says what to photograph, and ends with exit code 1.
@@ -7,11 +7,11 @@ says what to photograph, and ends with exit code 1.
 from __future__ import annotations
 
 import argparse
-import contextlib
 import itertools
+from collections.abc import Mapping
 from pathlib import Path
 
-from calibgui.app.calibrating.redetection import calibrate_twice
+from calibgui.app.calibrating.best_camera import calibrate_best
 from calibgui.app.calibrating.settings import (
     AUTO_MODEL,
     DEFAULT_MODEL,
@@ -23,17 +23,20 @@ from calibgui.app.calibrating.settings import (
     parse_names,
     resolve_model_choice,
 )
+from calibgui.app.calibrating.true_board import GLASS, list_gains, measure_gain_of_glass
 from calibgui.cli.arguments import (
     add_export_option,
+    add_reader_option,
     is_corners_file,
     parse_positive,
 )
-from calibgui.cli.console import Advance, Console
+from calibgui.cli.console import Console
 from calibgui.cli.corners import add_corner_options, check_corner_options, read_or_search
 from calibgui.cli.notices import explain_solve
 from calibgui.cli.outputs import add_overwrite_option, check_corner_outputs, refuse_other_format
 from calibgui.dataset import DEFAULT_SQUARE, Result
 from calibgui.dataset.judging import judge_result
+from calibgui.engine.assessment import CANDIDATES
 from calibgui.engine.boards import BoardShape, BoardShapeModel, BoardShapePrior
 from calibgui.engine.calibration import DEFAULT_METHOD, METHODS, Cost, DegenerateError
 from calibgui.engine.camera import MODELS, PINHOLE, SplinedStereographic
@@ -51,7 +54,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     add_corner_options(
         parser, f"only lengths depend on it ({DEFAULT_SQUARE:g} if left out, which is then said)"
     )
-    add_settings_options(parser)
+    add_settings_options(parser, is_automatic=True)
     parser.add_argument(
         "--save-board-shape",
         "--save-plate",
@@ -67,6 +70,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
         help="write the result as JSON, which other commands read; - for standard output",
     )
     add_export_option(parser, "write another format as well")
+    add_reader_option(parser)
     add_overwrite_option(parser)
     parser.add_argument(
         "-v",
@@ -78,9 +82,21 @@ def configure(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def add_settings_options(parser: argparse.ArgumentParser) -> None:
-    """Add the options on how to calibrate, which `read_settings` reads."""
+def add_settings_options(parser: argparse.ArgumentParser, is_automatic: bool = False) -> None:
+    """Add the options on how to calibrate, which `read_settings` reads.
+
+    Args:
+        parser: the parser of a command.
+        is_automatic: True if what is not stated is chosen by what the photographs say.
+    """
     group = parser.add_argument_group("calibration", "What is estimated, and how.")
+    parser.set_defaults(as_asked=not is_automatic)
+    if is_automatic:
+        group.add_argument(
+            "--as-asked",
+            action="store_true",
+            help="choose nothing, and make nothing better by itself",
+        )
     group.add_argument(
         "--cost",
         choices=[cost.value for cost in Cost],
@@ -93,7 +109,8 @@ def add_settings_options(parser: argparse.ArgumentParser) -> None:
         type=_parse_model,
         default=argparse.SUPPRESS,  # None is the automatic choice
         metavar="NAME",
-        help=f"the lens model to estimate; if left out, the method's own. {_describe_models()}",
+        help=f"the lens model to estimate; if left out, {'auto, or ' * is_automatic}the "
+        f"method's own. {_describe_models('' if is_automatic else DEFAULT_MODEL)}",
     )
     group.add_argument(
         "--method",
@@ -124,8 +141,7 @@ def add_settings_options(parser: argparse.ArgumentParser) -> None:
     group.add_argument(
         "--once",
         action="store_true",
-        help="leave out the search, once the camera is known, of images without a board and of "
-        "boards found in part, and the second calibration from what that gains",
+        help="leave out the second search, with the camera known, of images without a whole board",
     )
     group.add_argument(
         "--weigh-views",
@@ -137,11 +153,15 @@ def add_settings_options(parser: argparse.ArgumentParser) -> None:
         "--board-shape",
         "--plate",
         type=_read_board_shape,
-        default=BoardShapeModel.NOMINAL,
+        default=argparse.SUPPRESS,  # None is the automatic choice
         metavar="MODEL|FILE",
-        help="the board's shape: nominal (default, flat and as drawn); estimated as affine (sides "
+        help="the board's shape: nominal (flat and as drawn"
+        + (")" if is_automatic else ", default)")
+        + "; estimated as affine (sides "
         "and shear), bow (two bends) or free (every corner); auto, whichever of these predicts "
-        "unseen views best; or a file written by --save-board-shape, whose shape is held",
+        "unseen views best"
+        + (" (default)" if is_automatic else "")
+        + "; or a file written by --save-board-shape, whose shape is held",
     )
     group.add_argument(
         "--prior",
@@ -157,7 +177,9 @@ def add_settings_options(parser: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace, console: Console) -> None:
     """Search, calibrate, write and print."""
     settings = read_settings(options)
-    _check_usage(options)
+    _check_usage(options, settings)
+    if options.reader:
+        options.export = [*options.export, options.reader]
     options.output = console.take_output(options.output)
     if options.output:
         refuse_other_format(options.output)
@@ -166,13 +188,18 @@ def run(options: argparse.Namespace, console: Console) -> None:
     check_corner_outputs(options, [*(pair for pair in outputs if pair[0]), *exported])
     corner_set = read_or_search(options, console)
     search = not is_corners_file(options.paths)
-    if settings.board_shape is None:
-        console.print_notice("Board shapes will be compared on unseen views; this takes a while…")
-    with explain_solve(console, corner_set), _show_comparison(settings, console) as advance:
-        result = calibrate_twice(corner_set, settings, search=search, progress=advance)
-    with console.show_progress("judging the calibration", "step") as advance:
-        steps = itertools.count(1)
-        judge_result(result, check=lambda: advance(next(steps), 0))
+    with (
+        explain_solve(console, corner_set),
+        console.show_progress("looking for the best camera", "step") as advance,
+    ):
+        count = itertools.count(1)
+
+        def tell(*_: int) -> None:
+            advance(next(count), 0)
+
+        steps = calibrate_best(corner_set, settings, search=search, progress=tell, check=tell)
+        *_, (_, _, result) = steps
+        judge_result(result, check=tell)
     messages, errors = _write_files(result, options)
     _print_report(result, messages, options, console)
     diagnosis = result.calibration.diagnosis
@@ -198,6 +225,8 @@ def _print_report(
             console.print_problem(unused)
         return
     console.print_text(tables.format_report(result, verbose=options.verbose))
+    if narrower := measure_gain_of_glass(result):
+        messages = [_offer_glass(narrower), *messages]
     if result.condition:
         messages = [f"Lengths hold {result.condition}. --square MM states it.", *messages]
     if messages:
@@ -206,13 +235,13 @@ def _print_report(
         console.print_text("\n-v shows each view by itself, and all that is known of each value.")
 
 
-def _show_comparison(
-    settings: Settings, console: Console
-) -> contextlib.AbstractContextManager[Advance | None]:
-    """Show the progress of the choice of a lens model, if one is to be chosen."""
-    if settings.model is not None:
-        return contextlib.nullcontext()
-    return console.show_progress("comparing lens models", "model")
+def _offer_glass(narrower: Mapping[str, float]) -> str:
+    """Return a sentence on what it brings to state that the board is of glass."""
+    return (
+        f"If the board is of glass, printed true to {GLASS.in_plane:g} mm and flat to "
+        f"{GLASS.out_of_plane:g} mm, say --prior {GLASS.in_plane:g},{GLASS.out_of_plane:g}: "
+        f"{list_gains(narrower)} px."
+    )
 
 
 def _write_files(
@@ -234,6 +263,11 @@ def _write_files(
     if options.save_board_shape and calibration.board_shape is not None:
         write_board_shape(calibration.board_shape, options.save_board_shape)
         messages.append(f"Wrote {options.save_board_shape}.")
+    elif options.save_board_shape:
+        messages.append(
+            f"{options.save_board_shape} is not written: nothing shows that the board is not as it "
+            "was drawn. --board-shape free estimates its shape all the same."
+        )
     for name, path in options.export:
         if calibration.diagnosis is not None and not EXPORTERS[name].partial:
             messages.append(
@@ -249,19 +283,29 @@ def _write_files(
 
 def read_settings(options: argparse.Namespace) -> Settings:
     """Return the settings that the options state, or end the program if they are impossible."""
-    model = options.model if "model" in options else get_own_model(options.method)
+    is_default = options.method == DEFAULT_METHOD and options.cost == Cost.IMAGE
+    improve = is_default and not options.as_asked
+    # Names of parameters, and a prior, are of the paper's model and of the board as drawn.
+    is_lens_open = improve and options.fix is None and options.free is None
+    is_board_open = improve and options.prior is None
+    model = None if is_lens_open else get_own_model(options.method)
+    model = options.model if "model" in options else model
+    board_shape = None if is_board_open else BoardShapeModel.NOMINAL
+    board_shape = options.board_shape if "board_shape" in options else board_shape
     try:
         settings = Settings(
             cost=Cost(options.cost),
             model=model,
+            candidates=_list_candidates(options, model),
             method=options.method,
             fixed={} if options.fix is None else parse_fixed(options.fix, model),
             freed=() if options.free is None else parse_names(options.free, model),
-            board_shape=options.board_shape,
+            board_shape=board_shape,
             prior=options.prior,
             robust=options.robust,
             weigh_views=options.weigh_views,
             once=options.once,
+            improve=improve,
         )
         check_settings(settings)
     except CalibrationError as error:
@@ -269,13 +313,26 @@ def read_settings(options: argparse.Namespace) -> Settings:
     return settings
 
 
-def _check_usage(options: argparse.Namespace) -> None:
+def _list_candidates(options: argparse.Namespace, model: str | None) -> tuple[str, ...]:
+    """List the lens models that the reader of --for has; end the program if none can be chosen."""
+    if not getattr(options, "reader", None):
+        return ()
+    name, _ = options.reader
+    if model is not None:
+        options.usage_error(f"--for chooses the lens model: with --model say --export {name}=FILE")
+    held = tuple(each for each in CANDIDATES if each in EXPORTERS[name].models)
+    if not held:
+        options.usage_error(f"{name} has none of our lens models: say --export {name}=FILE")
+    return held
+
+
+def _check_usage(options: argparse.Namespace, settings: Settings) -> None:
     """End the program if options do not go together."""
-    if options.save_board_shape and options.board_shape is BoardShapeModel.NOMINAL:
+    if options.save_board_shape and settings.board_shape is BoardShapeModel.NOMINAL:
         options.usage_error(
             "--save-board-shape needs a shape that is estimated: add --board-shape free"
         )
-    if options.prior and options.board_shape in (BoardShapeModel.AFFINE, BoardShapeModel.BOW):
+    if options.prior and settings.board_shape in (BoardShapeModel.AFFINE, BoardShapeModel.BOW):
         options.usage_error("--prior is for a board as drawn or of free shape: leave it out")
     check_corner_options(options)
     in_mm = "--prior" if options.prior else "--save-board-shape" if options.save_board_shape else ""
@@ -293,10 +350,10 @@ def _parse_model(text: str) -> str | None:
         raise argparse.ArgumentTypeError(str(error)) from error
 
 
-def _describe_models() -> str:
-    """List the lens models to choose from with their titles, the default one marked."""
+def _describe_models(default: str) -> str:
+    """List the lens models to choose from with their titles, the default one, if any, marked."""
     models = (
-        f"{name}{' (default)' if name == DEFAULT_MODEL else ''}: {MODELS[name].title}"
+        f"{name}{' (default)' if name == default else ''}: {MODELS[name].title}"
         for name in MODEL_CHOICES
     )
     return (

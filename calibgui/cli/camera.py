@@ -6,7 +6,7 @@ import argparse
 import re
 from pathlib import Path
 
-from calibgui.cli.arguments import open_input
+from calibgui.cli.arguments import open_camera_file
 from calibgui.cli.console import Console
 from calibgui.engine.arrays import Size
 from calibgui.formats import ImportedCamera, read_camera
@@ -17,19 +17,24 @@ CAMERA_FILE = "result.json, or the camera file of another program"
 
 def add_camera_options(parser: argparse.ArgumentParser) -> None:
     """Add the options on files that hold several cameras, or do not state the images' size."""
+    add_camera_name_option(parser)
+    add_size_option(parser)
+
+
+def add_camera_name_option(parser: argparse.ArgumentParser) -> None:
+    """Add the option on files that hold several cameras."""
     parser.add_argument(
         "--camera", metavar="NAME", help="the camera to read from a file that holds several"
     )
-    add_size_option(parser)
 
 
 def add_size_option(parser: argparse.ArgumentParser) -> None:
     """Add the option on files that do not state the images' size."""
     parser.add_argument(
         "--size",
-        type=_parse_size,
+        type=parse_size,
         metavar="WxH",
-        help="width and height of the images, px, for a camera file that does not state them",
+        help="width and height of the images, px, for a file that does not state them",
     )
 
 
@@ -37,14 +42,14 @@ def read_camera_and_warn(
     path: Path, console: Console, name: str | None = None, size: Size | None = None
 ) -> ImportedCamera:
     """Read a camera, and print what the user should know about it. Raises as `read_camera`."""
-    with open_input(path) as file:
+    with open_camera_file(path) as file:
         found = read_camera(file, name, size)
     for note in found.notes:
         console.print_problem(f"calibgui: {path}: {note}")
     return found
 
 
-def _parse_size(text: str) -> Size:
+def parse_size(text: str) -> Size:
     """Read a width and a height such as "1920x1080"."""
     match = re.fullmatch(r"(\d{1,6})[x×*,](\d{1,6})", text.strip())
     if match is None or "0" in (match[1].lstrip("0") or "0", match[2].lstrip("0") or "0"):

@@ -12,10 +12,11 @@ from typing import Any
 
 from calibgui.app.calibrating.calibration import shorten_names
 from calibgui.cli.arguments import parse_positive
-from calibgui.cli.camera import add_camera_options, read_camera_and_warn
+from calibgui.cli.camera import add_camera_name_option, read_camera_and_warn
 from calibgui.cli.console import Console
 from calibgui.cli.corners import add_corner_options, check_corner_options, read_or_search
 from calibgui.cli.result import read_result_file
+from calibgui.cli.sensor_mode import adapt_to_images, add_mode_options
 from calibgui.dataset import DEFAULT_SQUARE
 from calibgui.engine.assessment import (
     DEFAULT_LIMIT,
@@ -53,7 +54,8 @@ def configure(parser: argparse.ArgumentParser) -> None:
         metavar="CALIBRATION",
         help="result.json or the camera file of another program; the first PATH if left out",
     )
-    add_camera_options(parser)
+    add_camera_name_option(parser)
+    add_mode_options(parser, "the pictures")
     parser.add_argument(
         "--limit",
         type=parse_positive,
@@ -80,13 +82,7 @@ def run(options: argparse.Namespace, console: Console) -> int:
             "The board was found in none of the pictures.",
             "Photograph the whole board, sharp and evenly lit, or mark its corners with --roi.",
         )
-    if corner_set.size != stored.camera.size:
-        (width, height), (w, h) = corner_set.size, stored.camera.size
-        raise CalibrationError(
-            f"The pictures have {width} x {height} px, and {options.calibration} is for images of "
-            f"{w} x {h} px.",
-            "Take the pictures with the resolution that the camera was calibrated for.",
-        )
+    stored = adapt_to_images(stored, options, console, corner_set.size)
     names = shorten_names(views)
     with limit_blas_threads():
         check = check_calibration(

@@ -1,4 +1,4 @@
-"""Compare methods of calibration on photographs of a board, or on a corners.json file.
+"""Compare methods of calibration on photographs of a board, or on a file of corners.
 
 Every method calibrates from all views, and again without some of them to see how well it predicts
 these. Every camera is compared with that of the default method. The methods are also what
@@ -144,7 +144,7 @@ def _encode_lens(row: MethodRow, comparison: MethodComparison) -> dict[str, Any]
     found = comparison.trials[row.name].calibration
     sigma = [
         math.nan if name in found.fixed else float(s)
-        for name, s in zip(found.camera.names, found.sigma_by_noise, strict=True)
+        for name, s in zip(found.camera.names, found.sigma, strict=True)
     ]
     return {
         "model": found.camera.model,

@@ -82,6 +82,8 @@ class Console:
         with _load_tqdm()(desc=what, unit=unit, leave=False, file=sys.stderr) as bar:
 
             def advance(done: int, total: int) -> None:
+                if not total:  # a count without an end tells nobody anything
+                    bar.bar_format = "{desc}: {elapsed}"
                 bar.total = total
                 bar.update(done - bar.n)
 

@@ -3,7 +3,8 @@
 Cameras are read from result.json and from the files of other programs. A calibration of this
 program is calibrated again on its corners if its lens model has to change. A camera without corners
 is fitted to its own rays; the command says how large the error is, px, and in which part of the
-image.
+image. The options on the sensor mode make the camera of images that were cropped, binned, scaled or
+flipped; as result.json it keeps the calibration, and the mode with it.
 """
 
 from __future__ import annotations
@@ -21,19 +22,22 @@ from calibgui.cli.camera import CAMERA_FILE, add_camera_options, read_camera_and
 from calibgui.cli.console import Console
 from calibgui.cli.outputs import add_overwrite_option
 from calibgui.cli.result import read_result_file
+from calibgui.cli.sensor_mode import adapt_to_images, add_mode_options, is_mode_stated
 from calibgui.dataset import Result
 from calibgui.engine.calibration import refit
-from calibgui.engine.camera import Camera, resolve_model_id
+from calibgui.engine.camera import Camera, SensorMode, resolve_model_id
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.threads import limit_blas_threads
-from calibgui.formats import EXPORTERS, export
+from calibgui.formats import EXPORTERS, ImportedCamera, export
 from calibgui.formats.camera_conversion import (
     convert_within_limit,
     describe_conversion,
     export_camera,
+    export_stream,
     write_conversion,
 )
 from calibgui.formats.camera_refit import MAX_REFIT_ERROR
+from calibgui.formats.result_json import encode_mode
 from calibgui.report import tables
 
 _MAX_LISTED = 30
@@ -45,6 +49,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.set_defaults(usage_error=parser.error)
     parser.add_argument("file", type=Path, metavar="FILE", help=CAMERA_FILE)
     add_camera_options(parser)
+    add_mode_options(parser, "the images of the new camera")
     parser.add_argument(
         "--model",
         type=_parse_model,
@@ -66,22 +71,30 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace, console: Console) -> None:
     """Read, convert, write and print."""
-    if not (options.model or options.export):
-        options.usage_error("say what to convert to: --model NAME, --export FORMAT=FILE or both")
+    if not (options.model or options.export or is_mode_stated(options)):
+        options.usage_error(
+            "say what to convert to: --model NAME, --export FORMAT=FILE, a sensor mode, or several"
+        )
     outputs = [(path, name) for name, path in options.export]
     check_outputs(outputs, [options.file], options.overwrite)
     found = read_camera_and_warn(options.file, console, options.camera, options.size)
+    adapted = adapt_to_images(found, options, console)
     with limit_blas_threads():
         if found.title == EXPORTERS["result"].title:
-            answer = _convert_result(read_result_file(options.file), options)
+            answer = _convert_result(read_result_file(options.file), adapted.mode, options)
         else:
-            answer = _convert_camera(found.camera, options)
+            answer = _convert_camera(adapted, options)
+            _tell_of_rectification(found, adapted, options, console)
+    if adapted.mode is not None:
+        answer["sensor_mode"] = encode_mode(adapted.mode)
     console.print_json(answer)
     console.print_text(_describe(answer))
 
 
-def _convert_result(result: Result, options: argparse.Namespace) -> dict[str, Any]:
-    """Convert a calibration on its corners, and write it."""
+def _convert_result(
+    result: Result, mode: SensorMode | None, options: argparse.Namespace
+) -> dict[str, Any]:
+    """Convert a calibration on its corners, and write it, or the camera of another stream of it."""
     camera = result.calibration.camera
     answer: dict[str, Any] = {"largest_error_px": 0.0, "note": ""}
     if options.model not in (None, camera.model):
@@ -99,12 +112,39 @@ def _convert_result(result: Result, options: argparse.Namespace) -> dict[str, An
             "note": f"Calibrated again on the same corners; differs by at most "
             f"{fitted.covered_error:.2g} px where corners were seen.",
         }
-    files = {str(path): export(result, name, path).note for name, path in options.export}
-    return _encode_camera(result.calibration.camera) | answer | {"files": files}
+    result, camera = replace(result, mode=mode), result.calibration.camera
+    if mode is not None:
+        camera = mode.adapt_camera(camera)
+    files = {}
+    for name, path in options.export:
+        if mode is None or name == EXPORTERS["result"].name:
+            files[str(path)] = export(result, name, path).note
+        else:
+            files[str(path)] = export_stream(result, mode, EXPORTERS[name], path).note
+    return _encode_camera(camera) | answer | {"files": files}
 
 
-def _convert_camera(camera: Camera, options: argparse.Namespace) -> dict[str, Any]:
+def _tell_of_rectification(
+    found: ImportedCamera, adapted: ImportedCamera, options: argparse.Namespace, console: Console
+) -> None:
+    """Say which of the files that were written do not hold the rectification of the one read."""
+    if found.rectification is None:
+        return
+    without = [
+        str(path)
+        for name, path in options.export
+        if adapted.rectification is None or not EXPORTERS[name].holds_rectification
+    ]
+    if without or not options.export:
+        console.print_problem(
+            f"calibgui: {options.file} holds the rectification of a stereo pair (R, P), which is "
+            f"left out{' of ' if without else ''}{', '.join(without)}."
+        )
+
+
+def _convert_camera(adapted: ImportedCamera, options: argparse.Namespace) -> dict[str, Any]:
     """Convert a camera by its rays, and write it."""
+    camera, extra = adapted.camera, (adapted.mode, adapted.rectification)
     model = options.model or camera.model
     if options.model:
         _check_formats(options, model)
@@ -113,9 +153,9 @@ def _convert_camera(camera: Camera, options: argparse.Namespace) -> dict[str, An
     for name, path in options.export:
         exporter = EXPORTERS[name]
         if options.model:
-            report = write_conversion(camera, found, exporter, path)
+            report = write_conversion(camera, found, exporter, path, *extra)
         else:
-            report = export_camera(camera, exporter, path, options.within)
+            report = export_camera(camera, exporter, path, options.within, *extra)
         files[str(path)] = report.note
     return _encode_camera(found.camera) | {
         "largest_error_px": found.largest_error,

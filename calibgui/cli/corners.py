@@ -9,6 +9,7 @@ from fnmatch import fnmatchcase
 from pathlib import Path
 
 from calibgui.app.photographs.paths import describe_unread_folders, describe_unread_photographs
+from calibgui.app.photographs.videos import FrameChoice
 from calibgui.cli.arguments import (
     add_image_paths,
     add_search_options,
@@ -19,17 +20,18 @@ from calibgui.cli.arguments import (
     search_images,
 )
 from calibgui.cli.boards import add_board_options, is_pattern_open, read_pattern_options
+from calibgui.cli.camera import add_size_option
 from calibgui.cli.console import Console
 from calibgui.dataset import CornerSet
-from calibgui.engine.detection import METHODS
 from calibgui.engine.errors import CalibrationError
-from calibgui.formats.corners_json import read_corners
+from calibgui.engine.features import METHODS
+from calibgui.formats.corner_import import read_corner_file
 from calibgui.report.boards import describe_recognised_board
 from calibgui.report.tables import fill_lines
 
 
 def add_corner_options(parser: argparse.ArgumentParser, need: str) -> None:
-    """Add the paths of photographs or of a corners.json, and the options on board and search.
+    """Add the paths of photographs or of a file of corners, and the options on board and search.
 
     Args:
         parser: the parser to add them to.
@@ -39,6 +41,7 @@ def add_corner_options(parser: argparse.ArgumentParser, need: str) -> None:
     add_search_options(parser)
     add_board_options(parser)
     add_square_option(parser, need)
+    add_size_option(parser)
     parser.add_argument(
         "--exclude",
         nargs="+",
@@ -51,9 +54,9 @@ def add_corner_options(parser: argparse.ArgumentParser, need: str) -> None:
 def check_corner_options(options: argparse.Namespace) -> None:
     """End the program if the options on board and search do not fit the paths."""
     if is_corners_file(options.paths):
-        if options.board or options.roi or options.target or options.corners != METHODS[0]:
+        if options.roi or options.target or options.corners != METHODS[0]:
             options.usage_error(
-                "--board, --roi, --target and --corners are for photographs, not for a corners file"
+                "--roi, --target and --corners are for photographs, not for a corners file"
             )
     elif any(is_corners_file([path]) for path in options.paths):
         options.usage_error("a corners file is calibrated by itself")
@@ -99,6 +102,7 @@ def search_board(options: argparse.Namespace, console: Console) -> tuple[CornerS
         options.roi,
         options.corners,
         None if is_open else pattern,
+        FrameChoice(options.frames, _choose_frames_folder(options)),
     )
     require_board(detection, options.board, console, is_open)
     corner_set = detection.corner_set(options.square)
@@ -109,6 +113,13 @@ def search_board(options: argparse.Namespace, console: Console) -> tuple[CornerS
         describe_unread_photographs(options.paths),
     )
     return corner_set, [remark for remark in remarks if remark]
+
+
+def _choose_frames_folder(options: argparse.Namespace) -> Path:
+    """Return the folder for frames of videos: as stated, or else that of the output, if any."""
+    output = getattr(options, "output", None)
+    beside = output.parent if isinstance(output, Path) else Path()
+    return beside if options.frames_folder is None else Path(options.frames_folder)
 
 
 def _exclude_images(corner_set: CornerSet, names: Sequence[str]) -> CornerSet:
@@ -142,15 +153,6 @@ def _exclude_images(corner_set: CornerSet, names: Sequence[str]) -> CornerSet:
 
 
 def _read_corners_file(options: argparse.Namespace) -> CornerSet:
-    """Return the views of a corners.json; --square replaces the side of the board's squares."""
+    """Return the views of a file of corners; --square replaces the side of the board's squares."""
     with open_input(options.paths[0]) as file:
-        corner_set = read_corners(file)
-    if options.square is None:
-        return corner_set
-    if corner_set.board is None:
-        raise CalibrationError(
-            f"{options.paths[0]} already gives the corners' places on the board in millimetres.",
-            "Leave out --square.",
-        )
-    board = replace(corner_set.board, square=options.square)
-    return replace(corner_set, board=board, lengths_confirmed=True)
+        return read_corner_file(file, options.board, options.square, options.size)

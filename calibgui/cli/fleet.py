@@ -13,8 +13,10 @@ from calibgui.app.fleet.pages import write_fleet_pages
 from calibgui.app.outputs.output_files import check_outputs
 from calibgui.cli.console import Console
 from calibgui.cli.outputs import add_overwrite_option
+from calibgui.dataset.fleet import FleetStatus
 from calibgui.formats.fleet_ledger import open_ledger
 from calibgui.formats.origin import FLEET_PAGE
+from calibgui.report.fleet import tabulate_failures
 from calibgui.report.fleet_overview import make_overview
 from calibgui.report.numbers import format_count
 
@@ -38,6 +40,7 @@ def run(options: argparse.Namespace, console: Console) -> None:
     check_outputs([(options.output, FLEET_PAGE)], [options.ledger], options.overwrite)
     with open_ledger(options.ledger) as ledger:
         cameras = tuple(ledger.read())
+    unreadable = [camera for camera in cameras if camera.status is FleetStatus.UNREADABLE]
     overview = make_overview(cameras)
     folder = write_fleet_pages(overview, options.ledger, options.output)
     counts = {
@@ -47,8 +50,11 @@ def run(options: argparse.Namespace, console: Console) -> None:
             {"id": one.camera.id, "rms_px": one.difference, "z": one.z} for one in overview.outliers
         ],
         "changed": [one.camera.id for one in overview.changed],
+        "unreadable": {camera.id: camera.problem for camera in unreadable},
     }
     console.print_json(counts)
+    if unreadable and not console.json:
+        console.print_problem(tabulate_failures(unreadable))
     console.print_text(
         f"{format_count(len(overview.placed), 'camera')}. Failing: {len(overview.failed)}. Unlike "
         f"the others: {len(overview.outliers)}. Changed: {len(overview.changed)}.\n"

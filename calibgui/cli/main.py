@@ -2,7 +2,7 @@
 
 The exit codes are 0 success; 1 the task is impossible, for the reason on stderr, or a check has
 failed; 2 wrong usage; 3 a camera has changed, or one of a fleet fails; 70 a bug; 130 interrupted
-(Ctrl-C, SIGTERM); 141 the program that read our output has ended.
+(Ctrl-C); 141 the program that read our output has ended; 143 asked to end (SIGTERM).
 
 To add a subcommand, write a module in this folder with `configure(parser)` and
 `run(options, console)`, which may return an exit code, and name it in `COMMANDS` of ``parser``.
@@ -14,7 +14,6 @@ import contextlib
 import gc
 import os
 import shlex
-import signal
 import sys
 import traceback
 import warnings
@@ -23,12 +22,13 @@ from importlib import import_module
 from typing import Any
 
 from calibgui.cli.parser import COMMANDS, build_parser, configure, describe_misuse
+from calibgui.cli.termination import TerminationRequest
 
 _WINDOW_PACKAGES = ("PySide6", "shiboken6", "pyqtgraph", "contourpy")
 """Packages that the window alone needs: the extra "gui"."""
 _ALONE = ("-h", "--help", "--version")
 """Options that need no command."""
-_CANNOT, _USAGE, _BUG, _INTERRUPTED, _NO_READER = 1, 2, 70, 130, 141
+_CANNOT, _USAGE, _BUG, _INTERRUPTED, _NO_READER, _TERMINATED = 1, 2, 70, 130, 141, 143
 
 
 def main(argv: Sequence[str] | None = None) -> int:
@@ -42,23 +42,30 @@ def main(argv: Sequence[str] | None = None) -> int:
         # Characters that the terminal cannot show must not raise errors.
         if hasattr(stream, "reconfigure"):
             stream.reconfigure(errors="backslashreplace")
+    request = TerminationRequest()
     try:
-        code = _run(arguments)
+        code = _run(arguments, request)
         if sys.stdout is not None:  # it may be closed
             sys.stdout.flush()
         return code
     except KeyboardInterrupt:
-        print("calibgui: interrupted.", file=sys.stderr)
-        return _INTERRUPTED
+        return _print_interruption(request)
     except BrokenPipeError:
         import_module("calibgui.cli.console").discard_stdout()
         return _NO_READER
     except Exception:
+        if request.is_made:  # a library has raised it in place of the request
+            return _print_interruption(request)
         _report_bug()
         return _BUG
 
 
-def _run(arguments: list[str]) -> int:
+def _print_interruption(request: TerminationRequest) -> int:
+    print("calibgui: interrupted.", file=sys.stderr)
+    return _TERMINATED if request.is_made else _INTERRUPTED
+
+
+def _run(arguments: list[str], request: TerminationRequest) -> int:
     parser, parsers = build_parser()
     chosen = arguments[0] if arguments else ""
     if chosen not in COMMANDS:
@@ -66,10 +73,8 @@ def _run(arguments: list[str]) -> int:
             parser.parse_args(arguments[:1])
         if not all(os.path.exists(name) for name in arguments):  # noqa: PTH110 - no import
             parser.error(describe_misuse(arguments))
-        if not _has_display():
-            if not arguments:
-                parser.print_help()
-            return _print_missing_display(arguments)
+        if not arguments and not _has_display():
+            parser.print_help()
         return _open_window(arguments)
 
     # One thread is the fastest on small matrices; OpenBLAS reads this as NumPy is imported.
@@ -80,12 +85,16 @@ def _run(arguments: list[str]) -> int:
     options = parsers[chosen].parse_args(arguments[1:])
     console = console_module.Console(options.quiet, options.json)
     errors = import_module("calibgui.engine.errors")
-    with contextlib.suppress(ValueError):  # only the main thread may
-        # SIGTERM ends the program as Ctrl-C does: workers and temporary files are removed.
-        signal.signal(signal.SIGTERM, signal.default_int_handler)
     try:
-        with _print_our_warnings_plainly():
-            return int(command.run(options, console) or 0)
+        # While the command is loaded SIGTERM ends the program at once: there is nothing to remove.
+        with request.heed(), _print_our_warnings_plainly():
+            code = int(command.run(options, console) or 0)
+            if import_module("calibgui.engine.kernels").was_any_missed():
+                console.print_notice(
+                    "Faster from now on: calibgui prepare (once, about a minute) compiles what is "
+                    "slow in Python."
+                )
+            return code
     except errors.CalibrationError as error:
         console.print_problem(f"calibgui: {error}")
         return _CANNOT
@@ -132,6 +141,8 @@ def open_window() -> int:
 
 
 def _open_window(arguments: list[str]) -> int:
+    if not _has_display():
+        return _print_missing_display(arguments)
     try:
         with _keep_what_is_loaded():
             app = import_module("calibgui.gui.app")
@@ -153,7 +164,7 @@ def _open_window(arguments: list[str]) -> int:
 def _has_display() -> bool:
     """Return whether there seems to be a screen to show a window on."""
     return sys.platform in ("win32", "darwin") or any(
-        os.environ.get(name) for name in ("DISPLAY", "WAYLAND_DISPLAY")
+        os.environ.get(name) for name in ("DISPLAY", "WAYLAND_DISPLAY", "QT_QPA_PLATFORM")
     )
 
 

@@ -1,4 +1,4 @@
-"""Compare lens models on photographs of a board, or on a corners.json file, and recommend one.
+"""Compare lens models on photographs of a board, or on a file of corners, and recommend one.
 
 Every model is calibrated from all views, and again without some of them to see how well it predicts
 these. The recommended model is what `calibgui calibrate --model` takes, and `--fix` those of its

@@ -20,8 +20,8 @@ from calibgui.cli.notices import explain_solve
 from calibgui.cli.outputs import add_overwrite_option
 from calibgui.dataset import CornerSet
 from calibgui.engine.calibration import Cost
-from calibgui.engine.detection import METHODS
 from calibgui.engine.errors import CalibrationError
+from calibgui.engine.features import METHODS
 from calibgui.engine.files import write_atomically
 from calibgui.formats.origin import PAPER_PAGE, RESULT
 from calibgui.formats.result_json import encode_result_with_findings, write_result

@@ -9,14 +9,17 @@ from collections.abc import Iterable, Sequence
 from importlib import import_module
 from typing import Any, NoReturn
 
-from calibgui import __version__
+from calibgui.version import __version__
 
 COMMANDS = {
     "calibrate": "calibrate a camera from photographs of a checkerboard or another board",
     "batch": "calibrate many cameras from a list, on all processors or a cluster",
+    "print": "write a board to print, in true size",
     "detect": "locate the corners of the board in photographs",
     "undistort": "write photographs without lens distortion",
     "rectify": "write photographs of the board as seen from straight above",
+    "pose": "locate the board in photographs of a camera that is known",
+    "rays": "find the rays that pixels look along, or the points of a plane that they see",
     "models": "compare lens models on photographs, and recommend one",
     "compare": "compare methods of calibration on photographs, side by side",
     "uncertainty": "show how far a calibration can be trusted",
@@ -28,13 +31,65 @@ COMMANDS = {
     "views": "study how many views are enough, and where to hold the board next",
     "demo": "calibrate the bundled sample and write all results and figures",
     "paper": "reproduce the paper from its 25 images, with its printed numbers beside ours",
+    "prepare": "compile what is slow in Python, once after an installation",
     "completion": "print what completes these commands in a shell at the press of the tab key",
 }
 """Subcommands, which are also the names of their modules, and their help texts."""
 
 
+_FIRST = (
+    *(
+        "--square",
+        "--board",
+        "--target",
+        "--exclude",
+        "--model",
+        "--as-asked",
+        "--limits",
+        "--scheduler",
+    ),
+    *("-o", "--export", "--for", "-v"),
+)
+"""Options that help lists first, of commands that have many."""
+_MANY = 20
+"""Number of options from which help lists the first ones alone: a screen's."""
+
+
 class Parser(argparse.ArgumentParser):
     """A parser whose errors are two lines: what is wrong, and the usage in short."""
+
+    def __init__(self, **settings: Any) -> None:
+        super().__init__(**settings, add_help=False)
+        self.add_argument(
+            "-h",
+            "--help",
+            action=_Help,
+            nargs="?",
+            metavar="all",
+            help="show this help message and exit; with all, that on every option",
+        )
+
+    def format_short_help(self) -> str:
+        """Format the help on the options that are used most; on all of them if they are few."""
+        options = [each for each in self._actions if each.option_strings and each.dest != "help"]
+        if len(options) < _MANY:
+            return self.format_help()
+        rank = {name: k for k, name in enumerate(_FIRST)}
+        listed = [each for each in options if rank.keys() & set(each.option_strings)]
+        listed.sort(key=lambda each: min(rank.get(name, len(rank)) for name in each.option_strings))
+        required = [each for each in options if each.required and each not in listed]
+        formatter = self._get_formatter()
+        formatter.add_text(self._format_short_usage().partition(" (")[0])
+        formatter.add_text(self.description)
+        formatter.start_section("arguments")
+        formatter.add_arguments([each for each in self._actions if not each.option_strings])
+        formatter.end_section()
+        formatter.start_section("options that are used most")
+        formatter.add_arguments([*required, *listed])
+        formatter.end_section()
+        more = len(options) - len(required) - len(listed)
+        formatter.add_text(f"{self.prog} --help all describes {more} more.")
+        return formatter.format_help()
 
     def parse_args(self, args: Any = None, namespace: Any = None) -> Any:
         """Return the parsed arguments, or end the program and suggest what was probably meant."""
@@ -62,6 +117,24 @@ class Parser(argparse.ArgumentParser):
         formatter.add_usage(None, needed, [])
         usage = formatter.format_help().strip()
         return f"{usage} [OPTION ...] (--help explains all)"
+
+
+class _Help(argparse.Action):
+    """Prints the help of a parser: of one with many options the first, or all with "all"."""
+
+    def __call__(
+        self,
+        parser: argparse.ArgumentParser,
+        namespace: argparse.Namespace,  # noqa: ARG002 - argparse's arguments
+        values: Any,
+        option_string: str | None = None,  # noqa: ARG002
+    ) -> None:
+        """Print, and end the program."""
+        text = parser.format_help()
+        if isinstance(parser, Parser) and values != "all":
+            text = parser.format_short_help()
+        print(text, end="")
+        parser.exit()
 
 
 def suggest(word: str, known: Iterable[str], before: str = "") -> str:

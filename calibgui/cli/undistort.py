@@ -8,17 +8,20 @@ from pathlib import Path
 
 from calibgui.app.outputs.resampling import Undistortion, undistort_files
 from calibgui.app.photographs.paths import find_images
+from calibgui.app.photographs.sensor_frame import find_common_size
 from calibgui.cli.arguments import add_image_paths, parse_positive
 from calibgui.cli.camera import CAMERA_FILE, add_camera_options, read_camera_and_warn
 from calibgui.cli.console import Console
 from calibgui.cli.resampled import add_output_folder, report_written
-from calibgui.engine.images import FieldOfView, Projection, describe_lost_angles
+from calibgui.cli.sensor_mode import adapt_to_images, add_mode_options
+from calibgui.engine.images import FieldOfView, Projection, describe_hidden_angles
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
     """Describe the arguments."""
     parser.add_argument("result", type=Path, metavar="RESULT", help=CAMERA_FILE)
     add_camera_options(parser)
+    add_mode_options(parser, "the photographs")
     add_image_paths(parser)
     add_output_folder(parser)
     parser.add_argument(
@@ -48,19 +51,33 @@ def configure(parser: argparse.ArgumentParser) -> None:
         help="field of view instead: the angle from the left edge of the new images to the right "
         "one, in degrees",
     )
+    parser.add_argument(
+        "--square-pixels",
+        action="store_true",
+        help="stretch the new images where the pixels of the photographs are not square, as those "
+        "of anamorphic lenses and PAL video",
+    )
 
 
 def run(options: argparse.Namespace, console: Console) -> int:
     """Read, undistort and write; return the exit code."""
     found = read_camera_and_warn(options.result, console, options.camera, options.size)
-    camera = found.camera
     images = find_images(options.paths)
+    size = find_common_size(images, found.camera.size, found.orientation)
+    found = adapt_to_images(found, options, console, size)
+    camera = found.camera
+    if found.rectification is not None:
+        console.print_problem(
+            f"calibgui: {options.result} holds the rectification of a stereo pair (R, P), which is "
+            "left out: the new images look where the camera does."
+        )
     undistortion = Undistortion(
         Projection(options.projection),
         FieldOfView(options.view),
         None if options.fov is None else math.radians(options.fov),
+        options.square_pixels,
     )
-    shown = describe_lost_angles(camera, undistortion.choose_cameras(camera))
+    shown = describe_hidden_angles(camera, undistortion.choose_cameras(camera))
     with console.show_progress("undistorting") as advance:
         written = undistort_files(
             camera,

@@ -17,12 +17,14 @@ from calibgui.engine.assessment import SIGNIFICANCE, Grade, PixelError
 
 
 class FleetStatus(StrEnum):
-    """The ways in which the work on a camera can end."""
+    """What is known of the work on a camera."""
 
     DONE = "done"
     """A calibration was made, whatever it is worth."""
     REFUSED = "refused"
     """No calibration could be made."""
+    UNREADABLE = "unreadable"
+    """The ledger's row of the camera cannot be read; it is never written."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -118,7 +120,7 @@ class FleetCamera:
     status: FleetStatus
     """How the work on it ended."""
     problem: str = ""
-    """Why it was refused, and empty if it was not."""
+    """Why it was refused, or cannot be read; empty otherwise."""
     remedy: str = ""
     """What to do about that."""
     photographs: int = 0
@@ -127,7 +129,7 @@ class FleetCamera:
     """Median of the dates that the photographs state in EXIF, local time; empty if they state none.
     """
     figures: FleetFigures | None = None
-    """The figures of its calibration; None if it was refused."""
+    """The figures of its calibration; None unless it is done."""
     change: Change | None = None
     """Difference from the last calibration of its serial number; None if there is none before it,
     or one of both has no date, does not determine the camera or has another image size."""

@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
-from collections import deque
 from collections.abc import Callable
 from threading import Lock
+from weakref import WeakKeyDictionary
 
 from calibgui.dataset.result import Result
 from calibgui.engine.assessment import Verdict, judge_calibration
+from calibgui.engine.calibration import Calibration
 
 _lock = Lock()
-_judged: deque[tuple[Result, Verdict]] = deque(maxlen=8)
-"""The results that were judged last, with their verdicts."""
+_verdicts: WeakKeyDictionary[Calibration, Verdict] = WeakKeyDictionary()
+"""The verdicts on calibrations that are still there."""
 
 
 def judge_result(result: Result, check: Callable[[], None] | None = None) -> Verdict:
@@ -22,10 +23,19 @@ def judge_result(result: Result, check: Callable[[], None] | None = None) -> Ver
         check: a function that is called now and then, and raises to abandon the work.
     """
     with _lock:
-        for known, verdict in _judged:
-            if known.calibration is result.calibration and known.views is result.views:
-                return verdict
+        if (known := recall_verdict(result)) is not None:
+            return known
         names = [view.name for view in result.used]
         verdict = judge_calibration(result.calibration, result.observations(), names, check)
-        _judged.append((result, verdict))
+        keep_verdict(result, verdict)
         return verdict
+
+
+def recall_verdict(result: Result) -> Verdict | None:
+    """Return the verdict on a result if it is known, None if it is still to be found out."""
+    return _verdicts.get(result.calibration)
+
+
+def keep_verdict(result: Result, verdict: Verdict) -> None:
+    """Keep the verdict on a result for all who ask."""
+    _verdicts[result.calibration] = verdict

@@ -9,18 +9,22 @@ from dataclasses import dataclass, field
 import numpy as np
 import scipy
 
-import calibgui
+from calibgui.dataset.corner_set import describe_lengths
+from calibgui.dataset.stereo_rectification import StereoRectification
 from calibgui.dataset.view import View
 from calibgui.engine import opencv
-from calibgui.engine.boards import AprilGrid, Board
+from calibgui.engine.arrays import Array
+from calibgui.engine.boards import Board
 from calibgui.engine.calibration import Calibration, Observation
+from calibgui.engine.camera import SensorMode
 from calibgui.engine.geometry import PaperPose, paper_from_pose
+from calibgui.version import __version__
 
 
 def list_installed_versions() -> dict[str, str]:
     """Return the versions of this program and of the libraries that its numbers depend on."""
     return {
-        "calibgui": calibgui.__version__,
+        "calibgui": __version__,
         "numpy": np.__version__,
         "scipy": scipy.__version__,
         "opencv": opencv.VERSION,
@@ -41,6 +45,17 @@ class Result:
     """Versions of the programs that made the calibration, by name."""
     lengths_confirmed: bool = True
     """False if nobody has stated the side of a square: all lengths then hold if it is that."""
+    conversion: str = ""
+    """Note on how a camera without corners was converted; empty for calibrations."""
+    region: Array | None = None
+    """(n, 2) outline, px, of where the image of such a camera is known."""
+    rectification: StereoRectification | None = None
+    """The rectification that the camera's file holds beside such a camera."""
+    mode: SensorMode | None = None
+    """The stream that the file is for, from the images of the calibration, in whose pixels all else
+    is; None if it is for these."""
+    improvements: tuple[str, ...] = ()
+    """Sentences on what was done to make the camera better than the first that was found."""
     places: tuple[int, ...] = field(init=False, repr=False)
     """Indices in `views` of those that take part, in the order of the calibration's poses."""
 
@@ -64,13 +79,7 @@ class Result:
     @property
     def condition(self) -> str:
         """Condition under which all lengths hold, as "if squares are 30 mm"; empty if they do."""
-        if self.lengths_confirmed or self.board is None:
-            return ""
-        length = f"{self.board.square:g} mm"
-        if not self.board.pattern.has_squares:
-            return f"if circles are {length} apart"
-        parts = "tags" if isinstance(self.board.pattern, AprilGrid) else "squares"
-        return f"if {parts} are {length}"
+        return "" if self.lengths_confirmed else describe_lengths(self.board)
 
     def paper_poses(self) -> tuple[PaperPose, ...]:
         """Return the paper's external parameters of the used views.

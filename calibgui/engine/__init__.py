@@ -1,10 +1,12 @@
 """The calibration engine: arrays in, frozen records out; no window, plots or progress bars.
 
 This is the short face: photographs are read (`read_image`), corners found (`find_corners`), the
-camera calibrated (`calibrate`) and its images undistorted (`undistort_image`, `rectify_image`).
+camera calibrated (`calibrate`), boards located with it (`locate_board`) and its images undistorted
+(`undistort_image`, `rectify_image`).
 Everything else is on the faces of the rooms: ``calibgui.engine.camera``, ``.boards``, ``.images``,
-``.detection``, ``.calibration``, ``.redetection``, ``.uncertainty`` and ``.assessment``. Angles are
-radians, lengths millimetres, image points pixels (0-based, integer at the pixel's centre, v down).
+``.features``, ``.lattices``, ``.detection``, ``.calibration``, ``.redetection``, ``.uncertainty``
+and ``.assessment``. Angles are radians, lengths millimetres, image points pixels (0-based, integer
+at the pixel's centre, v down).
 
 Five views of a board are rendered here in place of photographs.
 
@@ -47,6 +49,10 @@ if TYPE_CHECKING:
         BoardShapePrior as BoardShapePrior,
     )
     from calibgui.engine.boards.tagged_checkerboard import TaggedCheckerboard as TaggedCheckerboard
+    from calibgui.engine.calibration.board_poses import (
+        BoardPose as BoardPose,
+        locate_board as locate_board,
+    )
     from calibgui.engine.calibration.calibrate import calibrate as calibrate
     from calibgui.engine.calibration.observations import Observation as Observation
     from calibgui.engine.calibration.refit import Refit as Refit, refit as refit
@@ -69,7 +75,7 @@ if TYPE_CHECKING:
         project_points as project_points,
         undistort_points as undistort_points,
     )
-    from calibgui.engine.detection.corners import Corners as Corners
+    from calibgui.engine.features.corners import Corners as Corners
     from calibgui.engine.detection.find_corners import find_corners as find_corners
     from calibgui.engine.errors import (
         CalibrationError as CalibrationError,
@@ -91,6 +97,10 @@ if TYPE_CHECKING:
         FieldOfView as FieldOfView,
         undistort_image as undistort_image,
     )
+    from calibgui.engine.uncertainty.back_projection import (
+        find_board_points as find_board_points,
+        find_rays as find_rays,
+    )
 
 load_on_demand(
     __name__,
@@ -105,6 +115,7 @@ load_on_demand(
         "boards.puzzleboard": ["PuzzleBoard"],
         "boards.shape": ["BoardShape", "BoardShapeModel", "BoardShapePrior"],
         "boards.tagged_checkerboard": ["TaggedCheckerboard"],
+        "calibration.board_poses": ["BoardPose", "locate_board"],
         "calibration.calibrate": ["calibrate"],
         "calibration.observations": ["Observation"],
         "calibration.refit": ["Refit", "refit"],
@@ -123,14 +134,15 @@ load_on_demand(
         ],
         "camera.camera": ["Camera"],
         "camera.distortion": ["distort_points", "project_points", "undistort_points"],
-        "detection.corners": ["Corners"],
         "detection.find_corners": ["find_corners"],
         "errors": ["CalibrationError", "Cancelled", "NoBoardError"],
+        "features.corners": ["Corners"],
         "geometry.pose": ["Pose"],
         "images.reading": ["Image", "read_image"],
         "images.rectification": ["compute_board_extent", "rectify_image"],
         "images.rendering": ["Appearance", "render_view"],
         "images.resampling": ["ResampledImage"],
         "images.undistortion": ["FieldOfView", "undistort_image"],
+        "uncertainty.back_projection": ["find_board_points", "find_rays"],
     },
 )

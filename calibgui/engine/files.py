@@ -15,8 +15,9 @@ import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from functools import partial
+from io import BufferedReader
 from pathlib import Path
-from typing import IO, BinaryIO, cast
+from typing import IO, BinaryIO
 
 from calibgui.engine.errors import CalibrationError, WriteError
 
@@ -29,7 +30,7 @@ _swept: set[str] = set()
 """Folders from which abandoned files have been removed already."""
 
 
-def open_regular(path: str | os.PathLike[str]) -> BinaryIO:
+def open_regular(path: str | os.PathLike[str]) -> BufferedReader:
     """Open a file to read its bytes.
 
     Raises:
@@ -38,7 +39,7 @@ def open_regular(path: str | os.PathLike[str]) -> BinaryIO:
         OSError: if it cannot be opened.
     """
     try:
-        file = cast(BinaryIO, open(path, "rb", opener=_open_at_once))  # noqa: SIM115
+        file = open(path, "rb", opener=_open_at_once)  # noqa: SIM115
     except ValueError as error:  # a NUL
         raise CalibrationError(
             f"{os.fspath(path)!r} is no name of a file: {error}.", "Correct the name."

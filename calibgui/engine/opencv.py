@@ -150,6 +150,33 @@ def encode_image(suffix: str, image: GreyImage) -> bytes | None:
     return bytes(data) if ok else None
 
 
+def decode_video(path: str) -> tuple[int, Iterator[GreyImage]]:
+    """Return the number of frames that a video says it has, 0 if it does not, and its frames.
+
+    Frames are RGB (h, w, 3) of 8 bits, turned as the file says; there are none if it cannot be
+    decoded. Only what is known for a container of frames should be given: FFmpeg follows lists.
+    """
+    capture = cv2.VideoCapture(path, cv2.CAP_FFMPEG)
+
+    def decode() -> Iterator[GreyImage]:
+        try:
+            while True:
+                is_read, frame = capture.read()
+                if not is_read:
+                    return
+                yield np.asarray(cv2.cvtColor(frame, cv2.COLOR_BGR2RGB))
+        finally:
+            capture.release()
+
+    return max(0, int(capture.get(cv2.CAP_PROP_FRAME_COUNT))), decode()
+
+
+def measure_sharpness(image: GreyImage) -> float:
+    """Return the variance of the Laplacian of an RGB image (h, w, 3), halved: blur lessens it."""
+    grey = halve_image(np.asarray(cv2.cvtColor(image, cv2.COLOR_RGB2GRAY)))
+    return float(cv2.Laplacian(grey, cv2.CV_16S).var())
+
+
 def resample_image(image: GreyImage, uv: FloatImage, out: GreyImage) -> None:
     """Interpolate `image`, (h, w) or (h, w, c), at `uv` (2, H, W) px, into `out` of its type.
 
@@ -158,6 +185,19 @@ def resample_image(image: GreyImage, uv: FloatImage, out: GreyImage) -> None:
     """
     u, v = uv
     cv2.remap(image, u, v, cv2.INTER_LINEAR, out, cv2.BORDER_CONSTANT)
+
+
+def draw_line(image: GreyImage, uv: Array, colour: Array, width: int) -> None:
+    """Draw a line through points (n, 2) px into `image`, (h, w, 3), with smooth edges.
+
+    Points far outside are drawn up to some widths of the image beyond it.
+    """
+    height, across, _ = image.shape
+    far = 8.0 * max(height, across)
+    points = np.rint(16 * np.clip(uv, -far, far)).astype(np.int32)
+    # OpenCV smooths the edges of 8-bit lines only.
+    smooth = cv2.LINE_AA if image.dtype == np.uint8 else cv2.LINE_8
+    cv2.polylines(image, [points], False, colour.tolist(), width, smooth, shift=4)
 
 
 MAX_SIDE = 32_766

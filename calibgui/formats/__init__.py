@@ -13,6 +13,8 @@ leaves out formats that need corners (`Exporter.needs_corners`).
 A format whose cameras are read, too, has a function (CameraText) -> ImportedCamera and a constant
 `IMPORTER` in the same module, which is listed in ``camera_import``; `read_camera` finds the format
 of a file by its content.
+
+Whatever is read passes ``gate.py``: text of a stated size, data of a stated depth, values by type.
 """
 
 from __future__ import annotations

@@ -104,8 +104,8 @@ def read_basalt(source: CameraText) -> ImportedCamera:
     sizes = content["resolution"].items()
     if int(name) >= len(sizes):
         content["resolution"].fail(f"a list with the size of camera {name}")
-    width, height = sizes[int(name)].integers(2).tolist()
-    camera = source.make_camera(source.choose_size((width, height)), model, values)
+    size = source.choose_size(sizes[int(name)].image_size())
+    camera = source.make_camera(size, model, values)
     notes = (f"Camera {name} of {len(cameras)}, counted from 0.",) if len(cameras) > 1 else ()
     return ImportedCamera(camera, EXPORTER.title, notes=notes)
 

@@ -11,11 +11,13 @@ from __future__ import annotations
 import math
 import os
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 
-from calibgui.dataset import Result
+from calibgui.dataset import Result, StereoRectification
+from calibgui.engine.arrays import Array
 from calibgui.engine.calibration import (
     Calibration,
     Conversion,
@@ -24,9 +26,16 @@ from calibgui.engine.calibration import (
     convert_camera,
     find_followed_angle,
 )
-from calibgui.engine.camera import Camera, find_model
+from calibgui.engine.camera import Camera, SensorMode, describe_mode, find_model
 from calibgui.engine.errors import CalibrationError
-from calibgui.formats.camera_refit import MAX_REFIT_ERROR, SUFFICIENT_REFIT_ERROR
+from calibgui.formats.camera_refit import (
+    MAX_REFIT_ERROR,
+    SUFFICIENT_REFIT_ERROR,
+    check_refit,
+    describe_refit,
+    express_in_format,
+    find_seen_region,
+)
 from calibgui.formats.exporter import Exporter, ExportReport
 
 
@@ -95,8 +104,47 @@ def describe_conversion(original: Camera, found: Conversion) -> str:
     )
 
 
+def export_stream(
+    result: Result, mode: SensorMode, exporter: Exporter, path: str | os.PathLike[str]
+) -> ExportReport:
+    """Write the camera of another stream of a calibrated one.
+
+    Where the format does not hold its lens model, it is refitted to the corners of the calibration,
+    as the calibrated camera is.
+
+    Raises:
+        CalibrationError: as `write_conversion`, or if none of the format's lens models follows the
+            camera or can be squeezed.
+    """
+    _check_holds_cameras(exporter, path)
+    expressed = express_in_format(result, exporter)
+    check_refit(result, expressed, Path(path))
+    zoom = float(np.abs(mode.factor).max())
+    there = replace(
+        expressed,
+        covered_error=zoom * expressed.covered_error,
+        largest_error=zoom * expressed.largest_error,
+    )
+    note = f"{describe_refit(result, there)} {_describe_stream(mode)}"
+    outline = mode.map_points(find_seen_region(result))
+    region = np.clip(outline, 0, np.array(mode.size) - 1)
+    camera = mode.adapt_camera(expressed.calibration.camera)
+    report = exporter.write(_make_result(camera, region, note), Path(path))
+    return ExportReport(report.path, report.note, there.largest_error)
+
+
+def _describe_stream(mode: SensorMode) -> str:
+    """Describe in a sentence what images a camera is for."""
+    return f"For images of {mode.size[0]} x {mode.size[1]} px: {describe_mode(mode)}."
+
+
 def export_camera(
-    camera: Camera, exporter: Exporter, path: str | os.PathLike[str], angle: float = math.inf
+    camera: Camera,
+    exporter: Exporter,
+    path: str | os.PathLike[str],
+    angle: float = math.inf,
+    mode: SensorMode | None = None,
+    rectification: StereoRectification | None = None,
 ) -> ExportReport:
     """Write a camera without corners.
 
@@ -105,13 +153,16 @@ def export_camera(
         exporter: the format.
         path: the file.
         angle: largest angle from the axis at which a conversion must follow the camera, rad.
+        mode: how its images are made from those of the camera that was read, for the note.
+        rectification: that of a stereo pair, which is written where the format holds it.
 
     Raises:
         CalibrationError: if the format holds corners, none of its lens models follows the camera,
             or the file cannot be written.
     """
     if exporter.holds(camera):
-        return write_conversion(camera, convert_camera(camera, camera.model), exporter, path)
+        same = convert_camera(camera, camera.model)
+        return write_conversion(camera, same, exporter, path, mode, rectification)
     if not exporter.refits:
         raise CalibrationError(
             f"{os.fspath(path)} is not written: the format {exporter.name!r} does not hold the "
@@ -127,32 +178,48 @@ def export_camera(
     if not best.largest_error < MAX_REFIT_ERROR:
         message, hint = _explain_failure(camera, best)
         raise CalibrationError(f"{os.fspath(path)} is not written: {message}", hint)
-    return write_conversion(camera, best, exporter, path)
+    return write_conversion(camera, best, exporter, path, mode, rectification)
 
 
 def write_conversion(
-    original: Camera, found: Conversion, exporter: Exporter, path: str | os.PathLike[str]
+    original: Camera,
+    found: Conversion,
+    exporter: Exporter,
+    path: str | os.PathLike[str],
+    mode: SensorMode | None = None,
+    rectification: StereoRectification | None = None,
 ) -> ExportReport:
-    """Write a converted camera in a format that holds its lens model.
+    """Write a converted camera in a format that holds its lens model; see `export_camera`.
 
     Raises:
         CalibrationError: if the format holds corners, or the file cannot be written.
     """
-    if exporter.needs_corners:
-        raise CalibrationError(
-            f"{os.fspath(path)} is not written: the format {exporter.name!r} holds corners, and "
-            "the camera file has none.",
-            "Choose a format that holds a camera only.",
-        )
-    result = _make_result(found, describe_conversion(original, found))
+    _check_holds_cameras(exporter, path)
+    note = describe_conversion(original, found)
+    if mode is not None:
+        note = f"{note} {_describe_stream(mode)}"
+    result = replace(_make_result(found.camera, found.region, note), rectification=rectification)
     report = exporter.write(result, Path(path))
     error = max(found.largest_error, report.largest_error_px or 0.0)
     return ExportReport(report.path, report.note, error)
 
 
-def _make_result(found: Conversion, note: str) -> Result:
+def _check_holds_cameras(exporter: Exporter, path: str | os.PathLike[str]) -> None:
+    """Refuse a format that holds corners.
+
+    Raises:
+        CalibrationError: if it does.
+    """
+    if exporter.needs_corners:
+        raise CalibrationError(
+            f"{os.fspath(path)} is not written: the format {exporter.name!r} holds corners, and "
+            "there are none of this camera.",
+            "Choose a format that holds a camera only.",
+        )
+
+
+def _make_result(camera: Camera, region: Array | None, note: str) -> Result:
     """Return a result without views."""
-    camera = found.camera
     unknown = np.full(len(camera.params), np.nan)
     calibration = Calibration(
         camera=camera,
@@ -170,9 +237,8 @@ def _make_result(found: Conversion, note: str) -> Result:
         status=Status.CONVERGED,
         cost=Cost.IMAGE,
         fixed=(),
-        settings={"conversion": note, "region": found.region.tolist()},
     )
-    return Result(calibration, ())
+    return Result(calibration, (), conversion=note, region=region)
 
 
 def _explain_failure(camera: Camera, found: Conversion) -> tuple[str, str]:

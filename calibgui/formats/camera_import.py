@@ -14,7 +14,6 @@ import re
 from calibgui.dataset import Result
 from calibgui.engine.arrays import Size
 from calibgui.engine.errors import CalibrationError
-from calibgui.engine.files import describe_read_error, read_regular
 from calibgui.formats import (
     basalt_json,
     colmap_cameras,
@@ -23,9 +22,11 @@ from calibgui.formats import (
     matlab_script,
     mrcal_model,
     opencv_file,
+    photonvision_json,
     result_json,
     ros_yaml,
 )
+from calibgui.formats.gate import read_text
 from calibgui.formats.importer import CameraText, ImportedCamera, Importer
 from calibgui.formats.json_document import parse_json
 from calibgui.formats.origin import CORNERS, make_mark
@@ -34,6 +35,7 @@ IMPORTERS: tuple[Importer, ...] = tuple(
     module.IMPORTER
     for module in (
         result_json,
+        photonvision_json,
         mrcal_model,
         basalt_json,
         gyroflow_json,
@@ -144,20 +146,6 @@ def _find_importer(text: str) -> Importer | None:
 
 
 def _read_text(path: str | os.PathLike[str]) -> str:
-    """Return the text of a file.
-
-    Raises:
-        CalibrationError: if it cannot be read, is too large or is not text.
-    """
-    file = os.fspath(path)
-    try:
-        content = read_regular(path, MAX_FILE_SIZE)
-    except OSError as error:
-        raise describe_read_error(path, error) from error
-    try:
-        return content.decode("utf-8-sig")
-    except UnicodeDecodeError as error:
-        raise CalibrationError(
-            f"{file} is not a camera file that can be read: it is not text in UTF-8.",
-            f"These can be read: {', '.join(importer.title for importer in IMPORTERS)}.",
-        ) from error
+    """Return the text of a file. Raises as ``gate.read_text``."""
+    readable = f"These can be read: {', '.join(importer.title for importer in IMPORTERS)}."
+    return read_text(path, MAX_FILE_SIZE, "a camera file that can be read", readable)

@@ -151,15 +151,10 @@ def measure_refit_errors(original: Camera, refitted: Camera, uv: Array) -> Array
     return np.asarray(np.linalg.norm(imaged - uv, axis=-1))
 
 
-def find_conversion_note(result: Result) -> str:
-    """Return the note on how a camera without corners was converted; empty for calibrations."""
-    return str(result.calibration.settings.get("conversion", ""))
-
-
 def find_seen_region(result: Result) -> Array:
     """Return the convex outline (n, 2), px, of the corners, or of a camera's region without any."""
-    if not result.used:
-        return np.array(result.calibration.settings["region"])
+    if result.region is not None:
+        return result.region
     corners = np.concatenate([view.uv for view in result.observations()])
     return corners[scipy.spatial.ConvexHull(corners).vertices]
 
@@ -169,8 +164,8 @@ def describe_refit(result: Result, expressed: Refit) -> str:
 
     The text has no apostrophes: OpenCV writes them into JSON in a way that only OpenCV reads.
     """
-    if note := find_conversion_note(result):
-        return note
+    if result.conversion:
+        return result.conversion
     camera = expressed.calibration.camera
     model = find_model(camera.model).title
     stated = dict(zip(camera.names[4:], camera.coefficients.tolist(), strict=True))

@@ -18,6 +18,7 @@ from calibgui.engine.camera import Camera
 from calibgui.engine.geometry import corner_from_array
 from calibgui.formats.camera_refit import write_in_models
 from calibgui.formats.exporter import Exporter, ExportReport
+from calibgui.formats.gate import parse_number
 from calibgui.formats.importer import CameraText, ImportedCamera, Importer
 
 _FOCALS = "fx fy cx cy"
@@ -85,17 +86,25 @@ def read_colmap(source: CameraText) -> ImportedCamera:
             chosen, or the lens model is none of ours.
     """
     lines = [line.split() for line in source.text.splitlines()]
-    cameras = {words[0]: words[1:] for words in lines if words and not words[0].startswith("#")}
+    entries = [words for words in lines if words and not words[0].startswith("#")]
+    cameras = {words[0]: words[1:] for words in entries}
+    if len(cameras) < len(entries):
+        source.fail("has two lines for one camera.")
     name, words = source.choose_camera(cameras)
     if len(words) < 3:
         source.fail(f"has an incomplete line for camera {name}.")
+    if words[0] == "FOV":
+        source.fail(
+            "has the lens model FOV, which cannot be read: its formula is none of ours.",
+            "The nearest that can be read is OPENCV_FISHEYE: let COLMAP estimate that, with "
+            "--ImageReader.camera_model OPENCV_FISHEYE.",
+        )
     if words[0] not in _READABLE:
         source.refuse_model(words[0], list(_READABLE))
     model, listed = _READABLE[words[0]]
     names = listed.split()
     try:
-        width, height = map(int, words[1:3])
-        numbers = [float(word) for word in words[3:]]
+        width, height, *numbers = map(parse_number, words[1:])
     except ValueError as error:
         source.fail(f"has a line for camera {name} that holds more than numbers: {error}.")
     if len(numbers) != len(names):

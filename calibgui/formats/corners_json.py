@@ -18,17 +18,28 @@ from pathlib import Path
 from typing import Any
 
 from calibgui.dataset import CornerSet, Result
-from calibgui.engine.arrays import Size
 from calibgui.engine.camera import MODELS
 from calibgui.engine.errors import CalibrationError
 from calibgui.formats.exporter import Exporter, ExportReport, describe_condition
-from calibgui.formats.json_document import Node, read_json, write_json
+from calibgui.formats.json_document import read_json, write_json
+from calibgui.formats.node import Node
 from calibgui.formats.origin import CORNERS, make_mark
 from calibgui.formats.pattern_json import decode_board, encode_board
 from calibgui.formats.views_json import decode_views, encode_view
 
-_MAX_SIDE_PX = 1_000_000
-"""Largest side of an image, px; a longer one is refused as an error of the file."""
+EXAMPLE = """\
+{"size": [1280, 720], "views": [
+  {"image": "view01.png",
+   "uv": [[101.5, 80.2], [160.7, 81.5], [102.0, 140.1], [161.1, 141.6]],
+   "board": [[0, 0], [25, 0], [0, 25], [25, 25]]}
+]}"""
+"""The shortest file that can be read."""
+HINT = f"""\
+`calibgui detect -o` and `--export corners=` write such files. From another program write a \
+corners.json, uv in pixels and board in mm:
+{EXAMPLE}
+or a table in CSV with the columns image,u,v,row,col or image,u,v,X,Y."""
+"""Advice where a file holds no corners in a form that is read."""
 
 
 def write_corners(corner_set: CornerSet, path: str | os.PathLike[str]) -> None:
@@ -57,28 +68,25 @@ def read_corners(path: str | os.PathLike[str]) -> CornerSet:
         CalibrationError: if the file cannot be read or something in it is wrong; the message
             names view and entry.
     """
-    node = read_json(path)
+    return decode_corners(read_json(path))
+
+
+def decode_corners(node: Node) -> CornerSet:
+    """Return the corners of the content of a corners.json.
+
+    Raises:
+        CalibrationError: if something in it is wrong; the message names view and entry.
+    """
     if node.get("format") is not None or not {"size", "views"} & node.members().keys():
-        raise CalibrationError(
-            f"{node.file} is not a file of corners.",
-            "Name the corners: `calibgui detect -o` writes them, and `--export corners=`.",
-        )
+        raise CalibrationError(f"{node.file} is not a file of corners.", HINT)
     board = decode_board(node.get("target"))
     confirmed = node.get("lengths_confirmed")
     return CornerSet(
-        decode_size(node["size"]),
+        node["size"].image_size(),
         decode_views(node["views"], board),
         board,
         lengths_confirmed=True if confirmed is None else confirmed.flag(),
     )
-
-
-def decode_size(node: Node) -> Size:
-    """Return the width and height of an image, px."""
-    width, height = (int(n) for n in node.integers(2))
-    if not 1 <= width <= _MAX_SIDE_PX or not 1 <= height <= _MAX_SIDE_PX:
-        node.fail("the width and height of an image")
-    return width, height
 
 
 def _export(result: Result, path: Path) -> ExportReport:

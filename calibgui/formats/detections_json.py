@@ -14,7 +14,8 @@ from pathlib import Path
 from calibgui.dataset import View
 from calibgui.engine.boards import Board
 from calibgui.engine.errors import CalibrationError
-from calibgui.formats.json_document import Node, check_format, read_json, write_json
+from calibgui.formats.json_document import check_format, read_json, write_json
+from calibgui.formats.node import Node
 from calibgui.formats.pattern_json import decode_pattern
 from calibgui.formats.views_json import decode_views, encode_view
 
@@ -62,7 +63,6 @@ def _make_board(view: View) -> Board:
 def _decode_view(node: Node) -> View:
     board = None
     if (shape := node.get("shape")) is not None:
-        rows, cols = (int(n) for n in shape.integers(2))
-        board = Board(rows, cols, 1.0, decode_pattern(node.get("pattern")))
+        board = Board(*shape.grid_size(), 1.0, decode_pattern(node.get("pattern")))
     (view,) = decode_views(Node([node.value], node.where, node.file), board)
     return view

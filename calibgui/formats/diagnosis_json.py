@@ -10,7 +10,7 @@ from __future__ import annotations
 from typing import Any
 
 from calibgui.engine.calibration import Assumption, Degeneracy, Diagnosis
-from calibgui.formats.json_document import Node
+from calibgui.formats.node import Node
 
 
 def encode_diagnosis(diagnosis: Diagnosis | None) -> dict[str, Any] | None:

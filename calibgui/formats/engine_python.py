@@ -13,7 +13,6 @@ from calibgui.dataset import Result
 from calibgui.engine.calibration import Calibration
 from calibgui.engine.camera import MODELS
 from calibgui.engine.files import write_atomically
-from calibgui.formats.camera_refit import find_conversion_note
 from calibgui.formats.exporter import FRAME, Exporter, ExportReport, describe_condition
 from calibgui.formats.origin import make_mark
 
@@ -22,7 +21,7 @@ _NOTE = "The camera as calibrated; nothing is refitted."
 
 def write_engine_python(result: Result, path: Path) -> ExportReport:
     """Write the lines as a file."""
-    note = find_conversion_note(result) or _NOTE
+    note = result.conversion or _NOTE
     marked = " ".join(filter(None, [make_mark(EXPORTER.name), note, describe_condition(result)]))
     write_atomically(path, format_lines(result.calibration, marked).encode())
     return ExportReport(path, note)

@@ -23,7 +23,7 @@ from calibgui.dataset import Result, View
 from calibgui.engine.arrays import Array
 from calibgui.engine.calibration import StageOne, ViewResiduals
 from calibgui.engine.geometry import Pose
-from calibgui.formats.json_document import Node
+from calibgui.formats.node import Node
 
 _STAGE_ONE_KEYS = ("xp", "yp", "k1", "aspect", "fx", "fy", "iterations", "rms", "converged")
 _PAPER_POSE_KEYS = ("omega", "phi", "theta", "tx", "ty", "tz")
@@ -86,7 +86,7 @@ def decode_pose(view: Node) -> Pose:
 
 def decode_pose_covariance(view: Node) -> Array:
     """Return the covariance (6, 6) of a view's pose, rad and mm; NaN where unknown."""
-    return view["pose_covariance"].numbers(6, 6, nullable=True)
+    return view["pose_covariance"].covariances(6, 6, nullable=True)
 
 
 def decode_residuals(view: Node) -> ViewResiduals:

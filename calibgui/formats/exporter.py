@@ -52,6 +52,8 @@ class Exporter:
     refits: tuple[str, ...] = ()
     """Names of the models in which cameras of other models are refitted, the simplest first; a
     camera that none of them follows is not written. Empty if nothing is ever refitted."""
+    holds_rectification: bool = False
+    """True if the format holds the rectification of a stereo pair."""
     holds_skew: bool = False
     """True if the format holds the skew of those models that have one."""
     partial: bool = False

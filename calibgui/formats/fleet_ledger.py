@@ -7,6 +7,10 @@ photographs' EXIF, which ``exif_date`` is in any case. NULL is what is not known
 infinite is Inf. ``result`` is the path of the camera's result.json from the folder of the ledger.
 Cannot hold: corners, covariances and findings (they are in result.json); two cameras of one id.
 
+Columns are known by their names: people may add others, which keep their values when a row is
+written anew. A row with a value that cannot be read, such as text in a number, is that of a camera
+with the status ``unreadable``, which says so.
+
 Rows are written one camera at a time or many, each call in one transaction, in SQLite's
 write-ahead log: a program that is killed leaves whole rows, several programs may write to one
 ledger in turns, and it can be read meanwhile. The last to write a row wins. The log needs a disk
@@ -38,6 +42,7 @@ from calibgui.dataset.fleet import (
 )
 from calibgui.engine.assessment import Grade, PixelError
 from calibgui.engine.errors import CalibrationError
+from calibgui.formats.json_document import parse_json
 
 VERSION = 2
 _APPLICATION = 0x43414C46
@@ -45,6 +50,11 @@ _APPLICATION = 0x43414C46
 _BUSY_S = 60.0
 """Time for which a program waits for another one that writes, s: a row takes milliseconds."""
 _REMEDY = "Name the file that `calibgui batch -o` wrote."
+_REMEDY_OF_DAMAGE = (
+    "Restore a copy of it; without one move it away and repeat calibgui batch: photographs whose "
+    "corners are in the folder beside it are not searched again."
+)
+_REMEDY_OF_ROW = "Repeat calibgui batch, which writes the row anew, or correct the row."
 _COLUMNS: Mapping[str, str] = MappingProxyType(
     {
         "id": "TEXT PRIMARY KEY NOT NULL",
@@ -93,6 +103,19 @@ _COLUMNS: Mapping[str, str] = MappingProxyType(
 """The columns of the table, with their types in SQL."""
 COLUMNS = tuple(_COLUMNS)
 """Names of the columns."""
+_NAMES = ", ".join(COLUMNS)
+_WITH_GRADE = ("width_px", "height_px", "board", "lens_model", "views", "corners", "reason")
+"""Columns that are not NULL where the grade is not, and ``parameters``."""
+_KINDS: Mapping[str, tuple[tuple[type, ...], str]] = MappingProxyType(
+    {
+        "TEXT": ((str,), "text"),
+        "INTEGER": ((int,), "a whole number"),
+        "REAL": ((int, float), "a number"),
+    }
+)
+"""By types in SQL those of the values, and words for them."""
+_MAX_SHOWN = 40
+"""Length of a value in a message at most."""
 _ERRORS = ("centre", "edge", "worst", "median", "covered", "worst_covered")
 _CHANGES = ("against", "against_digest", "rms_px", "worst_px", "expected_px", "probability")
 
@@ -112,8 +135,13 @@ class Ledger:
         """
         values = [tuple(encode_row(camera).values()) for camera in cameras]
         marks = ", ".join("?" * len(COLUMNS))
+        anew = ", ".join(f"{name} = excluded.{name}" for name in COLUMNS)
         with _explain_errors(self.path), self._connection as connection:
-            connection.executemany(f"INSERT OR REPLACE INTO cameras VALUES ({marks})", values)
+            connection.executemany(
+                f"INSERT INTO cameras ({_NAMES}) VALUES ({marks}) ON CONFLICT (id) DO UPDATE SET "
+                f"{anew}",
+                values,
+            )
 
     def read(self) -> Iterator[FleetCamera]:
         """Yield all cameras, in the order of their ids.
@@ -145,9 +173,9 @@ class Ledger:
 
     def _select(self, condition: str, *values: str) -> Iterator[FleetCamera]:
         with _explain_errors(self.path):
-            cursor = self._connection.execute(f"SELECT * FROM cameras {condition}", values)
-            for row in cursor:
-                yield decode_row(dict(zip(COLUMNS, row, strict=True)))
+            query = f"SELECT rowid, {_NAMES} FROM cameras {condition}"
+            for number, *row in self._connection.execute(query, values):
+                yield _decode_row(dict(zip(COLUMNS, row, strict=True)), number)
 
 
 @contextmanager
@@ -168,6 +196,8 @@ def open_ledger(path: str | os.PathLike[str], create: bool = False) -> Iterator[
     with _explain_errors(path):
         connection = sqlite3.connect(path, timeout=_BUSY_S)
     try:
+        # Bytes that are no text cost their row, and not all of them.
+        connection.text_factory = lambda raw: raw.decode("utf-8", "surrogateescape")
         with _explain_errors(path):
             _check_or_create(connection, path, create)
         yield Ledger(path, connection)
@@ -201,6 +231,12 @@ def _check_or_create(connection: sqlite3.Connection, path: Path, create: bool) -
             f"{path} is a ledger of version {version}; this program knows version {VERSION}.",
             "Use the calibgui that wrote it, or write a new ledger.",
         )
+    there = {row[1] for row in connection.execute("PRAGMA table_info(cameras)")}
+    if missing := [name for name in COLUMNS if name not in there]:
+        raise CalibrationError(
+            f"{path} lacks columns that the ledger of a fleet has: {', '.join(missing)}.",
+            "Columns may be added, but none of these renamed or left out. " + _REMEDY_OF_DAMAGE,
+        )
     if create:
         connection.execute("PRAGMA journal_mode = WAL")
         # A crash of the machine may lose the last rows, which are then made again, but no more.
@@ -212,14 +248,34 @@ def _explain_errors(path: Path) -> Iterator[None]:
     """Turn SQLite's errors into those that the user can act on."""
     try:
         yield
-    except sqlite3.OperationalError as error:
+    except MemoryError as error:
         raise CalibrationError(
-            f"The ledger {path} cannot be used: {error}.",
-            "Check its folder, your rights and the space on the disk, and that no other program "
-            "holds it.",
+            f"The ledger {path} does not fit into memory, or is damaged.", _REMEDY_OF_DAMAGE
         ) from error
     except sqlite3.DatabaseError as error:
-        raise CalibrationError(f"{path} is not the ledger of a fleet: {error}.", _REMEDY) from error
+        # The last byte tells the kind.
+        message, hint = _describe_error(path, getattr(error, "sqlite_errorcode", 0) & 0xFF)
+        raise CalibrationError(f"{message}: {error}.", hint) from error
+
+
+def _describe_error(path: Path, code: int) -> tuple[str, str]:
+    """Say what an error of SQLite means for a ledger, and what to do about it."""
+    if code in (sqlite3.SQLITE_FULL, sqlite3.SQLITE_IOERR):
+        return (
+            f"The disk takes or gives no more of the ledger {path}",
+            "Free some space, and check the disk and your quota; then repeat the command: what is "
+            "done is kept.",
+        )
+    if code == sqlite3.SQLITE_NOTADB:
+        return f"{path} is not the ledger of a fleet", f"{_REMEDY} If it is: {_REMEDY_OF_DAMAGE}"
+    if code in (sqlite3.SQLITE_CORRUPT, sqlite3.SQLITE_TOOBIG):
+        return f"The ledger {path} is damaged", _REMEDY_OF_DAMAGE
+    if code in (sqlite3.SQLITE_ERROR, sqlite3.SQLITE_CONSTRAINT, sqlite3.SQLITE_MISMATCH):
+        return f"The table of the ledger {path} is not as it was made", _REMEDY_OF_DAMAGE
+    return (
+        f"The ledger {path} cannot be used",
+        "Check its folder and your rights, and that no other program holds it.",
+    )
 
 
 def encode_row(camera: FleetCamera) -> dict[str, Any]:
@@ -281,8 +337,74 @@ def _encode_figures(found: FleetFigures) -> dict[str, Any]:
     return row | {f"error_{name}_px": getattr(found.error, name) for name in _ERRORS}
 
 
-def decode_row(row: Mapping[str, Any]) -> FleetCamera:
-    """Return the camera of a row."""
+def _decode_row(row: Mapping[str, Any], number: int) -> FleetCamera:
+    """Return the camera of a row, one that is unreadable if a value of it cannot be read.
+
+    Args:
+        row: the values by name.
+        number: SQLite's number of the row, by which it is named if its id cannot be read.
+    """
+    try:
+        _check_values(row)
+        return _decode_values(row)
+    except CalibrationError as error:
+        problem = f"Its row of the ledger cannot be read: {error.message}"
+    name, serial = (
+        value if isinstance(value, str) and _is_unicode(value) else ""
+        for value in (row["id"], row["serial"])
+    )
+    return FleetCamera(
+        FleetEntry(name or f"row {number}", serial),
+        FleetStatus.UNREADABLE,
+        problem,
+        _REMEDY_OF_ROW,
+        failures=(problem,),
+    )
+
+
+def _check_values(row: Mapping[str, Any]) -> None:
+    """Raise CalibrationError unless the values of a row are of their columns' types."""
+    needed = {name for name, kind in _COLUMNS.items() if "NOT NULL" in kind}
+    if row["status"] == FleetStatus.DONE:
+        needed |= {"grade", "parameters", *_WITH_GRADE}
+    if row["change_against"] is not None:
+        needed.add("change_against_digest")
+    for name, kind in _COLUMNS.items():
+        types, words = _KINDS[kind.split()[0]]
+        value = row[name]
+        if value is None and name not in needed:
+            continue
+        if not isinstance(value, types):
+            raise _refuse_value(name, value, words)
+        if isinstance(value, str) and not _is_unicode(value):
+            raise _refuse_value(name, value, "text in UTF-8")
+    if "\0" in row["result"]:
+        raise _refuse_value("result", row["result"], "a path")
+    for name, choices in (("status", FleetStatus), ("grade", Grade)):
+        if row[name] is not None and row[name] not in list(choices):
+            raise _refuse_value(name, row[name], f"one of {', '.join(choices)}")
+
+
+def _refuse_value(name: str, value: Any, words: str) -> CalibrationError:
+    """Return the error that the value of a column is none that it can have."""
+    shown = "nothing" if value is None else repr(value)
+    if len(shown) > _MAX_SHOWN:
+        shown = f"{shown[:_MAX_SHOWN]}..."
+    return CalibrationError(f"{name} is {shown}, not {words}.", _REMEDY_OF_ROW)
+
+
+def _is_unicode(text: str) -> bool:
+    """Return whether a text was valid UTF-8: what was not is read as surrogates."""
+    try:
+        text.encode()
+    except UnicodeEncodeError:
+        return False
+    return True
+
+
+def _decode_values(row: Mapping[str, Any]) -> FleetCamera:
+    """Return the camera of a row. Raises CalibrationError if JSON in it is not as it was made."""
+    versions = parse_json(row["versions"], "versions").members()
     return FleetCamera(
         entry=FleetEntry(row["id"], row["serial"], row["date"], row["temperature_c"]),
         status=FleetStatus(row["status"]),
@@ -292,10 +414,10 @@ def decode_row(row: Mapping[str, Any]) -> FleetCamera:
         exif_date=row["exif_date"],
         figures=None if row["grade"] is None else _decode_figures(row),
         change=None if row["change_against"] is None else _decode_change(row),
-        failures=tuple(json.loads(row["failures"])),
+        failures=tuple(one.text() for one in parse_json(row["failures"], "failures").items()),
         digest=row["digest"],
         state=row["state"],
-        versions=json.loads(row["versions"]),
+        versions={name: version.text() for name, version in versions.items()},
         result=row["result"],
         cpu_seconds=_read_number(row["cpu_seconds"]),
     )
@@ -303,6 +425,10 @@ def decode_row(row: Mapping[str, Any]) -> FleetCamera:
 
 def _decode_figures(row: Mapping[str, Any]) -> FleetFigures:
     """Decode a row of the table; see `_encode_figures`."""
+    pairs = {
+        name: [number.number(nullable=True) for number in pair.items(2)]
+        for name, pair in parse_json(row["parameters"], "parameters").members().items()
+    }
     return FleetFigures(
         size=(row["width_px"], row["height_px"]),
         board=row["board"],
@@ -316,10 +442,7 @@ def _decode_figures(row: Mapping[str, Any]) -> FleetFigures:
         reason=row["reason"],
         times_better=_read_number(row["times_better"]),
         error=PixelError(**{name: _read_number(row[f"error_{name}_px"]) for name in _ERRORS}),
-        parameters={
-            name: Estimate(*map(_read_number, pair))
-            for name, pair in json.loads(row["parameters"]).items()
-        },
+        parameters={name: Estimate(*pair) for name, pair in pairs.items()},
     )
 
 

@@ -7,8 +7,6 @@ hold: what the ledger cannot.
 
 from __future__ import annotations
 
-import csv
-import io
 import json
 from collections.abc import Iterable
 from pathlib import Path
@@ -17,6 +15,7 @@ from typing import Any
 from calibgui.dataset.fleet import FleetCamera
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.files import open_replacement, write_atomically
+from calibgui.formats.csv_table import format_csv
 from calibgui.formats.fleet_ledger import COLUMNS, encode_row
 from calibgui.formats.origin import FLEET_TABLE, make_mark
 
@@ -57,11 +56,8 @@ def write_fleet_table(cameras: Iterable[FleetCamera], path: Path) -> None:
     rows = [_flatten(encode_row(camera)) for camera in cameras]
     names = list(dict.fromkeys([*_FIXED, *(name for row in rows for name in row)]))
     if path.suffix.lower() == _CSV:
-        text = io.StringIO()
-        writer = csv.DictWriter(text, names, lineterminator="\n")
-        writer.writeheader()
-        writer.writerows(rows)
-        write_atomically(path, text.getvalue().encode())
+        text = format_csv([names, *([row.get(name) for name in names] for row in rows)])
+        write_atomically(path, text.encode())
         return
     import pyarrow
     import pyarrow.parquet

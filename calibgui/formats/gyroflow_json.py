@@ -6,6 +6,11 @@ with OpenCV. The models are opencv_fisheye (cv2.fisheye's k1 k2 k3 k4) and openc
 p2 and up to eight more of cv2.projectPoints). Gyroflow puts the principal point in the middle of
 the image unless `asymmetrical` is true, and takes a profile without `calibrator_version` for
 damaged, one without `distortion_model` for opencv_fisheye.
+
+It works in images with square pixels: where those of the video are not, by an anamorphic lens or in
+PAL, `input_horizontal_stretch` (or vertical) says by how much it stretches them, u' = s u, and the
+camera matrix and `calib_dimension` are those of the stretched images. `orig_dimension` is the
+video's.
 Cannot hold: other lens models and skew (they are refitted), standard deviations, poses, corners.
 
 A zoom lens has `interpolations`: focal lengths in mm as keys, each with its camera matrix and
@@ -20,15 +25,18 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from calibgui import __version__
+import numpy as np
+
 from calibgui.dataset import Result
+from calibgui.engine.arrays import Array
 from calibgui.engine.camera import Camera
 from calibgui.engine.files import write_atomically
 from calibgui.formats.camera_conversion import convert_alike, describe_conversion
 from calibgui.formats.camera_refit import write_in_models
 from calibgui.formats.exporter import Exporter, ExportReport
 from calibgui.formats.importer import CameraText, ImportedCamera, Importer
-from calibgui.formats.json_document import Node, dumps, parse_json
+from calibgui.formats.json_document import dumps, parse_json
+from calibgui.formats.node import Node
 from calibgui.formats.opencv_lens import (
     FISHEYE,
     PERSPECTIVE_MODELS,
@@ -36,7 +44,11 @@ from calibgui.formats.opencv_lens import (
     make_opencv_camera,
 )
 from calibgui.formats.origin import make_mark
+from calibgui.version import __version__
 
+_MIN_STRETCH = 1.05
+"""Ratio of the focal lengths from which pixels are not meant to be square: those of NTSC and PAL
+video are 1.07 to 1.09, of the paper's camera 1.0002."""
 _MODELS = ("opencv_standard", "opencv_fisheye")
 """Gyroflow's names of the lens models that are read; its others are those of one camera each."""
 
@@ -78,8 +90,8 @@ def format_profile(cameras: Sequence[tuple[float | None, Camera]], note: str) ->
         note: the note on the file.
     """
     focal, camera = cameras[0]
-    width, height = camera.size
-    size = {"w": width, "h": height}
+    stretch = _measure_stretch(camera)
+    width, height = np.rint(stretch * camera.size).astype(int).tolist()
     content: dict[str, Any] = {
         "name": "",
         "note": note,
@@ -88,15 +100,15 @@ def format_profile(cameras: Sequence[tuple[float | None, Camera]], note: str) ->
         "camera_model": "",
         "lens_model": "",
         "camera_setting": "",
-        "calib_dimension": size,
-        "orig_dimension": size,
-        "input_horizontal_stretch": 1.0,
-        "input_vertical_stretch": 1.0,
+        "calib_dimension": {"w": width, "h": height},
+        "orig_dimension": dict(zip("wh", camera.size, strict=True)),
+        "input_horizontal_stretch": float(stretch[0]),
+        "input_vertical_stretch": float(stretch[1]),
         "num_images": 0,
         "fps": 0.0,
         "official": False,
         "asymmetrical": True,
-        "fisheye_params": {"RMS_error": 0.0} | _encode_camera(camera),
+        "fisheye_params": {"RMS_error": 0.0} | _encode_camera(camera, stretch),
         "distortion_model": _MODELS[camera.model == FISHEYE],
         "calibrator_version": f"calibgui {__version__}",
         "date": "",
@@ -105,13 +117,20 @@ def format_profile(cameras: Sequence[tuple[float | None, Camera]], note: str) ->
     if focal is not None:
         content["focal_length"] = focal
         content["interpolations"] = {
-            f"{mm:g}": {"focal_length": mm} | _encode_camera(one) for mm, one in cameras
+            f"{mm:g}": {"focal_length": mm} | _encode_camera(one, stretch) for mm, one in cameras
         }
     return dumps(content) + "\n"
 
 
-def _encode_camera(camera: Camera) -> dict[str, Any]:
-    fx, fy, cx, cy = camera.params[:4].tolist()
+def _measure_stretch(camera: Camera) -> Array:
+    """Return (2,) by how much images are stretched to have square pixels; 1 where they nearly
+    are."""
+    stretch: Array = camera.focal.max() / camera.focal
+    return stretch if stretch.max() >= _MIN_STRETCH else np.ones(2)
+
+
+def _encode_camera(camera: Camera, stretch: Array) -> dict[str, Any]:
+    fx, fy, cx, cy = (camera.params[:4] * np.tile(stretch, 2)).tolist()
     return {
         "camera_matrix": [[fx, 0.0, cx], [0.0, fy, cy], [0.0, 0.0, 1.0]],
         "distortion_coeffs": list_coefficients(camera).tolist(),
@@ -131,15 +150,25 @@ def read_gyroflow(source: CameraText) -> ImportedCamera:
     if model not in _MODELS:
         source.refuse_model(model, _MODELS)
     node = _choose_focal_length(source, content)
-    K = node["camera_matrix"].numbers(3, 3).ravel()
-    D = node["distortion_coeffs"].numbers(None)
+    K, D = node["camera_matrix"].numbers(3, 3).ravel(), node["distortion_coeffs"].numbers(None)
     dimension = content["calib_dimension"]
-    size = source.choose_size((dimension["w"].integer(), dimension["h"].integer()))
+    stretch = np.array([_read_stretch(content, axis) for axis in ("horizontal", "vertical")])
+    K = K / np.repeat([*stretch, 1.0], 3)
+    stretched = np.array([dimension["w"].integer(), dimension["h"].integer()])
+    size = source.choose_size(np.rint(stretched / stretch).tolist())
     camera = make_opencv_camera(source, size, K, D, fisheye=model == "opencv_fisheye")
     notes = []
     if (free := content.get("asymmetrical")) is None or not free.flag():
         notes.append("Gyroflow puts the principal point in the middle; it is read as calibrated.")
     return ImportedCamera(camera, EXPORTER.title, notes=tuple(notes))
+
+
+def _read_stretch(content: Node, axis: str) -> float:
+    """Return by how much Gyroflow stretches the images along an axis; it takes no less than 0.01
+    for a stretch."""
+    node = content.get(f"input_{axis}_stretch")
+    stretch = 1.0 if node is None or node.value is None else node.number()
+    return stretch if stretch > 0.01 else 1.0
 
 
 def _choose_focal_length(source: CameraText, content: Node) -> Node:

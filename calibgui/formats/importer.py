@@ -8,19 +8,29 @@ refused. Pixels become those of the array frame, 0 at the centre of the first pi
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import NoReturn, TypeVar
 
 import numpy as np
 
+from calibgui.dataset import StereoRectification
 from calibgui.engine.arrays import Array, Size
-from calibgui.engine.camera import Camera, find_model, list_parameter_names
+from calibgui.engine.camera import (
+    Camera,
+    SensorMode,
+    check_image_size,
+    find_model,
+    list_parameter_names,
+)
 from calibgui.engine.errors import CalibrationError
 
 _Entry = TypeVar("_Entry")
 
 _CORRECT = "Correct the file or write it again."
+_MAX_NAME = 100
+"""Length of the longest name from a file that a message repeats, characters."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -34,6 +44,12 @@ class ImportedCamera:
     """(P, P) covariance of the camera's parameters; None if the file has none."""
     notes: tuple[str, ...] = ()
     """Sentences that the user should know about what was read."""
+    rectification: StereoRectification | None = None
+    """The rectification of a stereo pair that the file holds; None if it holds none, or that of one
+    camera."""
+    mode: SensorMode | None = None
+    """How the camera's images are made from those that it was calibrated with; None if they are
+    these."""
     orientation: int | None = None
     """EXIF orientation by which its photographs are turned; None if the file does not state it."""
 
@@ -57,7 +73,8 @@ class CameraText:
     def refuse_model(self, name: str, readable: Sequence[str], reason: str = "") -> NoReturn:
         """Raise a CalibrationError about a lens model of the format that is not one of ours."""
         self.fail(
-            f"has the lens model {name}, which cannot be read{reason and f': {reason}'}.",
+            f"has the lens model {name[:_MAX_NAME]}, which cannot be read"
+            f"{reason and f': {reason}'}.",
             f"These can be read: {', '.join(readable)}.",
         )
 
@@ -79,11 +96,11 @@ class CameraText:
             self.fail(f"holds no camera {self.wanted!r}.", f"It holds {listed}.")
         return self.wanted, cameras[self.wanted]
 
-    def choose_size(self, stated: Sequence[int] | None) -> Size:
+    def choose_size(self, stated: Sequence[float] | None) -> Size:
         """Return the images' width and height, px, by the file (`stated`) or else by the user.
 
         Raises:
-            CalibrationError: if neither says it, or both do and disagree.
+            CalibrationError: if neither says it, both do and disagree, or it is none of an image.
         """
         if stated is None:
             if self.size is None:
@@ -91,11 +108,13 @@ class CameraText:
                     "does not say how large its images are.", "State their width and height in px."
                 )
             return self.size
-        width, height = stated
+        with self._naming_file():
+            width, height = check_image_size(stated)
         if self.size is not None and self.size != (width, height):
             self.fail(
                 f"is for images of {width} x {height} px, not {self.size[0]} x {self.size[1]} px.",
-                "Leave the size out, or choose the file of these images.",
+                "Leave the size out, or choose the file of these images; for the camera of another "
+                "size of images, convert it with --to-size.",
             )
         return width, height
 
@@ -105,10 +124,8 @@ class CameraText:
         Raises:
             CalibrationError: if there is no such model: there are limits to splined ones.
         """
-        try:
+        with self._naming_file():
             return list_parameter_names(model)
-        except CalibrationError as error:
-            raise CalibrationError(f"{self.file}: {error.message}", error.hint) from error
 
     def make_camera(self, size: Size, model: str, values: Mapping[str, float]) -> Camera:
         """Return a camera from its parameters by name.
@@ -124,9 +141,14 @@ class CameraText:
         """
         names = self.list_parameters(model)
         known = dict(zip(names[4:], find_model(model).defaults, strict=True)) | dict(values)
+        with self._naming_file():
+            return Camera(size, np.array([known[name] for name in names]), model)
+
+    @contextmanager
+    def _naming_file(self) -> Iterator[None]:
+        """Name the file in the messages of errors that its values raise."""
         try:
-            params = np.array([known[name] for name in names])
-            return Camera(size, params, model)
+            yield
         except CalibrationError as error:
             raise CalibrationError(f"{self.file}: {error.message}", error.hint) from error
 

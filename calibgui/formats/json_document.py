@@ -1,13 +1,11 @@
-"""Writing of JSON, and reading with errors that name the place.
+"""Writing of JSON, and its way through the gate (``gate.py``) into `Node`.
 
 Numbers are written in the shortest form that reads back as the same float64, and as null if they
 are not finite. Points, and rows of matrices, have a line each, so that two files can be compared
 line by line.
 
-A `Node` is a value with its place in the file ("views[2].uv[17]"). Each of its readers returns a
-checked value or raises a CalibrationError with the file, the place and the expected value. Tables
-of numbers become arrays while the file is parsed: hundreds of thousands of small lists would keep
-the garbage collector, and with it every thread, busy.
+Tables of numbers become arrays while the file is parsed: hundreds of thousands of small lists would
+keep the garbage collector, and with it every thread, busy.
 
 The standard library's parser is used because names of files that are not valid Unicode are kept as
 lone surrogates, which the faster msgspec neither reads nor writes, and because it lets other
@@ -21,24 +19,29 @@ import json
 import math
 import os
 import re
-import sys
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
 from itertools import chain
-from typing import Any, NoReturn
+from typing import Any
 
 import numpy as np
 
-from calibgui.engine.arrays import Array, IntArray, freeze_array, freeze_ints, is_unchangeable
+from calibgui.engine.arrays import Array, IntArray, is_unchangeable
 from calibgui.engine.errors import CalibrationError
-from calibgui.engine.files import describe_read_error, open_replacement, read_regular
+from calibgui.engine.files import open_replacement
+from calibgui.formats.gate import (
+    DamagedError,
+    Language,
+    NotOfLanguageError,
+    parse_text,
+    read_text,
+    refuse_repeated,
+)
+from calibgui.formats.node import Node
 
 _CUT_OFF = re.compile(r"(-|\.|[eE][-+]?|tr?u?|fa?l?s?|nu?l?)?\s*")
 """The rest of a file that is cut within a number or word."""
 MAX_JSON_SIZE = 512 << 20
 """Size of the largest JSON files that are read, bytes: results of a million corners have 400 MB."""
-_MAX_INTEGER = 2**53
-"""Size of the largest integer up to which a float64 holds all."""
 _MAX_LINE_LENGTH = 100
 """Largest length of a list of lists on one line, in characters."""
 _LEAVES = (str, float, int, np.ndarray, type(None))
@@ -163,204 +166,45 @@ def _format_scalar(value: str | float | int | None) -> str:
     return (_AS_IT_IS if printable else _IN_ASCII).encode(value)
 
 
-@dataclass(frozen=True, slots=True)
-class Node:
-    """A value in a JSON file, and its place there."""
-
-    value: Any
-    where: str
-    """Its place in the file, for messages; empty at the top."""
-    file: str
-
-    def fail(self, expected: str) -> NoReturn:
-        """Raise a CalibrationError that says that this value is not `expected`."""
-        place = self.where or "the content"
-        raise CalibrationError(
-            f"{self.file}: {place} is not {expected}.", "Correct the file or write it again."
-        )
-
-    def get(self, key: str) -> Node | None:
-        """Return a member of this object; None if it is absent or null."""
-        if not isinstance(self.value, dict):
-            self.fail("an object")
-        value = self.value.get(key)
-        return None if value is None else Node(value, self._place(key), self.file)
-
-    def __getitem__(self, key: str) -> Node:
-        """Return a member of this object that must be there."""
-        if not isinstance(self.value, dict):
-            self.fail("an object")
-        if key not in self.value:
-            raise CalibrationError(
-                f"{self.file}: {self._place(key)} is missing.",
-                "Correct the file or write it again.",
-            )
-        return Node(self.value[key], self._place(key), self.file)
-
-    def _place(self, key: str) -> str:
-        return f"{self.where}.{key}" if self.where else key
-
-    def named(self, where: str) -> Node:
-        """Return the same value with another description of its place."""
-        return Node(self.value, where, self.file)
-
-    def items(self, count: int | None = None) -> list[Node]:
-        """Return the entries of this list, of which there must be `count` if that is given."""
-        if not isinstance(values := _get_plain(self.value), list):
-            self.fail("a list")
-        if count not in (None, len(values)):
-            self.fail(f"a list of {count} entries (it has {len(values)})")
-        return [Node(v, f"{self.where}[{i}]", self.file) for i, v in enumerate(values)]
-
-    def members(self) -> dict[str, Node]:
-        """Return the members of this object."""
-        if not isinstance(self.value, dict):
-            self.fail("an object")
-        return {key: self[key] for key in self.value}
-
-    def text(self) -> str:
-        """Return this text."""
-        if not isinstance(self.value, str):
-            self.fail("text")
-        return self.value
-
-    def file_name(self) -> str:
-        """Return this text, which no file has for a name if it holds a NUL."""
-        if "\0" in self.text():
-            self.fail("the name of a file: it holds a NUL")
-        return self.text()
-
-    def flag(self) -> bool:
-        """Return this truth value."""
-        if not isinstance(self.value, bool):
-            self.fail("true or false")
-        return self.value
-
-    def choice(self, allowed: Sequence[str]) -> str:
-        """Return this text, which must be one of `allowed`."""
-        if not isinstance(self.value, str) or self.value not in allowed:
-            self.fail(f"one of {', '.join(allowed)}")
-        return self.value
-
-    def number(self, nullable: bool = False) -> float:
-        """Return this finite number; NaN for null if `nullable`."""
-        return float(self.numbers(nullable=nullable))
-
-    def integer(self) -> int:
-        """Return this integer."""
-        number = self.number()
-        if not number.is_integer() or abs(number) > _MAX_INTEGER:
-            self.fail("an integer")
-        return int(number)
-
-    def numbers(self, *shape: int | None, nullable: bool = False) -> Array:
-        """Return this array of finite numbers, with NaN for null if `nullable`.
-
-        `shape` may begin with None for any length.
-        """
-        if not (isinstance(self.value, np.ndarray) and _has_shape(self.value, shape)):
-            misfit = _find_misfit(_get_plain(self.value), shape, nullable)
-            if misfit is not None:
-                place, expected = misfit
-                self.named(self.where + place).fail(expected)
-        # An empty list hides the lengths of its entries.
-        lengths = [len(self.value) if n is None else n for n in shape]
-        return freeze_array(np.reshape(np.array(self.value, dtype=np.float64), lengths))
-
-    def integers(self, *shape: int | None) -> IntArray:
-        """Return this array of integers; `shape` may begin with None for any length."""
-        numbers = self.numbers(*shape)
-        if (numbers != np.rint(numbers)).any() or (np.abs(numbers) > _MAX_INTEGER).any():
-            self.fail("an array of integers")
-        return freeze_ints(numbers)
-
-
-def _get_plain(value: Any) -> Any:
-    """Return `value`, with the lists of the file in place of an array."""
-    return value.tolist() if isinstance(value, np.ndarray) else value
-
-
-def _has_shape(table: Array, shape: tuple[int | None, ...]) -> bool:
-    return table.ndim == len(shape) and all(
-        wanted in (None, length) for wanted, length in zip(shape, table.shape, strict=True)
-    )
-
-
-def _find_misfit(
-    value: Any, shape: tuple[int | None, ...], nullable: bool
-) -> tuple[str, str] | None:
-    """Return the place of the first entry of `value` that does not fit `shape`, and what would."""
-    if not shape:
-        return (
-            None
-            if _is_finite_number(value) or (nullable and value is None)
-            else ("", "a finite number")
-        )
-    if not isinstance(value, list):
-        return "", "a list"
-    if shape[0] not in (None, len(value)):
-        return "", f"a list of {shape[0]} entries (it has {len(value)})"
-    for i, item in enumerate(value):
-        misfit = _find_misfit(item, shape[1:], nullable)
-        if misfit is not None:
-            return f"[{i}]{misfit[0]}", misfit[1]
-    return None
-
-
-def _is_finite_number(value: Any) -> bool:
-    return (
-        isinstance(value, (int, float))
-        and not isinstance(value, bool)
-        and abs(value) <= sys.float_info.max
-    )
-
-
-def read_json(path: str | os.PathLike[str]) -> Node:
-    """Read the JSON file `path`.
+def read_json(path: str | os.PathLike[str], max_size: int = MAX_JSON_SIZE) -> Node:
+    """Read the JSON file `path` of at most `max_size` bytes.
 
     Raises:
-        CalibrationError: if it cannot be read, is no regular file or too large, is cut short or is
-            not JSON.
+        CalibrationError: as ``gate.read_text`` and ``gate.parse_text``; if it is cut short.
     """
-    file = os.fspath(path)
-    try:
-        text = read_regular(path, MAX_JSON_SIZE).decode("utf-8-sig")
-    except OSError as error:
-        raise describe_read_error(path, error) from error
-    except UnicodeDecodeError as error:
-        raise _make_error(file, "it is not text in UTF-8") from error
-    return parse_json(text, file)
+    return parse_json(read_text(path, max_size, _JSON.title), os.fspath(path))
 
 
 def parse_json(text: str, file: str) -> Node:
-    """Return the content of a JSON text.
+    """Return the content of a JSON text from a file. Raises as ``gate.parse_text``."""
+    return parse_text(text, file, _JSON)
 
-    Args:
-        text: the text.
-        file: name of its file, for messages.
 
-    Raises:
-        CalibrationError: if it is cut short or is not JSON.
-    """
+def _parse(text: str) -> Any:
+    """Return the content of a JSON text."""
     try:
         # Other threads can run between objects, but not within the parser.
-        return Node(json.loads(text, object_hook=_convert_tables), "", file)
+        return json.loads(text, object_pairs_hook=_convert_members)
     except json.JSONDecodeError as error:
         if not text.strip():
-            raise CalibrationError(f"{file} is empty.", "Copy or write it again.") from error
+            raise DamagedError("is empty") from error
         rest = error.doc[error.pos :]
         if _CUT_OFF.fullmatch(rest) or error.msg.startswith("Unterminated string"):
-            raise CalibrationError(
-                f"{file} is cut short in line {error.lineno}.", "Copy or write it again."
-            ) from error
-        raise _make_error(file, f"{error.msg} in line {error.lineno}") from error
-    except (ValueError, RecursionError) as error:
-        raise _make_error(file, "it holds an endless number or nests too deeply") from error
+            raise DamagedError(f"is cut short in line {error.lineno}") from error
+        raise NotOfLanguageError(f"{error.msg} in line {error.lineno}") from error
+    except ValueError as error:
+        raise NotOfLanguageError("it holds an endless number") from error
 
 
-def _convert_tables(members: dict[str, Any]) -> dict[str, Any]:
+_JSON = Language("a JSON file", _parse, MAX_JSON_SIZE)
+
+
+def _convert_members(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
     """Return the members of an object, with arrays in place of tables of finite numbers."""
-    return {key: _convert_table(value) for key, value in members.items()}
+    members = {key: _convert_table(value) for key, value in pairs}
+    if len(members) < len(pairs):
+        refuse_repeated(key for key, _ in pairs)
+    return members
 
 
 def _convert_table(value: Any) -> Any:
@@ -386,10 +230,6 @@ def are_same_values(a: Any, b: Any) -> bool:
     return np.array_equal(a, b)
 
 
-def _make_error(file: str, reason: str) -> CalibrationError:
-    return CalibrationError(f"{file} is not a JSON file: {reason}.", "Choose another file.")
-
-
 def check_format(
     node: Node, name: str, version: int, title: str, remedy: str = "Choose another file."
 ) -> None:
@@ -406,7 +246,8 @@ def check_format(
         CalibrationError: with a hint.
     """
     found = node.get("format")
-    if found is None or str(found.value) != name:  # an array would compare number by number
+    # An array would compare number by number.
+    if found is None or not isinstance(found.value, str) or found.value != name:
         raise CalibrationError(f"{node.file} is not {title}.", remedy)
     number = node["version"].integer()
     if number < 1:

@@ -13,14 +13,14 @@ from __future__ import annotations
 
 import re
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from calibgui.dataset import Result
 from calibgui.engine.camera import Camera
 from calibgui.formats.camera_refit import write_in_models
 from calibgui.formats.exporter import FRAME, Exporter, ExportReport
 from calibgui.formats.importer import CameraText, ImportedCamera, Importer
-from calibgui.formats.json_document import Node
+from calibgui.formats.node import Node
 from calibgui.formats.yaml_document import format_number, parse_yaml
 
 
@@ -102,8 +102,7 @@ def read_kalibr(source: CameraText) -> ImportedCamera:
     values = _read_list(node["intrinsics"], model.intrinsics)
     if model.coefficients:
         values |= _read_list(node["distortion_coeffs"], model.coefficients)
-    width, height = node["resolution"].integers(2).tolist()
-    size = source.choose_size((width, height))
+    size = source.choose_size(node["resolution"].image_size())
     notes = (f"The camera {name} of {len(cameras)}.",) if len(cameras) > 1 else ()
     camera = source.make_camera(size, model.model, values)
     return ImportedCamera(camera, EXPORTER.title, notes=notes)
@@ -113,8 +112,8 @@ def _find_model(source: CameraText, node: Node) -> _Model:
     """Return the model of a camera of the camchain."""
     camera = node["camera_model"].text()
     # YAML has no word for nothing but null, and Kalibr's readers write the word none.
-    stated: Any = entry.value if (entry := node.get("distortion_model")) else "none"
-    distortion = _ALIASES.get(str(stated), str(stated))
+    stated = entry.text() if (entry := node.get("distortion_model")) else "none"
+    distortion = _ALIASES.get(stated, stated)
     for model in _MODELS:
         if (model.camera, model.distortion) == (camera, distortion):
             break

@@ -25,6 +25,7 @@ from calibgui.engine.arrays import Array
 from calibgui.engine.camera import PINHOLE, Camera
 from calibgui.formats.camera_refit import write_in_models
 from calibgui.formats.exporter import Exporter, ExportReport
+from calibgui.formats.gate import parse_number
 from calibgui.formats.importer import CameraText, ImportedCamera, Importer
 
 _FISHEYE = "scaramuzza"
@@ -35,7 +36,7 @@ _RADIAL = {
 }
 """The coefficients of cameraIntrinsics' RadialDistortion, by lens model."""
 _CALL = re.compile(r"\b(cameraIntrinsics|cameraParameters|fisheyeIntrinsics)\s*\(")
-_COMMENT = re.compile(r"%.*|\.\.\..*\n")
+_COMMENT = re.compile(r"%.*|\.\.\..*\n?")
 """A comment, or the end of a line that goes on in the next."""
 _ARGUMENT = re.compile(r"""\s*(\[[^\[\]]*\]'?|"[^"\n]*"|'[^'\n]*'|[^\[\]()'",\s]+'?)\s*([,)])""")
 """An argument of a call, and what ends it."""
@@ -130,6 +131,8 @@ def _read_arguments(source: CameraText, text: str, call: re.Match[str]) -> dict[
     entries = iter(words)
     for word in entries:
         if word[0] in "\"'":
+            if word[1:-1] in matrices:
+                source.fail(f"has a call of {call[1]} that states {word[1:-1]} twice.")
             matrices[word[1:-1]] = _parse_matrix(source, word[1:-1], next(entries, ""))
         elif (name := next(names, None)) is not None:
             matrices[name] = _parse_matrix(source, name, word)
@@ -143,7 +146,9 @@ def _parse_matrix(source: CameraText, name: str, word: str) -> Array:
     content = word.rstrip("'")
     rows = re.split(r"[;\n]+", content.strip("[] \t\n"))
     try:
-        matrix = np.array([[float(n) for n in row.replace(",", " ").split()] for row in rows])
+        matrix = np.array(
+            [[parse_number(n) for n in row.replace(",", " ").split()] for row in rows]
+        )
     except ValueError:
         source.fail(f"has a {name} that is no matrix of numbers: {word or 'nothing'}.")
     if not np.isfinite(matrix).all():
@@ -191,7 +196,9 @@ def _make_fisheye(source: CameraText, arguments: dict[str, Array]) -> Camera:
     if a0 <= 0 or c <= 0:
         source.fail("has a focal length that is not above 0.")
     values = {"fx": c * a0, "fy": a0, "cx": cx - 1, "cy": cy - 1}
-    values |= {f"a{n}": a[n - 2] * a0 ** (n - 1) for n in (2, 3, 4)}
+    with np.errstate(over="ignore"):  # what is not finite makes no camera
+        scaled = a * np.float64(a0) ** np.array([1, 2, 3])
+    values |= {f"a{n}": scaled[n - 2] for n in (2, 3, 4)}
     return source.make_camera(source.choose_size(_read_size(source, arguments)), _FISHEYE, values)
 
 
@@ -228,12 +235,12 @@ def _read_pair(source: CameraText, arguments: dict[str, Array], name: str) -> li
     return numbers * 2 if len(numbers) == 1 else numbers
 
 
-def _read_size(source: CameraText, arguments: dict[str, Array]) -> tuple[int, int] | None:
+def _read_size(source: CameraText, arguments: dict[str, Array]) -> tuple[float, float] | None:
     """Return the stated width and height of the images; None if the script does not state them."""
     if "ImageSize" not in arguments:
         return None
     rows, columns = _read_list(source, arguments, "ImageSize", (2,))
-    return int(columns), int(rows)
+    return columns, rows
 
 
 EXPORTER = Exporter(

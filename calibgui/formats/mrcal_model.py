@@ -17,14 +17,20 @@ from __future__ import annotations
 import ast
 import re
 from pathlib import Path
+from typing import Any
 
 from calibgui.dataset import Result
 from calibgui.engine.arrays import Array
 from calibgui.engine.camera import Camera, SplinedStereographic, find_model
 from calibgui.formats.camera_refit import find_seen_region, write_in_models
 from calibgui.formats.exporter import FRAME, SPLINED, Exporter, ExportReport
+from calibgui.formats.gate import (
+    Language,
+    NotOfLanguageError,
+    parse_text,
+    refuse_repeated,
+)
 from calibgui.formats.importer import CameraText, ImportedCamera, Importer
-from calibgui.formats.json_document import Node
 from calibgui.formats.opencv_lens import list_coefficients
 
 _LENS_MODELS = {
@@ -37,12 +43,14 @@ _LENS_MODELS = {
 """mrcal's names of our models, but for the splined ones."""
 _READABLE = {name: model for model, name in _LENS_MODELS.items()}
 _SPLINED_NAME = re.compile(
-    r"LENSMODEL_SPLINED_STEREOGRAPHIC_order=(\d+)_Nx=(\d+)_Ny=(\d+)_fov_x_deg=(\d+)"
+    r"LENSMODEL_SPLINED_STEREOGRAPHIC_"
+    r"order=(\d{1,5})_Nx=(\d{1,5})_Ny=(\d{1,5})_fov_x_deg=(\d{1,5})"
 )
 _CALIBRATION_DATA = re.compile(r"""["']optimization_inputs["']\s*:\s*b(["'])[^"'\\]*\1\s*,?""")
 """The data of the calibration: megabytes in one word, which may stand in the file."""
-_MAX_LENGTH = 1 << 20
-"""Length of the longest model without such data, characters; 3000 control points take a tenth."""
+_MAX_LENGTH = 1 << 18
+"""Length of the longest model without such data, characters; 3000 control points take two
+fifths, and a text of other signs a hundred times its length of memory."""
 
 
 def write_mrcal(result: Result, path: Path) -> ExportReport:
@@ -96,35 +104,36 @@ def read_mrcal(source: CameraText) -> ImportedCamera:
     Raises:
         CalibrationError: if something is missing or wrong, or the lens model is none of ours.
     """
-    content = _parse(source)
+    text = _CALIBRATION_DATA.sub("", source.text)
+    content = parse_text(text, source.file, _CAMERA_MODEL)
     stated = content["lensmodel"].text()
     model, defaults = _find_model(source, stated)
     numbers = content["intrinsics"].numbers(None).tolist()
     names = [name for name in source.list_parameters(model) if name not in ("skew", *defaults)]
     if len(numbers) != len(names):
         content["intrinsics"].fail(f"the {len(names)} numbers of {stated}")
-    width, height = content["imagersize"].integers(2).tolist()
     values = defaults | dict(zip(names, numbers, strict=True))
-    camera = source.make_camera(source.choose_size((width, height)), model, values)
+    size = source.choose_size(content["imagersize"].image_size())
+    camera = source.make_camera(size, model, values)
     return ImportedCamera(camera, EXPORTER.title)
 
 
-def _parse(source: CameraText) -> Node:
-    """Return the object that the file describes, in the syntax of Python."""
-    text = _CALIBRATION_DATA.sub("", source.text)
-    if len(text) > _MAX_LENGTH:
-        source.fail("is too long for a camera model of mrcal.", "Choose another file.")
+def _parse(text: str) -> dict[Any, Any]:
+    """Return the object that a text describes in the syntax of Python."""
     try:
-        content = ast.literal_eval(text.strip())
-    except (SyntaxError, ValueError, TypeError, MemoryError, RecursionError) as error:
-        line = getattr(error, "lineno", None)
-        source.fail(f"is not a camera model of mrcal{f': see line {line}' if line else ''}.")
-    if not isinstance(content, dict):
-        source.fail("is not a camera model of mrcal.", "Choose another file.")
+        tree = ast.parse(text.strip(), mode="eval").body
+    except SyntaxError as error:
+        place = f" in line {error.lineno}" if error.lineno else ""
+        raise NotOfLanguageError(f"{error.msg}{place}") from error
+    if not isinstance(tree, ast.Dict):
+        raise NotOfLanguageError("it does not describe an object")
+    refuse_repeated(key.value for key in tree.keys if isinstance(key, ast.Constant))
+    content = ast.literal_eval(tree)
     # Tuples are lists to mrcal.
-    return Node(
-        {k: list(v) if isinstance(v, tuple) else v for k, v in content.items()}, "", source.file
-    )
+    return {k: list(v) if isinstance(v, tuple) else v for k, v in content.items()}
+
+
+_CAMERA_MODEL = Language("a camera model of mrcal", _parse, _MAX_LENGTH)
 
 
 def _find_model(source: CameraText, name: str) -> tuple[str, dict[str, float]]:

@@ -21,18 +21,19 @@ import numpy as np
 
 from calibgui.dataset import Result
 from calibgui.engine import opencv
-from calibgui.engine.arrays import Array
+from calibgui.engine.arrays import Array, Size
 from calibgui.engine.assessment import summarise_residuals
 from calibgui.engine.calibration import Calibration
 from calibgui.formats.camera_refit import write_in_models
 from calibgui.formats.exporter import FRAME, Exporter, ExportReport
 from calibgui.formats.importer import CameraText, ImportedCamera, Importer
-from calibgui.formats.json_document import Node
+from calibgui.formats.node import Node
 from calibgui.formats.opencv_lens import (
     FISHEYE,
     PERSPECTIVE_MODELS,
     list_coefficients,
     make_opencv_camera,
+    read_rectification,
 )
 from calibgui.formats.opencv_storage import parse_storage, read_matrix
 
@@ -120,7 +121,13 @@ def read_opencv(source: CameraText) -> ImportedCamera:
     D = read_matrix(coefficients)
     fisheye = _is_fisheye(entries)
     camera = make_opencv_camera(source, source.choose_size(_read_size(entries)), K, D, fisheye)
-    return ImportedCamera(camera, EXPORTER.title, notes=_describe_doubts(fisheye, len(D)))
+    R, P = (_find_entry(entries, (key,)) for key in ("rectificationmatrix", "projectionmatrix"))
+    return ImportedCamera(
+        camera,
+        EXPORTER.title,
+        notes=_describe_doubts(fisheye, len(D)),
+        rectification=read_rectification(R, P, camera),
+    )
 
 
 def _simplify(key: str) -> str:
@@ -140,18 +147,19 @@ def _is_fisheye(entries: dict[str, Node]) -> bool:
         if not isinstance(flag.value, bool | int | float) or flag.value not in (0, 1):
             flag.fail("0 or 1")
         return bool(flag.value)
-    return model is not None and _simplify(str(model.value)) in _FISHEYE_NAMES
+    # Other programs keep other things under such names.
+    if model is None or not isinstance(model.value, str):
+        return False
+    return _simplify(model.value) in _FISHEYE_NAMES
 
 
-def _read_size(entries: dict[str, Node]) -> tuple[int, int] | None:
+def _read_size(entries: dict[str, Node]) -> Size | None:
     """Return the stated width and height of the images; None if the file does not say them."""
     width, height = _find_entry(entries, _WIDTH_KEYS), _find_entry(entries, _HEIGHT_KEYS)
     if width is not None and height is not None:
         return width.integer(), height.integer()
-    if (size := _find_entry(entries, _SIZE_KEYS)) is None:
-        return None
-    w, h = size.integers(2).tolist()
-    return w, h
+    size = _find_entry(entries, _SIZE_KEYS)
+    return None if size is None else size.image_size()
 
 
 def _describe_doubts(fisheye: bool, count: int) -> tuple[str, ...]:

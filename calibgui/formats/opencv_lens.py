@@ -16,9 +16,12 @@ from __future__ import annotations
 
 import numpy as np
 
+from calibgui.dataset import StereoRectification
 from calibgui.engine.arrays import Array, Size
 from calibgui.engine.camera import Camera, list_parameter_names
 from calibgui.formats.importer import CameraText
+from calibgui.formats.node import Node
+from calibgui.formats.opencv_storage import read_matrix
 
 FISHEYE = "kannala-brandt"
 """Id of the model of cv2.fisheye, and of what ROS and Kalibr call equidistant."""
@@ -33,6 +36,33 @@ _MODEL_BY_COUNT = {
     12: "thin-prism",
     14: "thin-prism",
 }
+
+
+def read_rectification(
+    R: Node | None, P: Node | None, camera: Camera
+) -> StereoRectification | None:
+    """Return the rectification of a stereo pair that a file holds; None if there is none, or that
+    of one camera.
+
+    Args:
+        R: the entry of the rectification, 3 x 3.
+        P: that of the projection, 3 x 4.
+        camera: the camera of the file.
+
+    Raises:
+        CalibrationError: if the matrices have other sizes.
+    """
+    if R is None or P is None:
+        return None
+    turn, projection = read_matrix(R), read_matrix(P)
+    if len(turn) != 9:
+        R.fail("a matrix of 3 x 3 numbers")
+    if len(projection) != 12:
+        P.fail("a matrix of 3 x 4 numbers")
+    if not (turn.any() and projection.any()):  # as of cameras that nobody has rectified
+        return None
+    found = StereoRectification(turn.reshape(3, 3), projection.reshape(3, 4))
+    return None if found.is_of_one_camera(camera) else found
 
 
 def list_coefficients(camera: Camera) -> Array:

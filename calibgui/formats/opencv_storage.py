@@ -13,12 +13,22 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from calibgui.engine.arrays import Array
-from calibgui.engine.errors import CalibrationError
-from calibgui.formats.json_document import Node, parse_json
+from calibgui.formats.gate import (
+    Language,
+    NotOfLanguageError,
+    parse_number,
+    parse_text,
+    refuse_repeated,
+)
+from calibgui.formats.json_document import parse_json
+from calibgui.formats.node import Node
 from calibgui.formats.yaml_document import parse_yaml
 
 if TYPE_CHECKING:
     from xml.etree.ElementTree import Element
+
+_MAX_XML_LENGTH = 2 << 20
+"""Length of the longest XML text that is read, characters; one of 25 views has some thousands."""
 
 
 def parse_storage(text: str, file: str) -> Node:
@@ -33,7 +43,7 @@ def parse_storage(text: str, file: str) -> Node:
     """
     start = text.lstrip()[:1]
     if start == "<":
-        return _parse_xml(text, file)
+        return parse_text(text, file, _XML)
     return parse_json(text, file) if start == "{" else parse_yaml(text, file)
 
 
@@ -53,22 +63,27 @@ def read_matrix(node: Node) -> Array:
     return node.numbers(None)
 
 
-def _parse_xml(text: str, file: str) -> Node:
+def _parse_xml(text: str) -> dict[str, Any]:
     """Return the entries of an XML file of OpenCV: matrices, numbers and texts."""
     from xml.etree import ElementTree  # late: a window that reads no camera starts without it
 
     if "<!DOCTYPE" in text or "<!ENTITY" in text:
-        raise _make_error(file, "it has declarations, which OpenCV does not write")
+        raise NotOfLanguageError("it has declarations, which OpenCV does not write")
     try:
         root = ElementTree.fromstring(text.lstrip())
     except (ElementTree.ParseError, ValueError) as error:
-        raise _make_error(file, str(error)) from error
-    return Node({entry.tag: _convert_entry(entry) for entry in root}, "", file)
+        raise NotOfLanguageError(str(error)) from error
+    refuse_repeated(entry.tag for entry in root)
+    return {entry.tag: _convert_entry(entry) for entry in root}
+
+
+_XML = Language("an XML file of OpenCV", _parse_xml, _MAX_XML_LENGTH)
 
 
 def _convert_entry(entry: Element) -> Any:
     """Return an object for a matrix, and otherwise a number, a list of numbers, or the text."""
     if entry.get("type_id") in ("opencv-matrix", "opencv-nd-matrix"):
+        refuse_repeated(part.tag for part in entry)
         members = {part.tag: _convert_numbers(part.text) for part in entry}
         for name in ("data", "sizes"):  # a list of one number is not told from a number
             if name in members and not isinstance(members[name], list):
@@ -86,12 +101,6 @@ def _convert_numbers(text: str | None) -> Any:
 def _convert_number(word: str) -> Any:
     """Return a number if `word` is one, else the word."""
     try:
-        return float(word)
+        return parse_number(word)
     except ValueError:
         return word
-
-
-def _make_error(file: str, reason: str) -> CalibrationError:
-    return CalibrationError(
-        f"{file} is not an XML file of OpenCV: {reason}.", "Choose another file."
-    )

@@ -16,6 +16,7 @@ RESULT, CORNERS, CORNERS_CSV, BOARD_SHAPE = "result", "corners", "corners-csv", 
 FIGURE, LENS_COMPARISON, METHOD_COMPARISON = "figure", "lens-comparison", "method-comparison"
 PAPER_PAGE, SERIES_CSV = "paper-page", "series-csv"
 FLEET_TABLE, FLEET_PAGE = "fleet-table", "fleet-page"
+POSES, POSES_CSV, RAYS_CSV = "poses", "poses-csv", "rays-csv"
 """Kinds of files; those of exporters are the exporters' names."""
 _LENGTH = 4096
 """Number of bytes at either end of a file in which its mark is."""
@@ -27,6 +28,9 @@ _OWN_WORDS: Mapping[str, re.Pattern[bytes]] = {
         rb"\Aid,serial,date,temperature_c,|" + re.escape(b"Written by calibgui as fleet-table.")
     ),
     SERIES_CSV: re.compile(rb"\Avalue,file,model,fx,sigma_fx,"),
+    POSES: re.compile(rb'\A\s*\{\s*"format"\s*:\s*"calibgui-poses"'),
+    POSES_CSV: re.compile(rb"\Aimage,corners,rms_px,x_mm,y_mm,z_mm,"),
+    RAYS_CSV: re.compile(rb"\Au_px,v_px,ray_x,ray_y,ray_z,"),
 }
 """Patterns of the files that say in words of their own what they are."""
 
@@ -42,6 +46,9 @@ _TITLES: Mapping[str, str] = {
     PAPER_PAGE: "a page on the paper",
     SERIES_CSV: "a table of settings",
     FLEET_TABLE: "a table of a fleet",
+    POSES: "a file of poses",
+    POSES_CSV: "a table of poses",
+    RAYS_CSV: "a table of rays",
     FLEET_PAGE: "a page on a fleet",
 }
 

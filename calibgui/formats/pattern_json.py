@@ -8,7 +8,7 @@ pattern         left out for a checkerboard; else its `kind` and its known prope
   asymmetric-circles  diameter (over the distance of the rows)
   aprilgrid           family and border (cells) of the tags, spacing (gap over a tag's side),
                       from_top (the order of the tags), corner_squares (whether small dark
-                      squares stand between their corners)
+                      squares stand between their corners), first_tag (its number)
   tagged-checkerboard family, border, from_top, step (squares from one tag to the next)
   puzzleboard         origin (row and column of its first corner on the whole pattern)
 """
@@ -22,7 +22,7 @@ from typing import Any
 from calibgui.engine.arrays import GridSize
 from calibgui.engine.boards import CHECKERBOARD, KINDS, Board, Pattern
 from calibgui.engine.errors import CalibrationError
-from calibgui.formats.json_document import Node
+from calibgui.formats.node import MAX_LINES, Node
 
 
 def encode_pattern(pattern: Pattern) -> dict[str, Any]:
@@ -67,6 +67,7 @@ _FIELD_READERS: Mapping[str, Callable[[Node], str | float | bool | GridSize]] = 
     "step": Node.integer,
     "from_top": Node.flag,
     "corner_squares": Node.flag,
+    "first_tag": Node.integer,
     "origin": _read_grid_index,
 }
 """Functions that read a pattern's field, by its name."""
@@ -88,7 +89,7 @@ def decode_board(node: Node | None) -> Board | None:
     if not square.number() > 0:
         square.fail("a length above 0")
     for side in (rows, cols):
-        if not side.integer() >= 2:
-            side.fail("a number of corners above 1")
+        if not 2 <= side.integer() <= MAX_LINES:
+            side.fail(f"a number of corners from 2 to {MAX_LINES}")
     pattern = decode_pattern(node.get("pattern"))
     return Board(rows.integer(), cols.integer(), square.number(), pattern)

@@ -7,6 +7,9 @@ A standard deviation is one sigma: 0 for a parameter that was held, null for one
 data do not determine. Where `status` is partial, `diagnosis` lists the assumptions, and every
 standard deviation includes their errors. Unused views have null poses.
 `covariance.matrix` and a view's `pose_covariance` (of rvec, tvec) complete the standard deviations.
+`sensor_mode` is there if the file is for another stream of the camera than the images of the
+calibration: u' = factor u + offset, in images of `size` px. All else is as it was calibrated, and
+the version is 2, as who misses the mode would take the wrong camera; without it the version is 1.
 Cannot hold: the images; settings other than JSON's types.
 
 Files of older versions lack coefficients that their lens models have by now and hold by default.
@@ -19,7 +22,7 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -27,11 +30,13 @@ import numpy as np
 
 from calibgui.dataset import Result, find_orientation
 from calibgui.dataset.judging import judge_result
-from calibgui.engine.arrays import Array
-from calibgui.engine.assessment import Action, Finding, Verdict, summarise_residuals
-from calibgui.engine.boards import BoardShape
+from calibgui.engine.arrays import Array, Size
+from calibgui.engine.assessment import summarise_residuals
+from calibgui.engine.boards import BoardShape, BoardShapeModel
 from calibgui.engine.calibration import (
+    METHODS,
     Calibration,
+    CalibrationSettings,
     Cost,
     Iteration,
     Status,
@@ -42,6 +47,7 @@ from calibgui.engine.camera import (
     MODELS,
     Camera,
     Lucchese,
+    SensorMode,
     find_model,
     list_parameter_names,
     resolve_model_id,
@@ -49,7 +55,6 @@ from calibgui.engine.camera import (
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.geometry import PAPER_NAMES
 from calibgui.formats.board_shape_json import decode_board_shape, decode_prior, encode_board_shape
-from calibgui.formats.corners_json import decode_size
 from calibgui.formats.diagnosis_json import decode_diagnosis, encode_diagnosis
 from calibgui.formats.estimates_json import (
     decode_pose,
@@ -62,14 +67,15 @@ from calibgui.formats.estimates_json import (
 )
 from calibgui.formats.exporter import Exporter, ExportReport
 from calibgui.formats.importer import CameraText, ImportedCamera, Importer
-from calibgui.formats.json_document import Node, check_format, parse_json, read_json, write_json
+from calibgui.formats.json_document import check_format, parse_json, read_json, write_json
+from calibgui.formats.node import Node
 from calibgui.formats.pattern_json import decode_board, encode_board
-from calibgui.formats.views_json import decode_views, encode_view
+from calibgui.formats.verdict_json import encode_verdict
+from calibgui.formats.views_json import decode_circle, decode_views, encode_view
 
 FORMAT = "calibgui-result"
-VERSION = 1
+VERSION = 2
 
-_ERRORS = ("centre", "covered", "edge", "worst", "median")
 _ITERATION_KEYS = ("index", "cost", "rms", "gradient", "step", "damping", "seconds")
 
 
@@ -87,45 +93,7 @@ def encode_result_with_findings(result: Result) -> dict[str, Any]:
 
     Both follow from the rest, which takes its time; they are not read back.
     """
-    verdict = judge_result(result)
-    names = [view.image for view in result.used]
-    return encode_result(result) | {
-        "verdict": _encode_verdict(verdict),
-        "findings": [_encode_finding(finding, names) for finding in verdict.findings],
-    }
-
-
-def _encode_verdict(verdict: Verdict) -> dict[str, Any]:
-    return {
-        "grade": verdict.grade,
-        "reason": verdict.reason,
-        "times_better": verdict.times_better,
-        "error_px": {name: getattr(verdict.error, name) for name in _ERRORS},
-        "mm_per_px": verdict.mm_per_pixel,
-        "distance_mm": verdict.distance,
-    }
-
-
-def _encode_finding(finding: Finding, names: Sequence[str]) -> dict[str, Any]:
-    return {
-        "cause": finding.cause,
-        "message": finding.message,
-        "evidence": finding.evidence,
-        "remedy": finding.remedy,
-        "harm_px": finding.harm,
-        "views": [names[k] for k in finding.views],
-        "action": None if finding.action is None else _encode_action(finding.action, names),
-        "times_better": finding.times_better,
-    }
-
-
-def _encode_action(action: Action, names: Sequence[str]) -> dict[str, Any]:
-    return {
-        "kind": action.kind,
-        "views": [names[k] for k in action.views],
-        "parameters": action.parameters,
-        "model": action.model or None,
-    }
+    return encode_result(result) | encode_verdict(judge_result(result), result)
 
 
 def encode_result(result: Result) -> dict[str, Any]:
@@ -135,7 +103,7 @@ def encode_result(result: Result) -> dict[str, Any]:
     summary = summarise_residuals(calibration.residuals)
     return {
         "format": FORMAT,
-        "version": VERSION,
+        "version": 1 if result.mode is None else VERSION,
         "status": calibration.status,
         "camera": {
             "model": calibration.camera.model,
@@ -144,7 +112,9 @@ def encode_result(result: Result) -> dict[str, Any]:
             "sigma": dict(zip(names, calibration.sigma, strict=True)),
             "sigma_by_noise": dict(zip(names, calibration.sigma_by_noise, strict=True)),
             "fixed": calibration.fixed,
-        },
+        }
+        | ({} if calibration.camera.circle is None else {"circle": calibration.camera.circle}),
+        **({} if result.mode is None else {"sensor_mode": encode_mode(result.mode)}),
         "paper": _encode_paper_parameters(calibration),
         "residuals": {
             "rms_px": summary.rms,
@@ -161,13 +131,13 @@ def encode_result(result: Result) -> dict[str, Any]:
         },
         "undetermined": [{"name": u.name, "reason": u.reason} for u in calibration.undetermined],
         "diagnosis": encode_diagnosis(calibration.diagnosis),
-        "warnings": calibration.warnings,
+        "warnings": (*result.improvements, *calibration.warnings),
         "covariance": {
             "parameters": names,
             "matrix": calibration.covariance,
             "matrix_by_noise": calibration.noise_covariance,
         },
-        "settings": calibration.settings,
+        "settings": calibration.settings.encode(),
         "versions": result.versions,
         "lengths_confirmed": result.lengths_confirmed,
         "inputs_sha256": calibration.digest,
@@ -183,6 +153,21 @@ def encode_result(result: Result) -> dict[str, Any]:
         "solve_seconds": calibration.seconds,
         "views": _encode_views(result),
     }
+
+
+def encode_mode(mode: SensorMode) -> dict[str, Any]:
+    """Return the JSON object of a sensor mode."""
+    return {"size": mode.size, "factor": mode.factor, "offset_px": mode.offset}
+
+
+def _decode_mode(node: Node | None, full: Size) -> SensorMode | None:
+    """Return the mode of the stream that a result is for; None if there is none."""
+    if node is None:
+        return None
+    numbers = node["factor"].numbers(2), node["offset_px"].numbers(2)
+    if not numbers[0].all():
+        node["factor"].fail("two numbers other than 0")
+    return SensorMode(full, node["size"].image_size(), *numbers)
 
 
 def _encode_paper_parameters(calibration: Calibration) -> dict[str, Any] | None:
@@ -228,15 +213,20 @@ def read_result_camera(source: CameraText) -> ImportedCamera:
     check_format(node, FORMAT, VERSION, "the result of a calibration")
     result = decode_result(node)
     calibration = result.calibration
-    source.choose_size(calibration.camera.size)
+    camera, covariance = calibration.camera, calibration.covariance
+    if result.mode is not None:
+        covariance = result.mode.adapt_covariance(covariance, camera.model)
+        camera = result.mode.adapt_camera(camera)
+    source.choose_size(camera.size)
     diagnosis = calibration.diagnosis
     notes = () if diagnosis is None else (f"A partial calibration. {diagnosis.message}",)
     return ImportedCamera(
-        calibration.camera,
+        camera,
         EXPORTER.title,
-        calibration.covariance,
+        covariance,
         notes,
-        find_orientation(result.used),
+        mode=result.mode,
+        orientation=find_orientation(result.used),
     )
 
 
@@ -247,12 +237,14 @@ def decode_result(node: Node) -> Result:
     used = [n for n, view in zip(node["views"].items(), views, strict=True) if view.usable]
     if not used:
         node["views"].fail("a list with usable views")
+    calibration = _decode_calibration(node, used)
     return Result(
-        _decode_calibration(node, used),
+        calibration,
         views,
         board,
         {name: version.text() for name, version in node["versions"].members().items()},
         confirmed.flag() if (confirmed := node.get("lengths_confirmed")) else True,
+        mode=_decode_mode(node.get("sensor_mode"), calibration.camera.size),
     )
 
 
@@ -309,15 +301,38 @@ def _decode_seconds(node: Node | None) -> float:
     return float("nan") if node is None else node.number(nullable=True)
 
 
-def _decode_settings(node: Node, added: Mapping[str, float]) -> dict[str, Any]:
+def _decode_settings(node: Node, added: Mapping[str, float]) -> CalibrationSettings:
     held = {name: value.number() for name, value in node["fixed"].members().items()}
-    settings = {**node.value, "fixed": {**held, **added}}
-    if (model := node.get("model")) is not None:
-        settings["model"] = decode_model(model)
-    if (stated := node.get("prior_mm")) is not None:
-        prior = decode_prior(stated)
-        settings["prior_mm"] = [prior.in_plane, prior.out_of_plane]
-    return settings
+    stated = {
+        field: read(value)
+        for name, (field, read) in _SETTING_READERS.items()
+        if (value := node.get(name)) is not None
+    }
+    known = {"fixed", *_SETTING_READERS}
+    others = {name: value for name, value in node.value.items() if name not in known}
+    return CalibrationSettings(fixed=held | dict(added), **stated, others=others)
+
+
+def _decode_count(node: Node) -> int:
+    if (count := node.integer()) < 0:
+        node.fail("a number from 0 on")
+    return count
+
+
+_SETTING_READERS: Mapping[str, tuple[str, Callable[[Node], Any]]] = {
+    "cost": ("cost", lambda node: Cost(node.choice(list(Cost)))),
+    "model": ("model", decode_model),
+    "method": ("method", lambda node: node.choice(list(METHODS))),
+    "max_iterations": ("max_iterations", _decode_count),
+    "plate": ("board_shape", lambda node: BoardShapeModel(node.choice(list(BoardShapeModel)))),
+    "plate_held": ("is_board_shape_held", Node.flag),
+    "prior_mm": ("prior", decode_prior),
+    "model_reason": ("model_reason", Node.text),
+    "robust": ("robust", Node.flag),
+    "outliers": ("outliers", _decode_count),
+    "weigh_views": ("weigh_views", Node.flag),
+}
+"""Settings of a calibration and the functions that read them, by their names in the file."""
 
 
 def _decode_board_shape(node: Node | None) -> BoardShape | None:
@@ -339,7 +354,8 @@ def _decode_camera(node: Node, model: str, added: Mapping[str, float]) -> Camera
             params[name].fail("a focal length above 0")
     names = list_parameter_names(model)
     values = [added[name] if name in added else params[name].number() for name in names]
-    return Camera(decode_size(node["size"]), np.array(values), model)
+    circle = decode_circle(node.get("circle"))
+    return Camera(node["size"].image_size(), np.array(values), model, circle)
 
 
 def _decode_by_name(node: Node, names: Sequence[str], added: Mapping[str, float]) -> Array:
@@ -351,7 +367,7 @@ def _decode_covariance(node: Node, names: Sequence[str], added: Mapping[str, flo
     """Return the covariance (P, P) of all parameters: 0 for coefficients that were added."""
     stored = np.array([i for i, name in enumerate(names) if name not in added])
     covariance = np.zeros((len(names), len(names)))
-    covariance[np.ix_(stored, stored)] = node.numbers(len(stored), len(stored), nullable=True)
+    covariance[np.ix_(stored, stored)] = node.covariances(len(stored), len(stored), nullable=True)
     return covariance
 
 

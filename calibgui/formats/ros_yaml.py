@@ -1,10 +1,14 @@
 """ROS's camera_info file, as camera_calibration_parsers writes and reads it.
 
+The message that `ros2 topic echo` and `rostopic echo` print is read as well: it has other names for
+the same, and a line --- behind it. Of several messages the first one is read.
+
 Reader: camera_calibration_parsers and image_geometry of ROS, any YAML reader, and `read_ros`.
 Pixels are OpenCV's (0-based, integer at pixel centres), and so are the coefficients. The
 distortion models are plumb_bob (k1 k2 p1 p2 k3), rational_polynomial (k1 k2 p1 p2 k3 k4 k5 k6) and
-equidistant (k1 k2 k3 k4 of cv2.fisheye). `rectification_matrix` is the identity and
-`projection_matrix` [K | 0]: a rectified image keeps the camera's focal lengths and centre.
+equidistant (k1 k2 k3 k4 of cv2.fisheye). `rectification_matrix` and `projection_matrix` are those
+of the stereo pair of the file that was read; otherwise they are the identity and [K | 0]: a
+rectified image keeps the camera's focal lengths and centre.
 Cannot hold: other lens models and skew (they are refitted), standard deviations, poses, corners.
 """
 
@@ -15,13 +19,19 @@ from pathlib import Path
 
 import numpy as np
 
-from calibgui.dataset import Result
+from calibgui.dataset import Result, StereoRectification
 from calibgui.engine.arrays import Array
 from calibgui.engine.camera import Camera
 from calibgui.formats.camera_refit import write_in_models
 from calibgui.formats.exporter import FRAME, Exporter, ExportReport
 from calibgui.formats.importer import CameraText, ImportedCamera, Importer
-from calibgui.formats.opencv_lens import FISHEYE, list_coefficients, make_opencv_camera
+from calibgui.formats.node import Node
+from calibgui.formats.opencv_lens import (
+    FISHEYE,
+    list_coefficients,
+    make_opencv_camera,
+    read_rectification,
+)
 from calibgui.formats.opencv_storage import read_matrix
 from calibgui.formats.yaml_document import format_number, parse_yaml
 
@@ -40,6 +50,17 @@ _READABLE = {
     "fisheye": (4,),
 }
 """Numbers of coefficients by distortion models that are read."""
+_FILE_NAMES = (
+    *("image_width", "image_height", "camera_matrix", "distortion_coefficients"),
+    *("rectification_matrix", "projection_matrix"),
+)
+_MESSAGE_NAMES = (("width", "height", *"kdrp"), ("width", "height", *"KDRP"))
+"""Names of the same entries in messages of ROS 2 and ROS 1."""
+_MESSAGE_END = re.compile(r"^---[ \t]*$", re.MULTILINE)
+_REDUCED = (
+    "The message states a binning or a region of interest. The camera is that of the whole image "
+    "of the sensor: convert it with --binning or --crop."
+)
 
 
 def write_ros(result: Result, path: Path) -> ExportReport:
@@ -49,14 +70,18 @@ def write_ros(result: Result, path: Path) -> ExportReport:
         result,
         path,
         EXPORTER,
-        lambda fitted, note: format_camera_info(fitted.camera, name, note),
+        lambda fitted, note: format_camera_info(fitted.camera, name, note, result.rectification),
     )
 
 
-def format_camera_info(camera: Camera, name: str, note: str) -> str:
+def format_camera_info(
+    camera: Camera, name: str, note: str, rectification: StereoRectification | None = None
+) -> str:
     """Return the text of the file; `camera` is in one of the format's models."""
     width, height = camera.size
-    P = np.hstack([camera.matrix, np.zeros((3, 1))])
+    R, P = np.eye(3), np.hstack([camera.matrix, np.zeros((3, 1))])
+    if rectification is not None:
+        R, P = rectification.R, rectification.P
     coefficients = list_coefficients(camera)
     if camera.model == "brown-conrady-4":
         coefficients = np.append(coefficients, 0.0)  # ROS's plumb_bob has five
@@ -67,7 +92,7 @@ def format_camera_info(camera: Camera, name: str, note: str) -> str:
             _format_matrix("camera_matrix", camera.matrix),
             f"distortion_model: {_DISTORTION_MODELS[camera.model]}\n",
             _format_matrix("distortion_coefficients", coefficients[None]),
-            _format_matrix("rectification_matrix", np.eye(3)),
+            _format_matrix("rectification_matrix", R),
             _format_matrix("projection_matrix", P),
         ]
     )
@@ -85,14 +110,16 @@ def _make_camera_name(path: Path) -> str:
 
 
 def read_ros(source: CameraText) -> ImportedCamera:
-    """Read the camera of a camera_info file; the rectified image's matrices are left out.
+    """Read the camera of a camera_info file, and the rectification of a stereo pair.
 
     Raises:
         CalibrationError: if something is missing or wrong, or the lens model is none of ours.
     """
-    content = parse_yaml(source.text, source.file)
-    size = source.choose_size((content["image_width"].integer(), content["image_height"].integer()))
-    K, D = content["camera_matrix"], content["distortion_coefficients"]
+    messages = (part for part in _MESSAGE_END.split(source.text) if part.strip())
+    content = parse_yaml(next(messages, ""), source.file)
+    names = next((each for each in _MESSAGE_NAMES if content.get(each[2])), _FILE_NAMES)
+    size = source.choose_size((content[names[0]].integer(), content[names[1]].integer()))
+    K, D = content[names[2]], content[names[3]]
     matrix, coefficients = read_matrix(K), read_matrix(D)
     if len(matrix) != 9:
         K.fail("a matrix of 3 x 3 numbers")
@@ -104,7 +131,20 @@ def read_ros(source: CameraText) -> ImportedCamera:
         D.fail(f"{counts} coefficients, as {model} has ({len(coefficients)} are given)")
     fisheye = model in ("equidistant", "fisheye")
     camera = make_opencv_camera(source, size, matrix, coefficients, fisheye)
-    return ImportedCamera(camera, EXPORTER.title)
+    R, P = content.get(names[4]), content.get(names[5])
+    notes = (_REDUCED,) if names is not _FILE_NAMES and _is_reduced(content) else ()
+    found = read_rectification(R, P, camera)
+    return ImportedCamera(camera, EXPORTER.title, notes=notes, rectification=found)
+
+
+def _is_reduced(message: Node) -> bool:
+    """Return whether a message states that its images are binned, or a part of the sensor's."""
+    binning = [message.get(name) for name in ("binning_x", "binning_y")]
+    roi = message.get("roi")
+    offsets = [roi.get(name) for name in ("x_offset", "y_offset")] if roi else []
+    return any(node and node.number() > 1 for node in binning) or any(
+        node and node.number() > 0 for node in offsets
+    )
 
 
 EXPORTER = Exporter(
@@ -116,11 +156,13 @@ EXPORTER = Exporter(
     limits="plumb_bob, rational_polynomial or equidistant, other lenses refitted; no standard "
     "deviations, no poses.",
     write=write_ros,
+    holds_rectification=True,
 )
 IMPORTER = Importer(
     EXPORTER.title,
     re.compile(
-        r"\A(?=.*^camera_matrix[ \t]*:)(?=.*^image_width[ \t]*:)(?=.*^distortion_model[ \t]*:)",
+        r"\A(?=.*^(camera_matrix|[kK])[ \t]*:)(?=.*^(image_)?width[ \t]*:)"
+        r"(?=.*^distortion_model[ \t]*:)",
         re.MULTILINE | re.DOTALL,
     ),
     read_ros,

@@ -7,8 +7,6 @@ dimension. A setting that its photographs do not determine has the reason in the
 
 from __future__ import annotations
 
-import csv
-import io
 import math
 from collections.abc import Sequence
 from pathlib import Path
@@ -18,6 +16,7 @@ import numpy as np
 from calibgui.dataset import LeftOut
 from calibgui.engine.assessment import Setting
 from calibgui.engine.files import write_atomically
+from calibgui.formats.csv_table import format_csv
 
 
 def write_series_csv(
@@ -28,17 +27,15 @@ def write_series_csv(
     Raises:
         CalibrationError: if the file cannot be written.
     """
-    text = io.StringIO()
-    writer = csv.writer(text, lineterminator="\n")
     names = settings[0].known.camera.names
     parameters = [n for p in names for n in (p, f"sigma_{p}")]
-    writer.writerow(["value", "file", "model", *parameters, "left_out"])
+    rows: list[Sequence[object]] = [["value", "file", "model", *parameters, "left_out"]]
     for setting, file in zip(settings, files, strict=True):
         known = setting.known
         sigma = np.sqrt(np.diag(known.covariance))
         pairs = np.column_stack([known.camera.params, sigma]).ravel().tolist()
-        writer.writerow([setting.value, file, known.camera.model, *pairs, ""])
+        rows.append([setting.value, file, known.camera.model, *pairs, ""])
     for one in left_out:
         value = "" if math.isnan(one.value) else one.value
-        writer.writerow([value, one.file, "", *[""] * len(parameters), one.reason])
-    write_atomically(path, text.getvalue().encode(errors="backslashreplace"))
+        rows.append([value, one.file, "", *[""] * len(parameters), one.reason])
+    write_atomically(path, format_csv(rows).encode(errors="backslashreplace"))

@@ -6,6 +6,7 @@
     enabled  true if the user wants it          roi     (4, 2) px, where given by the user
     note     how its corners were found, if unusual
     orientation  EXIF orientation by which the pixels were turned, where known
+    circle   [u, v, radius], px: what the lens lights of the image, unless it is all
 
 and for corners found on a board of known layout their `grid` (row, column), the board's
 `shape`, first `estimate`, `ambiguity`, `relative`, `method` and the searched `outline`; also
@@ -23,8 +24,9 @@ import numpy as np
 from calibgui.dataset import View, ViewStatus
 from calibgui.engine.boards import CHECKERBOARD, Board, Symmetry
 from calibgui.engine.calibration import Observation
-from calibgui.engine.detection import Corners, OtherBoard
-from calibgui.formats.json_document import Node
+from calibgui.engine.camera import ImageCircle
+from calibgui.engine.features import Corners, OtherBoard
+from calibgui.formats.node import Node
 from calibgui.formats.pattern_json import decode_pattern, encode_pattern
 
 
@@ -42,6 +44,8 @@ def encode_view(view: View, board: Board | None) -> dict[str, Any]:
         record["orientation"] = view.orientation
     if view.roi is not None:
         record["roi"] = view.roi
+    if view.circle is not None:
+        record["circle"] = view.circle
     if view.points is None and view.corners is None:
         return record | {"uv": [], "board": []}
     uv, xy, cov = view.observation(board)
@@ -87,7 +91,7 @@ def _decode_view(node: Node, k: int, board: Board | None) -> View:
     uv = node["uv"].numbers(None, 2)
     xy = node["board"].numbers(len(uv), 2)
     cov = node.get("cov")
-    points = Observation(uv, xy, cov.numbers(len(uv), 2, 2) if cov else None)
+    points = Observation(uv, xy, cov.covariances(len(uv), 2, 2) if cov else None)
     corners = _decode_corners(node, points) if len(uv) else None
     # Found corners take their places from the board, unless the file gives others.
     on_board = corners and board and np.array_equal(board.points(corners.grid), xy)
@@ -100,8 +104,19 @@ def _decode_view(node: Node, k: int, board: Board | None) -> View:
         points=points if len(uv) and not on_board else None,
         roi=roi.numbers(4, 2) if (roi := node.get("roi")) else None,
         orientation=_decode_orientation(node.get("orientation")),
+        circle=decode_circle(node.get("circle")),
         enabled=enabled.flag() if (enabled := node.get("enabled")) else True,
     )
+
+
+def decode_circle(node: Node | None) -> ImageCircle | None:
+    """Return the image circle of [u, v, radius]; None of nothing."""
+    if node is None:
+        return None
+    circle = ImageCircle(*node.numbers(3).tolist())
+    if not circle.radius > 0:
+        node.fail("a column, a row and a radius above 0")
+    return circle
 
 
 def _decode_orientation(node: Node | None) -> int | None:
@@ -130,14 +145,16 @@ def _decode_corners(node: Node, points: Observation) -> Corners | None:
     grid, shape = node.get("grid"), node.get("shape")
     if grid is None or shape is None:
         return None
-    rows, cols = shape.integers(2)
+    size, places = shape.grid_size(), grid.integers(len(points.uv), 2)
+    if (places < 0).any() or (places >= size).any():
+        grid.fail(f"a list of rows and columns on a board of {size[0]} x {size[1]}")
     estimate, outline = node.get("estimate"), node.get("outline")
     ambiguity, relative = node.get("ambiguity"), node.get("relative")
     others = node.get("others")
     n = len(points.uv)
     return Corners(
-        shape=(int(rows), int(cols)),
-        grid=grid.integers(n, 2),
+        shape=size,
+        grid=places,
         uv=points.uv,
         estimate=estimate.numbers(n, 2) if estimate else points.uv,
         cov=points.cov,
@@ -151,5 +168,4 @@ def _decode_corners(node: Node, points: Observation) -> Corners | None:
 
 
 def _decode_other(node: Node) -> OtherBoard:
-    rows, cols = node["shape"].integers(2)
-    return OtherBoard((int(rows), int(cols)), node["outline"].numbers(4, 2))
+    return OtherBoard(node["shape"].grid_size(), node["outline"].numbers(4, 2))

@@ -1,8 +1,9 @@
-"""Reading of YAML into `Node`, and numbers that every YAML reader takes for numbers.
+"""YAML's way through the gate (``gate.py``) into `Node`, and numbers that every YAML reader takes.
 
 PyYAML reads YAML 1.1, in which 1e-05 is a text because it has no point. People and programs write
 such numbers, so they are read as YAML 1.2 reads them. Only data are read: tags that make Python
-objects are refused, and merge keys, which let a short file grow without limit, are not followed.
+objects are refused. So are aliases, which let a short file stand for more than any memory holds:
+no program writes cameras with them.
 
 OpenCV's files are YAML with a head of its own and tags for its matrices (!!opencv-matrix), which
 are read as the objects of rows, cols, dt and data that they mark.
@@ -14,13 +15,18 @@ import re
 from functools import cache
 from typing import Any
 
-from calibgui.engine.errors import CalibrationError
-from calibgui.formats.json_document import Node
+from calibgui.formats.gate import (
+    Language,
+    NotOfLanguageError,
+    check_depth,
+    parse_text,
+    refuse_repeated,
+)
+from calibgui.formats.node import Node
 
-MAX_YAML_LENGTH = 2 << 20
-"""Length of the longest YAML text that is read, characters: PyYAML takes some 10 s for it."""
-_MAX_DEPTH = 50
-"""Number of lists and objects within each other, at most; a camera file has five."""
+MAX_YAML_LENGTH = 1 << 19
+"""Length of the longest YAML text that is read, characters: PyYAML takes some 3 s for it. OpenCV's
+sample writes the corners of a hundred views in a half of it."""
 _OPENCV_HEAD = re.compile(r"\A%YAML[: ]1\.\d\s*\n")
 """The first line of OpenCV's files: YAML would have a space in place of the colon."""
 _NUMBER = re.compile(r"[-+]?(\d+(\.\d*)?|\.\d+)[eE][-+]?\d+")
@@ -28,30 +34,27 @@ _NUMBER = re.compile(r"[-+]?(\d+(\.\d*)?|\.\d+)[eE][-+]?\d+")
 
 
 def parse_yaml(text: str, file: str) -> Node:
-    """Return the content of a YAML text.
-
-    Args:
-        text: the text.
-        file: name of its file, for messages.
+    """Return the content of a YAML text from a file.
 
     Raises:
-        CalibrationError: if it is not YAML, holds more than data, or is too long.
+        CalibrationError: as ``gate.parse_text``; if it holds more than data.
     """
+    return parse_text(text, file, Language("a YAML file", _parse, MAX_YAML_LENGTH))
+
+
+def _parse(text: str) -> Any:
+    """Return the content of a YAML text."""
     import yaml  # late: a window that reads no camera starts without it
 
-    if len(text) > MAX_YAML_LENGTH:
-        raise _make_error(file, "it is too long")
     text = _OPENCV_HEAD.sub("", text)
     try:
-        _check_depth(text, file)
-        content = yaml.load(text, _make_loader())
+        _check_events(text)
+        return yaml.load(text, _make_loader())
     except yaml.YAMLError as error:
         mark = getattr(error, "problem_mark", None)
         place = f" in line {mark.line + 1}" if mark else ""
-        raise _make_error(file, f"{getattr(error, 'problem', None) or error}{place}") from error
-    except (ValueError, TypeError, RecursionError) as error:
-        raise _make_error(file, "it holds an impossible value or nests too deeply") from error
-    return Node(content, "", file)
+        reason = f"{getattr(error, 'problem', None) or error}{place}"
+        raise NotOfLanguageError(reason) from error
 
 
 @cache
@@ -64,6 +67,13 @@ def _make_loader() -> Any:
 
         def flatten_mapping(self, node: yaml.MappingNode) -> None:
             """Follow no merge key."""
+
+        def construct_mapping(self, node: yaml.MappingNode, deep: bool = False) -> Any:
+            """Return an object, none of whose keys is repeated."""
+            members = super().construct_mapping(node, deep)
+            if len(members) < len(node.value):
+                refuse_repeated(self.construct_object(key, deep=True) for key, _ in node.value)
+            return members
 
         def construct_opencv(self, _suffix: str, node: yaml.Node) -> Any:
             """Return the object that a tag of OpenCV marks."""
@@ -78,20 +88,25 @@ def _make_loader() -> Any:
     return Loader
 
 
-def _check_depth(text: str, file: str) -> None:
-    """Refuse a text that nests too deeply: PyYAML's reader in C would crash."""
+def _check_events(text: str) -> None:
+    """Refuse a text that nests too deeply, on which PyYAML's reader in C crashes, or has aliases.
+
+    Raises:
+        NotOfLanguageError: with the reason.
+        yaml.YAMLError: if it is not YAML.
+    """
     import yaml
 
     depth = 0
     for event in yaml.parse(text, _make_loader()):
         depth += isinstance(event, yaml.CollectionStartEvent)
         depth -= isinstance(event, yaml.CollectionEndEvent)
-        if depth > _MAX_DEPTH:
-            raise _make_error(file, "it nests too deeply")
-
-
-def _make_error(file: str, reason: str) -> CalibrationError:
-    return CalibrationError(f"{file} is not a YAML file: {reason}.", "Choose another file.")
+        check_depth(depth)
+        if isinstance(event, yaml.AliasEvent):
+            raise NotOfLanguageError(
+                f"it has the alias *{str(event.anchor)[:20]}, and aliases are not followed: write "
+                "out what it stands for"
+            )
 
 
 def format_number(value: float) -> str:

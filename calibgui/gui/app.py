@@ -5,7 +5,6 @@ from __future__ import annotations
 import contextlib
 import ctypes
 import os
-import signal
 import sys
 from collections.abc import Sequence
 from pathlib import Path
@@ -27,6 +26,7 @@ from PySide6.QtWidgets import QApplication
 from calibgui.app.system.missing_library import describe_missing_library
 from calibgui.app.system.resources import find_resource
 from calibgui.engine.errors import CalibrationError
+from calibgui.gui.termination import TerminationNotifier
 from calibgui.gui.widgets import theme
 from calibgui.gui.window.main_window import MainWindow
 
@@ -45,7 +45,7 @@ def run(arguments: Sequence[str]) -> int:
     theme.follow_system(app)
     window = MainWindow()
     sys.excepthook = lambda kind, error, trace: _report(window, kind, error, trace)
-    signal.signal(signal.SIGINT, signal.SIG_DFL)
+    TerminationNotifier(lambda code: _end(window, code), window)
     window.open_up()
     QTimer.singleShot(0, window, window.prepare)
     if arguments:
@@ -54,6 +54,13 @@ def run(arguments: Sequence[str]) -> int:
     sys.excepthook = sys.__excepthook__  # the other one holds the window
     shiboken6.delete(window)  # before the application, without which its timers cannot end
     return code
+
+
+def _end(window: MainWindow, code: int) -> None:
+    """End the program with an exit code; nothing is asked, and unsaved work is kept."""
+    window.files.keep_work()
+    window.session.jobs.close()
+    QApplication.exit(code)
 
 
 def _create_application() -> QApplication:

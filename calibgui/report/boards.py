@@ -51,6 +51,8 @@ def describe_board(board: Board) -> str:
     if isinstance(pattern, AprilGrid):
         text = f"AprilGrid of {rows / 2:g} x {cols / 2:g} tags, {rows} x {cols} corners"
         text += _describe_tags(pattern.family, pattern.border, pattern.from_top)
+        if pattern.first_tag:
+            text += f", first tag {pattern.first_tag}"
         if pattern.corner_squares is False:
             text += ", no dark squares between them"
         gap = pattern.spacing

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import assert_never
 
 import numpy as np
 
@@ -73,20 +74,25 @@ def describe_check(
 def describe_verdict(check: CalibrationCheck) -> str:
     """Say in one sentence or two whether the calibration is still good."""
     change = f"{_format_change(check)} px"
-    if check.verdict is CheckVerdict.STILL_GOOD:
-        return (
-            f"The calibration is still good: the camera's change, {change}, is below "
-            f"{check.limit:g} px."
-        )
-    if check.verdict is CheckVerdict.HAS_CHANGED:
-        return (
-            f"The camera has changed: by {change}, which is above {check.limit:g} px by more than "
-            f"{CONFIDENCE:g} standard deviations. Calibrate it again."
-        )
-    return (
-        f"These pictures cannot tell whether the camera has changed by more than {check.limit:g} "
-        f"px: its change is {change}. Add pictures {_ADVICE[check.weakness]}."
-    )
+    match check.verdict:
+        case CheckVerdict.STILL_GOOD:
+            return (
+                f"The calibration is still good: the camera's change, {change}, is below "
+                f"{check.limit:g} px."
+            )
+        case CheckVerdict.HAS_CHANGED:
+            return (
+                f"The camera has changed: by {change}, which is above {check.limit:g} px by more "
+                f"than {CONFIDENCE:g} standard deviations. Calibrate it again."
+            )
+        case CheckVerdict.CANNOT_TELL:
+            return (
+                "These pictures cannot tell whether the camera has changed by more than "
+                f"{check.limit:g} px: its change is {change}. Add pictures "
+                f"{_ADVICE[check.weakness]}."
+            )
+        case _:
+            assert_never(check.verdict)
 
 
 def _list_remarks(check: CalibrationCheck) -> list[str]:

@@ -24,7 +24,7 @@ from calibgui.engine.assessment import (
 from calibgui.engine.boards import BoardShape
 from calibgui.engine.calibration import Calibration, Iteration, StageOne, evaluate_cosines_equation
 from calibgui.engine.camera import Camera, DisplacementPart, compute_displacement
-from calibgui.engine.detection import Corners
+from calibgui.engine.features import Corners
 from calibgui.engine.geometry import centre_of_array
 from calibgui.engine.images import make_mesh
 

@@ -11,7 +11,7 @@ from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from html import escape
 from urllib.parse import quote
 
-from calibgui.dataset.fleet import Estimate, FleetFigures, FleetStatus
+from calibgui.dataset.fleet import Estimate, FleetFigures
 from calibgui.engine.assessment import MIN_FLEET, OUTLIER_Z
 from calibgui.engine.camera import PINHOLE
 from calibgui.formats.origin import FLEET_PAGE, make_mark
@@ -160,7 +160,7 @@ _CHANGE = ("Against", "Changed by [px rms]", "Largest [px]", "Explained [px rms]
 
 def _make_tiles(overview: FleetOverview) -> str:
     """Count the cameras by what became of them."""
-    refused = sum(one.camera.status is FleetStatus.REFUSED for one in overview.placed)
+    refused = sum(one.camera.figures is None for one in overview.placed)
     counts = {
         "cameras": len(overview.placed),
         "pass": len(overview.placed) - len(overview.failed),

@@ -2,10 +2,10 @@
 
 The tables have a row for each method: what it says of the camera, how well it predicts views that
 it has not seen, and how far its camera is from the chosen one. What is compared means the same for
-all methods: pixels of the array frame, each value with one standard deviation by the corners' noise
-alone. What a method does not estimate is a dash, never a zero. Coefficients of different lens
-models mean different things even where they share a name; they are listed with their model, and
-what the tables compare is how far the distortion moves the outermost corners.
+all methods: pixels of the array frame, each value with one standard deviation, as a calibration by
+that method states it. What a method does not estimate is a dash, never a zero. Coefficients of
+different lens models mean different things even where they share a name; they are listed with their
+model, and what the tables compare is how far the distortion moves the outermost corners.
 """
 
 from __future__ import annotations
@@ -37,7 +37,8 @@ _NEAR_SIGMAS = 2.0
 _LINE_UNITS = {"k1": " px^-2", "k2": " px^-4"}
 """Units of the coefficients of methods without lengths."""
 _LEGEND = (
-    "Each value has one standard deviation by the corners' noise below it; - is not estimated. "
+    "Each value has one standard deviation below it, that of calibgui calibrate by that method (of "
+    "methods marked *, that of the corners' noise); - is not estimated. "
     "skew: fx times the coefficient, the shift across the image over a length of fy down it. "
     "shift: how far the distortion moves points that are measured {radius:.0f} px from the "
     "principal point, the outermost corner's distance; negative towards it. cx and cy of methods "
@@ -73,8 +74,8 @@ class MethodRow:
     """Kind of the outcome: "camera"; "lines" if the method knows no lengths and gives a distortion
     only; "refused" if it gives nothing."""
     values: Mapping[str, tuple[float, float]]
-    """Those of `QUANTITIES` that the method estimates, with one standard deviation by the corners'
-    noise, NaN where that is not known. The centre of a method of the kind "lines" is that of the
+    """Those of `QUANTITIES` that the method estimates, with one standard deviation, NaN where
+    that is not known. The centre of a method of the kind "lines" is that of the
     distortion."""
     shift: tuple[float, float] | None
     """Shift of the outermost corners by the distortion along the radius, with its standard
@@ -154,7 +155,7 @@ def _make_camera_row(trial: MethodTrial) -> MethodRow:
         coefficients=_list_coefficients(
             (name, value, sigma)
             for name, value, sigma in zip(
-                found.camera.names, found.camera.params, found.sigma_by_noise, strict=True
+                found.camera.names, found.camera.params, found.sigma, strict=True
             )
             if name not in (*QUANTITIES, *found.fixed)
         ),
@@ -170,11 +171,11 @@ def _make_camera_row(trial: MethodTrial) -> MethodRow:
 
 
 def _list_values(found: Calibration) -> dict[str, tuple[float, float]]:
-    """List the estimated values of a camera in px, with one standard deviation by noise."""
+    """List the estimated values of a camera in px, with one standard deviation."""
     names = found.camera.names
     estimated = {
         name: (float(value), float(sigma))
-        for name, value, sigma in zip(names, found.camera.params, found.sigma_by_noise, strict=True)
+        for name, value, sigma in zip(names, found.camera.params, found.sigma, strict=True)
         if name in QUANTITIES and name not in found.fixed
     }
     if "skew" in estimated:
@@ -283,7 +284,7 @@ def _describe_agreement(best: MethodRow, others: Sequence[MethodRow]) -> str:
     judged = {name: distance for name, distance in distances.items() if math.isfinite(distance)}
     agreeing = [name for name, distance in judged.items() if distance <= _NEAR_SIGMAS]
     apart = [f"{name} ({judged[name]:.1f})" for name in judged if name not in agreeing]
-    limit = "two of their own standard deviations by noise"
+    limit = "two of their own standard deviations"
     if not judged:
         return ""
     if not agreeing:

@@ -15,6 +15,7 @@ from calibgui.engine.assessment import (
     CameraDifference,
     CrossValidation,
     Finding,
+    LengthUncertainty,
     NoiseReport,
 )
 from calibgui.engine.boards import Board
@@ -23,7 +24,7 @@ from calibgui.engine.numbers import format_two_digits
 from calibgui.engine.uncertainty import QUANTITIES, NextView, ProjectionUncertainty, ViewCountStudy
 from calibgui.report.boards import name_point
 from calibgui.report.numbers import format_count
-from calibgui.report.tables import align_columns, format_bullet
+from calibgui.report.tables import align_columns, fill_lines, format_bullet
 
 _TABULATED_COUNTS = (
     2,
@@ -54,6 +55,23 @@ _MAX_BOOTSTRAP_RATIO = 1.5
 single value has twice as much, as its ratio scatters."""
 _MIN_VIEWS_TO_RESAMPLE = 10
 """Number of views below which a draw holds 6 different ones or fewer in the mean."""
+
+
+def describe_length_uncertainty(found: LengthUncertainty) -> str:
+    """Describe how wrong a length is, with k = 2, where it is known worst and in the median."""
+    k = found.worst
+    sigma, (u, v) = found.sigma[k], found.uv[k]
+    share = float(found.by_calibration[k] ** 2 / sigma**2)
+    where = f"at pixel {u:.0f}, {v:.0f}"
+    if len(found.uv) > 1:
+        median = format_two_digits(2 * float(np.nanmedian(found.sigma)))
+        where = f"{where}, where it is known worst; ± {median} mm in the median over the image"
+    text = (
+        f"{found.length:g} mm at {found.depth:g} mm: ± {format_two_digits(2 * float(sigma))} mm "
+        f"(k = 2) {where}. Of the variance {100 * share:.0f} % are the calibration's and "
+        f"{100 * (1 - share):.0f} % the noise of two corners. The distance counts as known."
+    )
+    return fill_lines(text, "", "  ")
 
 
 def describe_distance(distance: float) -> str:
@@ -134,11 +152,8 @@ def tabulate_cross_validation(found: CrossValidation) -> str:
 
 def tabulate_board_shape_choice(choice: BoardShapeChoice) -> str:
     """Tabulate models of the board's shape by their error on unseen views, and recommend one."""
-    rows = [
-        [model, f"{found.training:.4f}", f"{found.held_out:.4f}"]
-        for model, found in choice.validations.items()
-    ]
-    head = ["shape", "training rms, px", "held-out rms, px"]
+    rows = [[model, f"{found.held_out:.4f}"] for model, found in choice.validations.items()]
+    head = ["shape", "rms of unseen views, px"]
     table = "Board shapes on unseen views\n" + align_columns([head, *rows], left=(0,))
     refused = [f"{model}: {reason}" for model, reason in choice.refused.items()]
     return "\n".join([table, *map(format_bullet, [*refused, choice.recommendation])])

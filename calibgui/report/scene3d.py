@@ -16,6 +16,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from enum import StrEnum
+from typing import assert_never
 
 import numpy as np
 
@@ -72,17 +73,20 @@ def build_scene(result: Result, centre: SceneCentre) -> tuple[Polygon, ...]:
     T = np.array([pose.tvec for pose in poses])
     size = _RELATIVE_CAMERA_LENGTH * float(np.linalg.norm(T, axis=1).mean())
     body = _make_camera_faces(camera, size)
-    if centre is SceneCentre.CAMERA:
-        shared = [Polygon(face, PolygonKind.CAMERA, -1) for face in body]
-        boards = outline @ R.swapaxes(1, 2) + T[:, None]
-        placed = [Polygon(points, PolygonKind.BOARD, k) for k, points in enumerate(boards)]
-    else:
-        shared = [Polygon(outline, PolygonKind.BOARD, -1)]
-        placed = [
-            Polygon((face - T[k]) @ R[k], PolygonKind.CAMERA, k)
-            for k in range(len(poses))
-            for face in body
-        ]
+    match centre:
+        case SceneCentre.CAMERA:
+            shared = [Polygon(face, PolygonKind.CAMERA, -1) for face in body]
+            boards = outline @ R.swapaxes(1, 2) + T[:, None]
+            placed = [Polygon(points, PolygonKind.BOARD, k) for k, points in enumerate(boards)]
+        case SceneCentre.BOARD:
+            shared = [Polygon(outline, PolygonKind.BOARD, -1)]
+            placed = [
+                Polygon((face - T[k]) @ R[k], PolygonKind.CAMERA, k)
+                for k in range(len(poses))
+                for face in body
+            ]
+        case _:
+            assert_never(centre)
     return (*shared, *placed)
 
 

@@ -165,8 +165,10 @@ def _describe_diagnosis(result: Result) -> Iterator[Sentence]:
 
 
 def _describe_ending(result: Result, findings: Sequence[Finding]) -> Iterator[Sentence]:
-    """Describe how the solve ended, where it did not converge, and its warnings."""
+    """Describe what made the camera better, how the solve ended, and its warnings."""
     calibration = result.calibration
+    for improvement in result.improvements:
+        yield Sentence(Tone.FACT, improvement)
     if calibration.status is Status.STOPPED:
         yield Sentence(
             Tone.CAUTION,
@@ -180,7 +182,7 @@ def _describe_ending(result: Result, findings: Sequence[Finding]) -> Iterator[Se
             "Allow more of them, or hold the parameters that the views do not determine.",
         )
     for warning in calibration.warnings:
-        is_choice = warning == calibration.settings.get("model_reason")
+        is_choice = warning == calibration.settings.model_reason
         yield Sentence(Tone.FACT if is_choice else Tone.CAUTION, warning)
 
 
@@ -194,7 +196,7 @@ def _describe_findings(findings: Sequence[Finding]) -> Iterator[Sentence]:
 
 def describe_outliers(result: Result) -> str:
     """Say how many corners were left out as outliers; empty if all were to be kept."""
-    count = result.calibration.settings.get("outliers")
+    count = result.calibration.settings.outliers
     if not count:
         return "" if count is None else "no outliers to leave out"
     return f"{format_count(count, name_point(result.board))} left out as outliers"
@@ -202,7 +204,7 @@ def describe_outliers(result: Result) -> str:
 
 def is_board_shape_held(calibration: Calibration) -> bool:
     """Return whether the shape of the board was given, and not estimated."""
-    return bool(calibration.settings.get("plate_held", False))
+    return bool(calibration.settings.is_board_shape_held)
 
 
 def describe_board_shape(board_shape: BoardShape) -> str:
@@ -417,8 +419,10 @@ def describe_unequal_pixels(calibration: Calibration, findings: Sequence[Finding
     if is_open or off <= max(_MIN_OFF_SQUARE, _MIN_SIGMAS_OFF_SQUARE * sigma):
         return ""
     return (
-        f"The pixels are not square, fy/fx = {format_with_sigma(ratio, sigma)}, as if the images "
-        "were scaled unequally. If so, take them as the camera writes them."
+        f"The pixels are not square, fy/fx = {format_with_sigma(ratio, sigma)}: so are those of "
+        "anamorphic lenses and of PAL and NTSC video, and `calibgui undistort --square-pixels` "
+        "makes them square. If a program has scaled the images, take them as the camera writes "
+        "them."
     )
 
 

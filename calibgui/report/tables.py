@@ -54,6 +54,8 @@ _MAX_NAMES = 6
 """Number of images that are named, of those that are left out for the same reason."""
 _MIN_TOLD_GAIN = 1.1
 """Ratio of errors from which it is said by how much an action makes the camera better."""
+_USUAL = "--model lucchese"
+"""The options of the lens model that is taken where nothing demands another."""
 _MAX_LINES = 20
 """Number of lines of a short report, to which the command line adds the files that it wrote."""
 _COSTS = {
@@ -91,14 +93,16 @@ def format_report(result: Result, *, verbose: bool = False) -> str:
 def _format_briefly(result: Result, verdict: Verdict, remarks: Sequence[str]) -> str:
     """Format the verdict, the camera and its RMS, with as many remarks as leave it short.
 
-    One on the camera's pixels is never left out, and stands below the camera.
+    What made the camera better is never left out, nor is a remark on the camera's pixels, which
+    stands below the camera.
     """
+    improved = [format_bullet(text) for text in result.improvements]
     unequal = describe_unequal_pixels(result.calibration, verdict.findings)
     camera = [tabulate_camera(result.calibration), *([format_bullet(unequal)] if unequal else [])]
     remarks = [remark for remark in remarks if remark not in camera]
     for count in range(len(remarks), -1, -1):
         text = _join_sections(
-            "\n".join([*_format_verdict(result, verdict), *remarks[:count]]),
+            "\n".join([*_format_verdict(result, verdict), *improved, *remarks[:count]]),
             list_unused_views(result.views),
             "\n".join(camera),
             fill_lines(describe_rms(result), "", "  "),
@@ -246,13 +250,17 @@ def tabulate_camera(calibration: Calibration) -> str:
     if len(lens) > _MAX_COEFFICIENTS:
         lens = [["", f"and {len(lens)} parameters of the lens model {camera.model}", ""]]
     columns = zip_longest(rows[:4], lens, fillvalue=["", "", ""])
-    chosen = calibration.settings.get("model_reason")
+    chosen = calibration.settings.model_reason
     options = _format_model_options(calibration)
     return "\n".join(
         [
             _make_camera_title(calibration),
             align_columns([[*a, " ", *b] for a, b in columns], left=range(7)),
-            *([format_bullet(f"{chosen} That is {options}.")] if chosen else []),
+            *(
+                [format_bullet(f"{chosen} That is {options}.")]
+                if chosen and options != _USUAL
+                else []
+            ),
         ]
     )
 

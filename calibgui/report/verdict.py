@@ -13,7 +13,6 @@ import numpy as np
 from calibgui.dataset import Result, View
 from calibgui.engine.assessment import (
     Action,
-    ActionKind,
     Grade,
     Verdict,
     summarise_residuals,
@@ -114,38 +113,31 @@ def describe_options(action: Action, result: Result) -> str:
         action: the action.
         result: the result that the action is about.
     """
-    if action.kind is ActionKind.FREE_HELD_VALUE:
-        return f"leave {','.join(action.parameters)} out of --fix"
-    options = _format_own_options(action, [view.name for view in result.used])
-    if action.takes_image_cost:
+    change = action.change
+    if change is None:
+        return ""
+    if change.releases:
+        return f"leave {','.join(change.releases)} out of --fix"
+    given = {
+        "--board-shape": change.board_shape,
+        "--model": change.lens_model,
+        "--fix": ",".join(change.holds_at_zero),
+        "--free": ",".join(change.frees),
+        "--exclude": _list_files([view.name for view in result.used], change.leaves_out_views),
+    }
+    options = [f"{option} {value}" for option, value in given.items() if value]
+    options += ["--robust"] * change.leaves_out_corners + ["--weigh-views"] * change.weighs_views
+    if change.takes_image_cost:
         if result.calibration.cost is not Cost.IMAGE:
-            options += f" --cost {Cost.IMAGE.value}"
-        if "method" in result.calibration.settings:
-            options += f" --method {DEFAULT_METHOD}"
-    return options and f"add {options}"
+            options.append(f"--cost {Cost.IMAGE.value}")
+        if result.calibration.settings.method != DEFAULT_METHOD:
+            options.append(f"--method {DEFAULT_METHOD}")
+    return f"add {' '.join(options)}"
 
 
-def _format_own_options(action: Action, names: Sequence[str]) -> str:
-    """Format the options that are the action's own; empty if it has none."""
-    parameters = ",".join(action.parameters)
-    match action.kind:
-        case ActionKind.ESTIMATE_BOARD_SHAPE:
-            return f"--board-shape {action.model or 'auto'}"
-        case ActionKind.CHOOSE_LENS_MODEL:
-            held = f" --fix {parameters}" if parameters else ""
-            return f"--model {action.model or 'auto'}{held}"
-        case ActionKind.ESTIMATE_SKEW:
-            return f"--model {action.model} --free {parameters}"
-        case ActionKind.LEAVE_OUT_CORNERS:
-            return "--robust"
-        case ActionKind.LEAVE_OUT_VIEWS:
-            return "--exclude " + shlex.join(_abbreviate_names(names, action.views))
-        case ActionKind.HOLD_AT_ZERO:
-            return f"--fix {parameters}"
-        case ActionKind.WEIGH_VIEWS:
-            return "--weigh-views"
-        case _:
-            return ""
+def _list_files(names: Sequence[str], chosen: Sequence[int]) -> str:
+    """List the `chosen` of some names as arguments of a command."""
+    return shlex.join(_abbreviate_names(names, chosen)) if chosen else ""
 
 
 def _abbreviate_names(names: Sequence[str], chosen: Sequence[int]) -> list[str]:

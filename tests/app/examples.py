@@ -14,7 +14,7 @@ from calibgui.app.projects.project import Project, add_result
 from calibgui.dataset import CornerSet, Result, View, ViewStatus
 from calibgui.engine.boards.board import Board
 from calibgui.engine.camera.camera import Camera
-from calibgui.engine.detection.corners import Corners
+from calibgui.engine.features.corners import Corners
 from tests.engine import scenes
 
 BOARD = Board(rows=6, cols=7, square=30.0)

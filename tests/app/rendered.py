@@ -9,7 +9,7 @@ from calibgui import engine
 from calibgui.dataset import Result, View, ViewStatus
 from calibgui.engine.boards.board import Board
 from calibgui.engine.camera.camera import Camera
-from calibgui.engine.detection.corners import Corners
+from calibgui.engine.features.corners import Corners
 from calibgui.engine.geometry.pose import Pose
 from tests.engine import scenes
 

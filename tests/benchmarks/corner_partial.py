@@ -14,9 +14,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from calibgui.engine.detection.corners import Corners
 from calibgui.engine.detection.find_corners import find_corners
 from calibgui.engine.errors import NoBoardError
+from calibgui.engine.features.corners import Corners
 from tests.scenes.checkerboards import Scene, draw
 from tests.scenes.conditions import Conditions
 

@@ -25,7 +25,7 @@ import numpy as np
 from threadpoolctl import threadpool_limits
 
 from calibgui.engine.arrays import Array
-from calibgui.engine.assessment.choices.cross_validation import choose_board_shape
+from calibgui.engine.assessment.choices.board_shape_choice import choose_board_shape
 from calibgui.engine.assessment.choices.lens_choice import choose_lens_stepwise
 from calibgui.engine.assessment.choices.lens_trial import LensTrial
 from calibgui.engine.calibration.calibrate import calibrate

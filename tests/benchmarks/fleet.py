@@ -5,7 +5,7 @@
 renders cameras of 12 VGA photographs to FOLDER, unless they are there, and calibrates them
 
 - in a plain loop in this process, as a script would, and
-- by `run_batch` on 1 and on 2 workers, of Dask and of the pool of processes.
+- by `run_batch` on 1 and on 2 processes.
 
 Times are seconds of the clock and of the processors, the latter of this process and all workers.
 Overhead is the processor time of a batch that its cameras did not take themselves, as a share of
@@ -25,13 +25,11 @@ import subprocess
 import tempfile
 import time
 from collections.abc import Callable, Iterator, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Any, TypeVar
 
-import pytest
-
 from calibgui.app.calibrating.settings import Settings
-from calibgui.app.fleet import schedulers
 from calibgui.app.fleet.batch import run_batch
 from calibgui.app.fleet.camera_task import (
     FleetFolder,
@@ -61,7 +59,9 @@ class Pretend:
     def run(self, _: Callable[[T], R], items: Sequence[Any]) -> Iterator[tuple[int, Any]]:
         for k, work in enumerate(items):
             state = compute_state(work.task, list_photographs(work.task.paths))
-            yield k, FleetCamera(work.task.entry, FleetStatus.DONE, digest=state, state=state)
+            words = "It is made up."
+            row = FleetCamera(work.task.entry, FleetStatus.REFUSED, words, failures=(words,))
+            yield k, replace(row, digest=state, state=state)
 
 
 def render(folder: Path) -> None:
@@ -127,7 +127,7 @@ def loop(tasks: Sequence[CameraTask]) -> None:
     )
 
 
-def batch(tasks: Sequence[CameraTask], name: str, workers: int, is_dask: bool) -> None:
+def batch(tasks: Sequence[CameraTask], workers: int) -> None:
     """Calibrate by `run_batch`, and print what it costs."""
     clocks: list[float] = []
     memory: list[float] = []
@@ -138,19 +138,20 @@ def batch(tasks: Sequence[CameraTask], name: str, workers: int, is_dask: bool) -
             memory.append(measure_largest_worker())
 
     clock, used = time.perf_counter(), measure_processor()
-    with tempfile.TemporaryDirectory() as folder, pytest.MonkeyPatch.context() as patch:
-        patch.setattr(schedulers, "has_dask", lambda: is_dask)
-        with open_ledger(Path(folder) / "fleet.db", create=True) as ledger:
-            with open_scheduler(workers) as scheduler:
-                run_batch(tasks, ledger, scheduler, progress=note)
-            cameras = sorted(row.cpu_seconds for row in ledger.read())
+    with (
+        tempfile.TemporaryDirectory() as folder,
+        open_ledger(Path(folder) / "fleet.db", create=True) as ledger,
+        open_scheduler(workers) as scheduler,
+    ):
+        run_batch(tasks, ledger, scheduler, progress=note)
+        cameras = sorted(row.cpu_seconds for row in ledger.read())
     used = measure_processor() - used
     # Each worker's first camera loads kernels.
     typical, total = cameras[len(cameras) // 2], sum(cameras)
     first = workers  # cameras until all workers have begun
     rate = (len(tasks) - first) / (clocks[-1] - clocks[first - 1])
     print(
-        f"{name:<10}{workers} workers   clock {1 / rate:.3f}, processor {typical:.3f} s a camera; "
+        f"pool of {workers}           clock {1 / rate:.3f}, processor {typical:.3f} s a camera; "
         f"start and end {clocks[0] - clock:.1f} s; beside the cameras {used - total:.1f} s of "
         f"processor, {100 * (used - total) / total:.1f} %; largest worker after a quarter "
         f"{memory[0]:.0f}, at the end {memory[-1]:.0f} MB"
@@ -184,9 +185,8 @@ def main() -> None:
     print(f"{len(tasks)} cameras of {VIEWS} photographs, load {os.getloadavg()[0]:.1f}")
     rerun(tasks[0])
     loop(tasks)
-    for is_dask, name in ((False, "pool"), (True, "Dask")):
-        for workers in (1, 2):
-            batch(tasks, name, workers, is_dask)
+    for workers in (1, 2):
+        batch(tasks, workers)
 
 
 if __name__ == "__main__":

@@ -36,12 +36,12 @@ from threadpoolctl import threadpool_limits
 from calibgui.engine.arrays import Array
 from calibgui.engine.assessment.choices.method_comparison import measure_radial_shift
 from calibgui.engine.calibration.calibrate import calibrate
-from calibgui.engine.calibration.methods import DEFAULT_METHOD, METHODS
+from calibgui.engine.calibration.methods import METHODS
 from calibgui.engine.calibration.methods.dlt import make_dlt
 from calibgui.engine.calibration.methods.method import Method
 from calibgui.engine.calibration.methods.plumb_line import LINE_METHODS, PlumbLine
 from calibgui.engine.calibration.observations import Observation
-from calibgui.engine.calibration.result import Calibration
+from calibgui.engine.calibration.result import DEFAULT_METHOD, Calibration
 from calibgui.engine.camera.camera import Camera
 from calibgui.engine.camera.models import find_model, list_parameter_names
 from calibgui.engine.geometry.frames import centre_of_array

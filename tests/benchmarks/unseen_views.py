@@ -175,13 +175,18 @@ def list_sets(data: Path) -> dict[str, Callable[[], ImageSet]]:
     return sets
 
 
-def load(name: str, make: Callable[[], ImageSet]) -> ImageSet:
-    """Return a set from the folder of temporary files, or make it and keep it there."""
+def digest_detector() -> str:
+    """Return a few digits that tell one state of the detector's sources from another."""
     digest = hashlib.sha256()
     for source in sorted(Path(detection.__file__).parent.rglob("*.py")):
         digest.update(source.read_bytes())
+    return digest.hexdigest()[:12]
+
+
+def load(name: str, make: Callable[[], ImageSet]) -> ImageSet:
+    """Return a set from the folder of temporary files, or make it and keep it there."""
     folder = Path(tempfile.gettempdir()) / "calibgui-unseen-views"
-    file = folder / f"{name.replace(' ', '-')}-{digest.hexdigest()[:12]}.npz"
+    file = folder / f"{name.replace(' ', '-')}-{digest_detector()}.npz"
     if not file.is_file():
         made = make()
         arrays: dict[str, Any] = {}

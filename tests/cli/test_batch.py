@@ -32,9 +32,7 @@ def fleet(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def finished(fleet: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The ledger of both, made by a pool of processes."""
     ledger = tmp_path_factory.mktemp("ledger") / "fleet.db"
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(schedulers, "has_dask", lambda: False)
-        assert main(["batch", str(fleet), "-o", str(ledger), *BOARD]) == 0
+    assert main(["batch", str(fleet), "-o", str(ledger), *BOARD]) == 0
     return ledger
 
 
@@ -44,7 +42,6 @@ def test_everything_done_is_said_and_nothing_is_started(
     assert main(["batch", str(fleet), "-o", str(finished), *BOARD]) == 0
     printed = capsys.readouterr().out
     assert "2 cameras: 2 done before, 2 pass, 0 fail." in printed
-    assert "dashboard" not in printed
     with open_ledger(finished) as ledger:
         assert [camera.id for camera in ledger.read()] == ["c0", "c1"]
 
@@ -136,6 +133,7 @@ def test_parquet_is_written_or_the_library_is_named(
     [
         (["--workers", "0"], "not a number of processes"),
         (["--workers", "2", "--scheduler", "tcp://x:1"], "not allowed with"),
+        (["--scheduler", "head"], "no address such as tls://host:8786"),
         (["--square", "-1"], "not a length above 0"),
         (["--model", "pinhol"], "pinhol"),
     ],
@@ -176,3 +174,27 @@ def test_the_square_has_a_unit_as_in_every_subcommand() -> None:
     assert options.square == pytest.approx(25)
     with pytest.raises(SystemExit):
         parser.parse_args(["cameras.csv", "-o", "out", "--square", "0.025"])
+
+
+@pytest.mark.parametrize(
+    ("address", "who"),
+    [("tcp://127.0.0.1:9", "whoever can reach it"), ("tls://127.0.0.1:9", "who has a certificate")],
+)
+def test_what_a_scheduler_may_do_is_said_before_it_is_reached(
+    address: str,
+    who: str,
+    fleet: Path,
+    tmp_path: Path,
+    capsys: pytest.CaptureFixture[str],
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(schedulers, "has_dask", lambda: False)
+    command = ["batch", str(fleet), "-o", str(tmp_path / "fleet.db"), *BOARD[:4]]
+    assert main([*command, "--scheduler", address]) == 1
+    printed = " ".join(capsys.readouterr().out.split())
+    assert f"The scheduler {address} is trusted" in printed
+    assert f"{who} " in printed
+    assert "can run code as you" in printed
+    with pytest.raises(SystemExit):
+        main(["batch", "--help"])
+    assert "can run code as you" in " ".join(capsys.readouterr().out.split())

@@ -6,7 +6,6 @@ import io
 import json
 import math
 import shutil
-import sys
 from dataclasses import fields
 from pathlib import Path
 from typing import Any
@@ -14,7 +13,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from calibgui.app.calibrating.settings import Settings
+from calibgui.app.calibrating.settings import BEST_SETTINGS, Settings
 from calibgui.cli.arguments import parse_length
 from calibgui.cli.main import main
 from calibgui.engine.boards.shape import BoardShapeModel, BoardShapePrior
@@ -22,6 +21,7 @@ from calibgui.engine.calibration.result import Cost
 from calibgui.engine.camera.models import list_parameter_names
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.images.reading import write_image
+from calibgui.formats import EXPORTERS, read_camera
 from calibgui.formats.result_json import read_result
 from tests.photographs import BOARD, CAMERA, COUNT
 
@@ -79,7 +79,7 @@ def test_every_setting_has_its_option(corners_file: Path, monkeypatch: pytest.Mo
         asked.append(settings)
         raise CalibrationError("noted", "")
 
-    monkeypatch.setattr("calibgui.cli.calibrate.calibrate_twice", noted)
+    monkeypatch.setattr("calibgui.cli.calibrate.calibrate_best", noted)
     options = [
         "--fix",
         "k3,fx=650",
@@ -98,7 +98,9 @@ def test_every_setting_has_its_option(corners_file: Path, monkeypatch: pytest.Mo
     main(["calibrate", str(corners_file), "--model", "brown-conrady"])
     main(["calibrate", str(corners_file), "--method", "bouguet"])
     main(["calibrate", str(corners_file), "--model", "auto", "--method", "lucchese"])
-    changed, other, forward, toolbox, automatic = asked
+    main(["calibrate", str(corners_file), "--for", "colmap=cameras.txt"])
+    changed, other, forward, toolbox, automatic, native = asked
+    assert native.model is None and native.candidates[0] == "brown-conrady-4"
     assert other.cost is Cost.REFERENCE
     assert other.board_shape is BoardShapeModel.FREE  # by the older name of the option
     assert forward.model == "brown-conrady"
@@ -110,20 +112,44 @@ def test_every_setting_has_its_option(corners_file: Path, monkeypatch: pytest.Mo
         robust=True,
         weigh_views=True,
         once=True,
+        improve=True,
     )
     assert (toolbox.method, toolbox.model) == ("bouguet", "brown-conrady-4")
     assert (automatic.method, automatic.model) == ("lucchese", None)
     # Those that take all corners as equally good take few of these settings.
-    names = {field.name for field in fields(Settings)} - {"cost", "model", "method"}
+    elsewhere = {"cost", "model", "candidates", "method"}
+    names = {field.name for field in fields(Settings)} - elsewhere
     assert all(getattr(changed, name) != getattr(Settings(), name) for name in names)
 
 
-def test_a_comparison_of_board_shapes_is_said(
-    corners_file: Path, capsys: Capture, monkeypatch: pytest.MonkeyPatch
+def test_what_is_not_stated_is_chosen_unless_the_rest_is_asked_for_as_it_is(
+    corners_file: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(sys.stderr, "isatty", lambda: True)
-    assert main(["calibrate", str(corners_file), "--board-shape", "auto"]) == 0
-    assert "Board shapes will be compared" in capsys.readouterr().err
+    asked: list[Settings] = []
+
+    def noted(_: object, settings: Settings, **__: object) -> None:
+        asked.append(settings)
+        raise CalibrationError("noted", "")
+
+    monkeypatch.setattr("calibgui.cli.calibrate.calibrate_best", noted)
+    for options in (
+        "",
+        "--as-asked",
+        "--model brown-conrady",
+        "--board-shape nominal",
+        "--prior 0.1,0.3 --square 30",
+        "--fix k3",
+        "--method bouguet",
+    ):
+        main(["calibrate", str(corners_file), *options.split()])
+    best, plain, model, board, prior, fixed, method = asked
+    assert best == BEST_SETTINGS
+    assert plain == method.__class__()
+    assert (model.model, model.board_shape, model.improve) == ("brown-conrady", None, True)
+    assert (board.model, board.board_shape) == (None, BoardShapeModel.NOMINAL)
+    assert (prior.model, prior.board_shape) == (None, BoardShapeModel.NOMINAL)
+    assert (fixed.model, fixed.board_shape) == ("lucchese", None)
+    assert not method.improve and method.board_shape is BoardShapeModel.NOMINAL
 
 
 def test_a_focal_length_is_held_in_pixels(capsys: Capture) -> None:
@@ -265,7 +291,7 @@ def test_corners_and_results_pass_through_the_standard_streams(
     assert main(["convert", "-", "--export", f"ros={tmp_path / 'camera.yaml'}"]) == 0
     read_on("no JSON")
     assert main(["calibrate", "-"]) == 1
-    assert "standard-input is not a JSON file" in capsys.readouterr().err
+    assert "standard-input is not a file of corners" in capsys.readouterr().err
 
 
 def test_parameters_are_held_and_freed(corners_file: Path, tmp_path: Path, capsys: Capture) -> None:
@@ -468,12 +494,12 @@ def test_outputs_are_checked_before_the_work(
         ["a.png", "--square", "30", "--method", "bouguet", "--plate", "free"],
         ["a.png", "--square", "30", "--method", "bouguet", "--weigh-views"],
         ["a.png", "--square", "30", "--weigh-views", "--cost", "paper"],
-        ["a.png", "--square", "30", "--save-board-shape", "a.json"],
+        ["a.png", "--square", "30", "--as-asked", "--save-board-shape", "a.json"],
         ["a.png", "--square", "30", "--board-shape", "free", "--prior", "0.1"],
         ["a.png", "--square", "30", "--plate", "free", "--prior", "0.1"],
         ["a.png", "--square", "30", "--plate", "bow", "--prior", "0.1,0.3"],
         ["a.png", "b.json", "--square", "30"],
-        ["corners.json", "--board", "6x7"],
+        ["corners.json", "--target", "charuco"],
         ["corners.json", "--corners", "saddle"],
     ],
 )
@@ -493,7 +519,7 @@ def test_the_papers_images(bouguet: Path, tmp_path: Path) -> None:
     """Bouguet's published camera, from nothing but his 25 photographs."""
     file = tmp_path / "result.json"
     images = [str(bouguet / f"Image{number}.tif") for number in range(1, 26)]
-    options = ["--square", "30", "--board", "12x13", "-q", "-o", str(file)]
+    options = ["--as-asked", "--square", "30", "--board", "12x13", "-q", "-o", str(file)]
     assert main(["calibrate", *images, *options]) == 0
     record = json.loads(file.read_text())
     assert [view["corners"] for view in record["views"]] == [156] * 25
@@ -503,3 +529,23 @@ def test_the_papers_images(bouguet: Path, tmp_path: Path) -> None:
     params = record["camera"]["params"]
     assert abs(params["fx"] - 657.30) < 1.0 and abs(params["fy"] - 657.75) < 1.0
     assert abs(params["cx"] - 302.98) < 1.5 and abs(params["cy"] - 242.48) < 1.5
+
+
+@pytest.mark.parametrize("reader", ["opencv", "kalibr"])
+def test_a_reader_gets_the_camera_as_it_was_calibrated(
+    reader: str, corners_file: Path, tmp_path: Path, capsys: Capture
+) -> None:
+    file = tmp_path / "camera.yaml"
+    assert main(["calibrate", str(corners_file), "--for", f"{reader}={file}"]) == 0
+    told = " ".join(capsys.readouterr().out.split())
+    assert f"Wrote {file}. Lens model " in told and "as calibrated." in told
+    assert read_camera(file).camera.model in EXPORTERS[reader].models
+
+
+def test_a_reader_and_a_lens_model_do_not_go_together(
+    corners_file: Path, tmp_path: Path, capsys: Capture
+) -> None:
+    reader = f"ros={tmp_path / 'camera.yaml'}"
+    with pytest.raises(SystemExit):
+        main(["calibrate", str(corners_file), "--for", reader, "--model", "pinhole"])
+    assert "with --model say --export ros=FILE" in capsys.readouterr().err

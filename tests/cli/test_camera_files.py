@@ -94,7 +94,7 @@ def test_check_refuses(
     result_file: Path, fisheye_file: Path, photographs: Path, capsys: Capture
 ) -> None:
     assert main(["check", str(fisheye_file), str(photographs)]) == 1
-    assert "for images of 1000 x 800 px" in capsys.readouterr().err
+    assert "a camera of 1000 x 800 px" in capsys.readouterr().err
     with pytest.raises(SystemExit):
         main(["check", str(result_file)])
 
@@ -172,7 +172,7 @@ def test_convert_a_result_on_its_corners(
 @pytest.mark.parametrize(
     ("arguments", "problem"),
     [
-        (["--export", "result=a.json"], "holds corners, and the camera file has none"),
+        (["--export", "result=a.json"], "holds corners, and there are none"),
         (["--model", "eucm", "--export", "ros=a.yaml"], "does not hold the lens model eucm"),
         (["--model", "pinhole"], "cannot follow this lens"),
     ],
@@ -205,6 +205,17 @@ def test_undistort_with_a_camera_file(opencv_file: Path, photographs: Path, tmp_
     arguments = [str(opencv_file), str(photographs / "view1.png"), "-o", str(tmp_path / "new")]
     assert main(["undistort", *arguments, "-q"]) == 0
     assert (tmp_path / "new/view1.png").exists()
+
+
+@pytest.mark.parametrize("command", ["undistort", "rectify", "check"])
+@pytest.mark.parametrize("name", ["", "view1.png"])
+def test_the_camera_is_named_before_the_photographs(
+    command: str, name: str, result_file: Path, photographs: Path, capsys: Capture
+) -> None:
+    options = [] if command == "check" else ["-o", str(photographs / "out")]
+    assert main([command, str(photographs / name), str(result_file), *options]) == 1
+    problem = capsys.readouterr().err
+    assert f"{photographs / name} holds photographs, where a camera's file is expected" in problem
 
 
 @pytest.mark.parametrize("command", ["uncertainty", "views"])

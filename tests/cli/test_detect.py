@@ -6,20 +6,19 @@ import json
 import shutil
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
 
-from calibgui.app.photographs.detection import Detection, find_views
-from calibgui.cli import arguments, corners
+from calibgui.app.photographs.detection import Detection
+from calibgui.cli import corners
 from calibgui.cli.arguments import search_images
 from calibgui.cli.main import main
 from calibgui.engine.boards.board import Board
 from calibgui.engine.boards.charuco import Charuco
 from calibgui.engine.images.reading import write_image
 from calibgui.formats.corners_json import read_corners
-from tests.engine.detection.conftest import Scene
+from tests.engine.conftest import Scene
 from tests.photographs import BOARD, CAMERA, COUNT
 
 Capture = pytest.CaptureFixture[str]
@@ -57,19 +56,6 @@ def test_how_the_size_was_counted_is_said(
     monkeypatch.setattr(corners, "search_images", search)
     assert main([command, str(photographs), "--square", "30"]) == 0
     assert "Counted so." in capsys.readouterr().out
-
-
-def test_that_the_search_is_prepared_is_said_once(
-    photographs: Path, monkeypatch: pytest.MonkeyPatch, capsys: Capture
-) -> None:
-    def search(images: list[Path], *_: object, **options: Any) -> Detection:
-        options["preparing"]()
-        options["preparing"]()
-        return find_views(images[:2], pattern=options["pattern"])
-
-    monkeypatch.setattr(arguments, "find_views", search)
-    assert main(["detect", str(photographs), "--square", "30"]) == 0
-    assert capsys.readouterr().err.count("Preparing the search for its first use") == 1
 
 
 @pytest.mark.parametrize("command", ["detect", "calibrate"])

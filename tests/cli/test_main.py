@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 import json
 import os
+import re
 import select
 import shlex
 import signal
@@ -39,7 +40,7 @@ def test_without_arguments_or_screen_it_shows_its_commands(
     monkeypatch: pytest.MonkeyPatch, capsys: Capture
 ) -> None:
     monkeypatch.setattr(sys, "platform", "linux")
-    for name in ("DISPLAY", "WAYLAND_DISPLAY"):
+    for name in ("DISPLAY", "WAYLAND_DISPLAY", "QT_QPA_PLATFORM"):
         monkeypatch.delenv(name, raising=False)
     assert main([]) == 2
     printed, problems = capsys.readouterr()
@@ -76,7 +77,23 @@ def test_every_command_describes_itself(command: str, capsys: Capture) -> None:
     assert ended.value.code == 0
     printed = capsys.readouterr().out
     assert f"usage: calibgui {command}" in printed
-    assert max(map(len, printed.splitlines())) <= 80
+    lines = printed.splitlines()
+    assert max(map(len, lines)) <= 80 and len(lines) <= 110
+
+
+def test_help_lists_what_is_used_most_and_all_if_that_is_asked_for(capsys: Capture) -> None:
+    with pytest.raises(SystemExit):
+        main(["calibrate", "photographs", "--help"])
+    short = capsys.readouterr().out
+    assert "--square MM" in short and "--weigh-views" not in short
+    assert len(short.splitlines()) < 80
+    with pytest.raises(SystemExit):
+        main(["calibrate", "-h", "all"])
+    whole = capsys.readouterr().out
+    options = set(re.findall(r"^  (?:-\w.*?, )?(--[\w-]+)", whole, re.MULTILINE))
+    more = int(re.search(r"calibrate --help all describes (\d+) more", short)[1])
+    listed = set(re.findall(r"^  (?:-\w.*?, )?(--[\w-]+)", short, re.MULTILINE))
+    assert listed < options and len(options - listed) - 1 == more  # and help itself
 
 
 @pytest.mark.parametrize(
@@ -121,7 +138,7 @@ def test_without_a_display_it_says_so(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: Capture
 ) -> None:
     monkeypatch.setattr(sys, "platform", "linux")
-    for name in ("DISPLAY", "WAYLAND_DISPLAY"):
+    for name in ("DISPLAY", "WAYLAND_DISPLAY", "QT_QPA_PLATFORM"):
         monkeypatch.delenv(name, raising=False)
     assert main([str(tmp_path)]) == 1
     problem = capsys.readouterr().err
@@ -350,7 +367,7 @@ def test_a_request_to_end_is_like_ctrl_c(photographs: Path, tmp_path: Path) -> N
         shown_until(ours, b"searching")
         process.terminate()
         shown_until(ours, b"calibgui: interrupted.")
-        assert process.wait(60) == 130
+        assert process.wait(60) == 143
     assert list(out.iterdir()) == []
 
 

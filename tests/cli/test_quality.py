@@ -46,6 +46,27 @@ def test_uncertainty_as_json(result_file: Path, capsys: Capture) -> None:
     assert set(answer["noise"].values()) <= {True, False}
 
 
+def test_the_error_of_a_length_is_told_in_mm(result_file: Path, capsys: Capture) -> None:
+    length = ["uncertainty", str(result_file), "--length", "50", "--at", "600"]
+    assert main(length) == 0
+    out = capsys.readouterr().out
+    assert out.startswith("50 mm at 600 mm: ± ") and "(k = 2)" in out.splitlines()[0]
+    assert max(map(len, out.splitlines())) <= 80
+    assert main([*length, "--json"]) == 0
+    worst = json.loads(capsys.readouterr().out)["length"]
+    assert main([*length, "--json", "--pixel", "160,120"]) == 0
+    there = json.loads(capsys.readouterr().out)["length"]
+    assert there["pixel"] == [160, 120] and there["sigma_mm"] < worst["sigma_mm"]
+    assert worst["sigma_mm"] ** 2 == pytest.approx(
+        worst["by_calibration_mm"] ** 2 + worst["by_noise_mm"] ** 2
+    )
+    assert main(["uncertainty", str(result_file), "--length", "5000", "--at", "600"]) == 1
+    assert "does not lie in the image" in capsys.readouterr().err
+    for wrong in (["--length", "50"], [*length[2:], "--pixel", "160"]):
+        with pytest.raises(SystemExit):
+            main(["uncertainty", str(result_file), *wrong])
+
+
 @pytest.mark.slow
 def test_uncertainty_validates(
     result_file: Path, monkeypatch: pytest.MonkeyPatch, capsys: Capture

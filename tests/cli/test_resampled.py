@@ -7,6 +7,8 @@ import math
 import shutil
 from pathlib import Path
 
+import cv2
+import numpy as np
 import pytest
 
 from calibgui.app.outputs.resampling import GEOMETRY_FILE
@@ -121,3 +123,34 @@ def test_what_cannot_be_shown_is_said(
     assert "Choose a field of view above 0 and below 180 degrees" in capsys.readouterr().err
     with pytest.raises(SystemExit):
         main([*arguments, "--fov", "90", "--view", "no-border"])
+
+
+def test_rectify_locates_the_board_with_any_camera(
+    result_file: Path, photographs: Path, tmp_path: Path, capsys: Capture
+) -> None:
+    """As the calibration does, also in photographs of half the size."""
+    camera, folder = tmp_path / "camera.yaml", tmp_path / "rectified"
+    assert main(["convert", str(result_file), "--export", f"opencv={camera}", "-q"]) == 0
+    options = ["--square", "30", "--scale", "1", "-q"]
+    image = photographs / "view2.png"
+    small = tmp_path / "small" / image.name
+    small.parent.mkdir()
+    pixels = cv2.imread(str(image), cv2.IMREAD_GRAYSCALE)
+    cv2.imwrite(str(small), cv2.resize(pixels, (160, 120), interpolation=cv2.INTER_AREA))
+    made = []
+    for source, file, place in (
+        (result_file, image, folder / "own"),
+        (camera, image, folder / "other"),
+        (camera, small, folder / "small"),
+    ):
+        place.parent.mkdir(exist_ok=True)
+        assert main(["rectify", str(source), str(file), "-o", str(place), *options]) == 0
+        made.append(cv2.imread(str(place / image.name), cv2.IMREAD_GRAYSCALE).astype(float))
+    own, other, halved = made
+    assert own.shape == other.shape == halved.shape
+    # Symmetric boards have two first corners.
+    assert min(np.abs(own - turned).mean() for turned in (other, other[::-1, ::-1])) < 2
+    assert min(np.abs(own - turned).mean() for turned in (halved, halved[::-1, ::-1])) < 12
+    assert "scaled by 0.5" in capsys.readouterr().err
+    with pytest.raises(SystemExit):
+        main(["rectify", str(camera), "-o", str(folder / "none")])

@@ -7,8 +7,8 @@ import pytest
 
 from calibgui.dataset import View, ViewStatus
 from calibgui.engine.boards.board import Board
-from calibgui.engine.detection.corners import Corners
 from calibgui.engine.errors import CalibrationError
+from calibgui.engine.features.corners import Corners
 
 
 @pytest.mark.parametrize(

@@ -17,7 +17,7 @@ from calibgui.engine.arrays import Array, BoolArray, Size
 from calibgui.engine.boards.board import Board
 from calibgui.engine.calibration.calibrate import calibrate
 from calibgui.engine.calibration.observations import Observation, pack_observations
-from calibgui.engine.calibration.options import resolve_held_parameters
+from calibgui.engine.calibration.problem import resolve_held_parameters
 from calibgui.engine.calibration.refinement.bundle_adjustment import solve_stage_two
 from calibgui.engine.calibration.refinement.levenberg_marquardt import Solution
 from calibgui.engine.calibration.refinement.residuals import State

@@ -60,6 +60,6 @@ def holding(result: Result, camera: Camera) -> Result:
         covariance=np.eye(count),
         noise_covariance=0.25 * np.eye(count),
         fixed=(),
-        settings={**result.calibration.settings, "fixed": {}},
+        settings=replace(result.calibration.settings, fixed={}),
     )
     return replace(result, calibration=calibration)

@@ -13,7 +13,7 @@ from calibgui.engine.boards.board import Board
 from calibgui.engine.boards.pattern import Symmetry
 from calibgui.engine.calibration.observations import Observation
 from calibgui.engine.camera.camera import Camera
-from calibgui.engine.detection.corners import Corners, OtherBoard
+from calibgui.engine.features.corners import Corners, OtherBoard
 from tests.engine import scenes
 
 BOARD = Board(rows=6, cols=8, square=30.0)

@@ -112,8 +112,9 @@ def test_a_camera_of_several_is_chosen_by_its_number(tmp_path: Path) -> None:
     read = read_camera(file, name="1")
     assert read.camera.params.tolist() == [300, 300, 319.5, 239.5]
     assert read.notes == ("Camera 1 of 2.",)
-    with pytest.raises(CalibrationError, match=r"lens model FOV, which cannot be read.*EUCM"):
+    with pytest.raises(CalibrationError, match="lens model FOV, which cannot be read") as caught:
         read_camera(file, name="12")
+    assert "OPENCV_FISHEYE" in caught.value.hint
 
 
 @pytest.mark.parametrize(
@@ -122,7 +123,7 @@ def test_a_camera_of_several_is_chosen_by_its_number(tmp_path: Path) -> None:
         ("1 PINHOLE 640 480 300 300 320", "3 parameters for camera 1; PINHOLE has fx fy cx cy"),
         ("1 PINHOLE 640 480 300 300 320 x", "holds more than numbers"),
         ("1 PINHOLE 640 480 0 300 320 240", "No camera has the parameters"),
-        ("1 PINHOLE 640 480 nan 300 320 240", "No camera has the parameters"),
+        ("1 PINHOLE 640 480 nan 300 320 240", "'nan' is not a number"),
         (f"1 THIN_PRISM_FISHEYE 640 480 {'1 ' * 12}", r"its thin prism \(sx1, sy1\) is not 0"),
     ],
 )

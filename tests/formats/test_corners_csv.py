@@ -11,6 +11,7 @@ import pytest
 
 from calibgui.dataset import Result, View, ViewStatus
 from calibgui.formats.corners_csv import write_corners_csv
+from calibgui.formats.csv_table import read_csv_rows
 
 _HEADER = "image,row,col,u_px,v_px,x_mm,y_mm\n"
 
@@ -86,3 +87,11 @@ def test_images_are_named_without_what_differs_between_computers(
     file = tmp_path / "corners.csv"
     write_corners_csv(views, result.board, file)
     assert list(dict.fromkeys(row["image"] for row in _read(file))) == named
+
+
+def test_a_name_that_is_a_formula_is_not_computed(tmp_path: Path, result: Result) -> None:
+    views = [replace(view, image="=1+1.png") for view in result.views]
+    file = tmp_path / "corners.csv"
+    write_corners_csv(views, result.board, file)
+    assert {row["image"] for row in _read(file)} == {"'=1+1.png"}
+    assert {row["image"] for row in read_csv_rows(file)} == {"=1+1.png"}

@@ -9,15 +9,12 @@ from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 
 from calibgui.dataset import CornerSet, Result, ViewStatus
 from calibgui.engine.boards.board import Board
 from calibgui.engine.errors import CalibrationError
 from calibgui.formats.corners_json import encode_corners, read_corners, write_corners
 from calibgui.formats.json_document import dumps
-from tests.formats.mutations import mutated
 from tests.formats.records import same
 
 _FOREIGN: dict[str, Any] = {
@@ -132,15 +129,31 @@ def test_what_is_wrong_is_named(tmp_path: Path, place: list[Any], value: Any, me
         _read(tmp_path, content)
 
 
-@given(st.data())
-def test_no_damage_ends_in_anything_but_a_named_error(
-    tmp_path_factory: pytest.TempPathFactory, result: Result, data: st.DataObject
+@pytest.mark.parametrize(
+    ("change", "problem"),
+    [
+        ({"size": [640.5, 480]}, "size is not an array of integers"),
+        ({"size": [640, -1]}, "size is not the width and height of an image"),
+        ({"cov": [[[1, 0.5], [0.4, 1]]]}, "cov is not a covariance: it is not symmetric"),
+        ({"cov": [[[1, 2], [2, 1]]]}, "cov is not a covariance: it has a correlation beyond 1"),
+        ({"cov": [[[-1, 0], [0, 1]]]}, "cov is not a covariance: it has a variance below 0"),
+        ({"shape": [10**9, 10**9]}, "shape is not the rows and columns of a board, from 1 to 1000"),
+        ({"shape": [0, 4]}, "shape is not the rows and columns of a board"),
+        ({"grid": [[-1, 0]]}, "grid is not a list of rows and columns on a board of 3 x 4"),
+        ({"grid": [[0, 4]]}, "grid is not a list of rows and columns on a board of 3 x 4"),
+        ({"target": {"rows": 10**9, "cols": 9, "square_mm": 1}}, "rows is not a number of corners"),
+        ({"cov": [[[None, 0], [0, 1]]]}, "cov.* is not a finite number"),
+    ],
+)
+def test_impossible_sizes_places_and_covariances_are_named(
+    tmp_path: Path, change: dict[str, Any], problem: str
 ) -> None:
-    record = encode_corners(CornerSet((640, 480), result.views[:3], result.board))
-    content = mutated(json.loads(dumps(record)), data)
-    file = tmp_path_factory.getbasetemp() / "damaged.json"
+    view = {"image": "a.png", "uv": [[1, 2]], "board": [[0, 0]], "shape": [3, 4], "grid": [[0, 0]]}
+    content: dict[str, Any] = {"size": [640, 480], "views": [view]}
+    for name, value in change.items():
+        (content if name in ("size", "target") else view)[name] = value
+    file = tmp_path / "corners.json"
     file.write_text(json.dumps(content))
-    try:
+    with pytest.raises(CalibrationError, match=problem) as caught:
         read_corners(file)
-    except CalibrationError as error:
-        assert str(file) in error.message
+    assert "corners.json" in caught.value.message

@@ -141,3 +141,28 @@ def test_a_centre_that_gyroflow_does_not_use_is_told_of(tmp_path: Path, result: 
     assert "in the middle" in read_camera(path).notes[0]
     with pytest.raises(CalibrationError, match="Leave the name '24' out"):
         read_camera(path, "24")
+
+
+@pytest.mark.parametrize(("aspect", "stretch"), [(1.33, (1.33, 1.0)), (0.75, (1.0, 1 / 0.75))])
+def test_pixels_that_are_not_square_are_stretched(
+    tmp_path: Path, result: Result, aspect: float, stretch: tuple[float, float]
+) -> None:
+    """Gyroflow has the camera matrix of the stretched images, and divides by the stretch."""
+    square = example("brown-conrady")
+    params = square.params * [1, aspect * square.params[0] / square.params[1], *[1] * 8]
+    camera = Camera(square.size, params, square.model)
+    file = write_gyroflow(holding(result, camera), tmp_path / "profile.json").path
+    profile = json.loads(file.read_text())
+    stated = [profile[f"input_{axis}_stretch"] for axis in ("horizontal", "vertical")]
+    np.testing.assert_allclose(stated, stretch)
+    width, height = (round(s * side) for s, side in zip(stretch, camera.size, strict=True))
+    assert profile["calib_dimension"] == {"w": width, "h": height}
+    assert profile["orig_dimension"] == dict(zip("wh", camera.size, strict=True))
+    K = np.array(profile["fisheye_params"]["camera_matrix"])
+    assert K[0, 0] == pytest.approx(K[1, 1])
+    rays = rays_for(camera)
+    stretched = project(profile, profile["fisheye_params"], rays)
+    np.testing.assert_allclose(stretched / stated, pixels_from_rays(rays, camera), atol=1e-6)
+    read = read_camera(file).camera
+    assert read.size == camera.size
+    np.testing.assert_allclose(read.params, camera.params, rtol=1e-9)

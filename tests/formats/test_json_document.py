@@ -18,13 +18,13 @@ from calibgui.formats import json_document
 from calibgui.formats.json_document import (
     MAX_JSON_SIZE,
     JsonWriter,
-    Node,
     _format_array,
     are_same_values,
     check_format,
     dumps,
     read_json,
 )
+from calibgui.formats.node import Node
 
 _SCALARS = (
     st.none()

@@ -13,8 +13,6 @@ from typing import Any
 import jsonschema
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 
 from calibgui import engine
 from calibgui.dataset import Result, View, ViewStatus
@@ -22,15 +20,16 @@ from calibgui.engine.boards.kinds import KINDS
 from calibgui.engine.calibration.calibrate import calibrate
 from calibgui.engine.calibration.observations import Observation
 from calibgui.engine.calibration.result import Cost, DegenerateError, Undetermined
+from calibgui.engine.camera import SensorMode
+from calibgui.engine.camera.image_circle import ImageCircle
 from calibgui.engine.camera.models import MODELS
 from calibgui.engine.errors import CalibrationError
-from calibgui.formats import export
+from calibgui.formats import export, read_camera
 from calibgui.formats.json_document import dumps
 from calibgui.formats.result_json import encode_result, read_result, write_result
 from tests.engine import scenes
 from tests.formats.cameras import example, holding, splined
 from tests.formats.conftest import solved
-from tests.formats.mutations import mutated
 from tests.formats.records import same
 
 _SCHEMA = Path(__file__).parents[2] / "resources" / "schema" / "result-1.schema.json"
@@ -59,6 +58,24 @@ def test_every_bit_reads_back(tmp_path: Path, name: str, request: pytest.Fixture
     result = request.getfixturevalue(name)
     write_result(result, tmp_path / "result.json")
     assert same(read_result(tmp_path / "result.json"), result)
+
+
+def test_a_mode_reads_back_and_makes_the_camera_of_its_stream(
+    tmp_path: Path, result: Result
+) -> None:
+    camera = result.calibration.camera
+    mode = SensorMode.identity(camera.size).crop(10, 20, (600, 400)).flip(along_u=True)
+    stream = replace(result, mode=mode)
+    write_result(stream, tmp_path / "result.json")
+    assert same(read_result(tmp_path / "result.json"), stream)
+    _validator().validate(_content(stream))
+    read = read_camera(tmp_path / "result.json")
+    np.testing.assert_array_equal(read.camera.params, mode.adapt_camera(camera).params)
+    assert read.covariance is not None
+    np.testing.assert_allclose(np.diag(read.covariance), np.diag(result.calibration.covariance))
+    without = {k: v for k, v in _content(stream).items() if k != "sensor_mode"}
+    with pytest.raises(jsonschema.ValidationError):
+        _validator().validate(without)
 
 
 def test_a_partial_calibration_reads_back_as_such(tmp_path: Path) -> None:
@@ -230,10 +247,10 @@ def test_a_result_can_be_solved_again_from_its_own_file(
     again = engine.calibrate(
         kept.observations(),
         kept.calibration.camera.size,
-        cost=settings["cost"],
-        model=settings["model"],
-        fix=settings["fixed"],
-        free={"p3"} - settings["fixed"].keys(),
+        cost=settings.cost,
+        model=settings.model,
+        fix=settings.fixed,
+        free={"p3"} - settings.fixed.keys(),
     )
     assert again.digest == result.calibration.digest
     assert np.array_equal(again.camera.params, result.calibration.camera.params)
@@ -242,7 +259,7 @@ def test_a_result_can_be_solved_again_from_its_own_file(
 @pytest.mark.parametrize(
     ("change", "message"),
     [
-        ({"version": 2}, "version 2 .* knows versions up to 1"),
+        ({"version": 3}, "version 3 .* knows versions up to 2"),
         ({"format": "calibgui-project"}, "is not the result of a calibration"),
         ({"format": None}, "holds corners, but no calibration"),
         ({"views": []}, "views is not a list with usable views"),
@@ -292,6 +309,23 @@ def test_cameras_of_every_model_are_read_back(tmp_path: Path, result: Result, mo
     np.testing.assert_array_equal(camera.params, held.calibration.camera.params)
 
 
+def test_the_image_circle_is_read_back(tmp_path: Path, result: Result) -> None:
+    circle = ImageCircle(320.5, 240.25, 200.0)
+    camera = replace(result.calibration.camera, circle=circle)
+    views = tuple(replace(view, circle=circle) for view in result.views)
+    held = replace(result, calibration=replace(result.calibration, camera=camera), views=views)
+    export(held, "result", tmp_path / "result.json")
+    content = json.loads((tmp_path / "result.json").read_text())
+    _validator().validate(content)
+    found = read_result(tmp_path / "result.json")
+    assert found.calibration.camera.circle == circle
+    assert {view.circle for view in found.views} == {circle}
+    content["camera"]["circle"][2] = 0
+    (tmp_path / "none.json").write_text(json.dumps(content))
+    with pytest.raises(CalibrationError, match="circle is not a column, a row and a radius"):
+        read_result(tmp_path / "none.json")
+
+
 def test_an_older_name_of_the_lens_model_is_read(tmp_path: Path, forward_result: Result) -> None:
     content = _content(forward_result)
     assert content["camera"]["model"] == content["settings"]["model"] == "brown-conrady"
@@ -337,19 +371,6 @@ def test_a_file_cut_anywhere_is_refused(tmp_path: Path, result: Result) -> None:
             read_result(tmp_path / "cut.json")
 
 
-@given(st.data())
-def test_no_damage_ends_in_anything_but_a_named_error(
-    tmp_path_factory: pytest.TempPathFactory, result: Result, data: st.DataObject
-) -> None:
-    content = mutated(_content(result), data)
-    file = tmp_path_factory.getbasetemp() / "damaged.json"
-    file.write_text(json.dumps(content))
-    try:
-        read_result(file)
-    except CalibrationError as error:
-        assert str(file) in error.message
-
-
 def test_a_missing_row_of_stage_one_and_an_impossible_name_are_refused(
     tmp_path: Path, result: Result
 ) -> None:
@@ -363,3 +384,38 @@ def test_a_missing_row_of_stage_one_and_an_impossible_name_are_refused(
     path.write_text(json.dumps(whole))
     with pytest.raises(CalibrationError, match=r"view 2\.image is not the name of a file: .* NUL"):
         read_result(path)
+
+
+@pytest.mark.parametrize(
+    ("name", "value"),
+    [
+        ("max_iterations", -1),
+        ("max_iterations", 1.5),
+        ("method", ["lucchese"]),
+        ("method", "nobody's"),
+        ("plate", {}),
+        ("plate_held", 1),
+        ("outliers", "3"),
+        ("model_reason", [1]),
+        ("robust", "yes"),
+    ],
+)
+def test_settings_are_of_their_types(
+    tmp_path: Path, result: Result, name: str, value: object
+) -> None:
+    content = _content(result)
+    content["settings"][name] = value
+    (tmp_path / "result.json").write_text(json.dumps(content))
+    with pytest.raises(CalibrationError, match=rf"result\.json: settings\.{name} is not"):
+        read_result(tmp_path / "result.json")
+
+
+@pytest.mark.parametrize("entry", [[0, 1], [1, 0]])
+def test_a_covariance_that_is_not_symmetric_is_refused(
+    tmp_path: Path, result: Result, entry: list[int]
+) -> None:
+    content = _content(result)
+    content["covariance"]["matrix"][entry[0]][entry[1]] *= 1.01
+    (tmp_path / "result.json").write_text(json.dumps(content))
+    with pytest.raises(CalibrationError, match=r"covariance\.matrix .* not symmetric"):
+        read_result(tmp_path / "result.json")

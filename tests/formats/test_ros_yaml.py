@@ -164,3 +164,42 @@ def test_errors_name_file_and_place(tmp_path: Path, old: str, new: str, message:
     with pytest.raises(CalibrationError, match=message) as caught:
         read_camera(file)
     assert str(file) in caught.value.message
+
+
+_MESSAGE = """\
+header:
+  frame_id: camera
+height: 480
+width: 640
+distortion_model: plumb_bob
+{d}: [-0.3, 0.1, 0.001, 0.0, 0.0]
+{k}: [500.0, 0.0, 320.0, 0.0, 501.0, 240.0, 0.0, 0.0, 1.0]
+{r}: [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0]
+{p}: [480.0, 0.0, 320.0, -48.0, 0.0, 480.0, 240.0, 0.0, 0.0, 0.0, 1.0, 0.0]
+binning_x: {binning}
+roi:
+  x_offset: 0
+---
+"""
+
+
+@pytest.mark.parametrize("names", ["dkrp", "DKRP"])
+@pytest.mark.parametrize("count", [1, 2])
+def test_a_message_is_read_as_it_is_printed(tmp_path: Path, names: str, count: int) -> None:
+    file = tmp_path / "camera_info.yaml"
+    text = _MESSAGE.format(**dict(zip("dkrp", names, strict=True)), binning=0)
+    file.write_text(text * count)
+    read = read_camera(file)
+    assert read.title == EXPORTER.title
+    assert not read.notes
+    assert read.camera.size == (640, 480)
+    np.testing.assert_array_equal(read.camera.matrix, [[500, 0, 320], [0, 501, 240], [0, 0, 1]])
+    assert read.camera.coefficients[:4].tolist() == [-0.3, 0.1, 0.001, 0.0]
+    assert read.rectification is not None
+    assert read.rectification.P[0].tolist() == [480.0, 0.0, 320.0, -48.0]
+
+
+def test_a_message_of_reduced_images_says_whose_camera_it_holds(tmp_path: Path) -> None:
+    file = tmp_path / "camera_info.yaml"
+    file.write_text(_MESSAGE.format(**dict(zip("dkrp", "dkrp", strict=True)), binning=2))
+    assert "--binning" in read_camera(file).notes[0]

@@ -12,7 +12,7 @@ from PySide6.QtWidgets import QApplication, QPushButton
 from pytestqt.qtbot import QtBot
 
 from calibgui.engine.arrays import Array
-from calibgui.engine.detection.corners import Corners
+from calibgui.engine.features.corners import Corners
 from calibgui.gui.images.image_model import Role
 from calibgui.gui.window.main_window import MainWindow
 

@@ -26,7 +26,6 @@ from calibgui.gui.panels.evidence.poses import PosesPanel
 from calibgui.gui.panels.panel import Panel
 from calibgui.gui.widgets.plots import Plot
 from calibgui.gui.window.main_window import MainWindow
-from calibgui.report.printed_page import make_printed_page
 from calibgui.report.tables import tabulate_views
 from tests.app import examples
 
@@ -108,9 +107,8 @@ def test_a_corner_of_the_board_is_read_with_the_condition(
     assert panel.under_cursor.text().endswith(f"mm {CONDITION}")
 
 
-def test_the_printed_page_and_the_table_of_views_state_it(bowed: Project) -> None:
+def test_the_table_of_views_states_it(bowed: Project) -> None:
     result = bowed.results["Calibration 1"]
     confirmed = replace(result, lengths_confirmed=True)
-    assert f"Distance [mm {CONDITION}]" in str(make_printed_page(result, "title").html)
     assert f"distances {CONDITION}" in tabulate_views(result)
     assert CONDITION not in tabulate_views(confirmed)

@@ -9,7 +9,7 @@ from calibgui.app.calibrating.settings import Settings
 from calibgui.dataset import CornerSet, Result, View, ViewStatus
 from calibgui.engine.boards.board import Board
 from calibgui.engine.calibration.result import Cost
-from calibgui.engine.detection.corners import Corners
+from calibgui.engine.features.corners import Corners
 from tests.engine import scenes
 
 BOARD = Board(rows=8, cols=9, square=30.0)

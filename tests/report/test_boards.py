@@ -6,7 +6,7 @@ import numpy as np
 
 from calibgui.dataset import CornerSet, View, ViewStatus
 from calibgui.engine.boards import CHECKERBOARD, Board, Pattern, PuzzleBoard
-from calibgui.engine.detection import Corners
+from calibgui.engine.features import Corners
 from calibgui.report.boards import describe_recognised_board
 
 

@@ -37,14 +37,14 @@ def photograph_fisheye() -> list[Observation]:
 def kept() -> LensChoice:
     """A choice on views of a mild lens."""
     views = scene(barrel(), 6, seed=1).noisy(0.1, np.random.default_rng(2))
-    return choose_lens(views, VGA, ("pinhole", "brown-conrady-4", "lucchese"), folds=2)
+    return choose_lens(views, VGA, ("pinhole", "brown-conrady-4", "lucchese"))
 
 
 @pytest.fixture(scope="module")
 def fisheye() -> LensChoice:
     """A choice on views of a fisheye lens."""
     candidates = ("lucchese", "kannala-brandt", "kannala-brandt-decentering")
-    return choose_lens(photograph_fisheye(), VGA, candidates, folds=2)
+    return choose_lens(photograph_fisheye(), VGA, candidates)
 
 
 def change(choice: LensChoice, model: str, **changes: object) -> LensChoice:
@@ -143,7 +143,8 @@ def test_coefficients_that_the_views_leave_open_are_named(kept: LensChoice) -> N
 def test_coefficients_that_harm_are_named_with_what_they_cost(kept: LensChoice) -> None:
     whole = replace(kept.trials["lucchese"], fixed={"k3": 0.0})
     assert whole.validation is not None
-    worse = replace(whole, validation=replace(whole.validation, held_out=0.345))
+    lengths = 0.345 / whole.held_out * whole.validation.lengths
+    worse = replace(whole, validation=replace(whole.validation, lengths=lengths))
     held = change(kept, "lucchese", fixed={"k3": 0.0, "p1": 0.0, "p2": 0.0}, fuller=worse)
     error = held.chosen.held_out
     assert describe_lens_choice(held).startswith(

@@ -50,11 +50,11 @@ def test_every_method_has_a_row(comparison: MethodComparison) -> None:
         assert row.is_usable == (row.kind == "camera")
 
 
-def test_values_are_of_the_camera_with_the_noise_alone(comparison: MethodComparison) -> None:
+def test_values_are_those_of_a_calibration_by_the_method(comparison: MethodComparison) -> None:
     row, found = list_by_name(comparison)["bouguet"], comparison.trials["bouguet"].calibration
     for i, name in enumerate(QUANTITIES[:4]):
         value, sigma = row.values[name]
-        assert (value, sigma) == (found.camera.params[i], found.sigma_by_noise[i])
+        assert (value, sigma) == (found.camera.params[i], found.sigma[i])
         assert abs(value - TRUTH.params[i]) < 5 * sigma
     lengths = np.concatenate([np.hypot(*view.image.T) for view in found.residuals])
     assert row.rms == pytest.approx(np.sqrt(np.mean(lengths**2)))
@@ -97,7 +97,7 @@ def test_the_skew_is_in_pixels(comparison: MethodComparison) -> None:
     skew = found.camera.names.index("skew")
     value, sigma = list_by_name(comparison)["bouguet-skew"].values["skew"]
     assert value == pytest.approx(found.camera.params[0] * found.camera.params[skew])
-    assert sigma == pytest.approx(found.camera.params[0] * found.sigma_by_noise[skew])
+    assert sigma == pytest.approx(found.camera.params[0] * found.sigma[skew])
 
 
 def test_a_refused_method_says_why(comparison: MethodComparison) -> None:
@@ -144,12 +144,12 @@ def test_agreement_is_measured_in_the_methods_own_uncertainty(
 ) -> None:
     both = set_errors(comparison, bouguet=0.1, opencv=0.1001)
     words = describe_method_comparison(both)
-    assert "within two of their own standard deviations by noise of bouguet's in opencv." in words
+    assert "within two of their own standard deviations of bouguet's in opencv." in words
     trial = both.trials["opencv"]
     found = trial.calibration
     params = found.camera.params.copy()
     params[1] = both.trials["bouguet"].calibration.camera.params[1]
-    params[1] += 7.31 * found.sigma_by_noise[1]
+    params[1] += 7.31 * found.sigma[1]
     moved = replace(found, camera=replace(found.camera, params=params))
     trials = {**both.trials, "opencv": replace(trial, calibration=moved)}
     words = describe_method_comparison(replace(both, trials=trials))

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from calibgui.engine.detection.corners import Corners
+from calibgui.engine.features.corners import Corners
 from calibgui.report.figures import EXTRINSIC_NAMES, draw_corners, draw_extrinsic_errors
 
 

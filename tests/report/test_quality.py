@@ -9,15 +9,15 @@ from typing import cast
 import numpy as np
 import pytest
 
-from calibgui.engine.assessment.causes.finding import find_explanation
 from calibgui.engine.assessment.causes.findings import list_findings
 from calibgui.engine.assessment.changes.comparison import compare_cameras
+from calibgui.engine.assessment.choices.board_shape_choice import choose_board_shape
 from calibgui.engine.assessment.choices.cross_validation import (
     Bootstrap,
     bootstrap_views,
-    choose_board_shape,
     cross_validate,
 )
+from calibgui.engine.assessment.finding import find_explanation
 from calibgui.engine.assessment.residuals.residual_checks import check_residuals
 from calibgui.engine.calibration.calibrate import calibrate
 from calibgui.engine.calibration.observations import Observation
@@ -46,7 +46,7 @@ def test_tables_fit_a_terminal(calibrated: Calibrated) -> None:
         ),
         quality.tabulate_noise_report(check_residuals(result, views), None),
         quality.tabulate_cross_validation(cross_validate(views, size, 4)),
-        quality.tabulate_board_shape_choice(choose_board_shape(views, size, 3)),
+        quality.tabulate_board_shape_choice(choose_board_shape(views, size)),
         quality.tabulate_bootstrap(bootstrap_views(views, size, 12), result),
         quality.tabulate_camera_difference(compare_cameras(barrel(), result.camera, 500.0), 0.1),
         quality.tabulate_number_of_views(study_number_of_views(result, views, solved=4), 0.5),

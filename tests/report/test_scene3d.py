@@ -10,7 +10,7 @@ from scipy.spatial.transform import Rotation
 
 from calibgui import engine
 from calibgui.dataset import Result, View, ViewStatus
-from calibgui.engine.detection.corners import Corners
+from calibgui.engine.features.corners import Corners
 from calibgui.report.scene3d import (
     Observer,
     PolygonKind,

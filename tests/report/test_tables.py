@@ -16,7 +16,7 @@ from calibgui.engine.boards import BoardShape, BoardShapeModel, Circles
 from calibgui.engine.boards.board import Board
 from calibgui.engine.boards.pattern import Symmetry
 from calibgui.engine.calibration.result import Cost, Undetermined
-from calibgui.engine.detection.corners import Corners, OtherBoard
+from calibgui.engine.features.corners import Corners, OtherBoard
 from calibgui.report import tables
 from calibgui.report.summary import describe_calibration
 from calibgui.report.verdict import describe_fit
@@ -155,7 +155,8 @@ def test_the_report_says_what_was_left_out_and_done_with_the_board(result: Resul
     shape = BoardShape(BoardShapeModel.FREE, points, deviation, np.zeros_like(deviation))
     told = []
     for outliers, is_held in ((0, False), (12, True)):
-        settings = result.calibration.settings | {"outliers": outliers, "plate_held": is_held}
+        stated = result.calibration.settings
+        settings = replace(stated, outliers=outliers, is_board_shape_held=is_held)
         calibration = replace(result.calibration, board_shape=shape, settings=settings)
         changed = replace(result, calibration=calibration)
         told.append(tables.describe_rms(changed))
@@ -269,7 +270,7 @@ def test_a_search_for_circles_counts_circles(result: Result) -> None:
 def test_a_chosen_lens_model_is_named_as_options(result: Result) -> None:
     calibration = replace(
         result.calibration,
-        settings={**result.calibration.settings, "model_reason": "It is wanted."},
+        settings=replace(result.calibration.settings, model_reason="It is wanted."),
         fixed=(*result.calibration.fixed, "k3"),
     )
     text = " ".join(tables.tabulate_camera(calibration).split())

@@ -11,7 +11,7 @@ import pytest
 
 from calibgui.dataset import Result
 from calibgui.engine.assessment import Action, ActionKind, Grade, PixelError, Verdict
-from calibgui.engine.calibration import Cost
+from calibgui.engine.calibration import CalibrationSettings, Cost
 from calibgui.report.verdict import describe_options, describe_reason
 
 
@@ -34,7 +34,9 @@ from calibgui.report.verdict import describe_options, describe_reason
 def test_a_remedy_is_told_as_a_change_of_the_command(action: Action, words: str) -> None:
     result = SimpleNamespace(
         used=[SimpleNamespace(name="a b.png"), SimpleNamespace(name="c.png")],
-        calibration=SimpleNamespace(cost=Cost.PAPER, settings={"method": "bouguet"}),
+        calibration=SimpleNamespace(
+            cost=Cost.PAPER, settings=CalibrationSettings(method="bouguet")
+        ),
     )
     assert describe_options(action, cast(Result, result)) == words
 
@@ -68,7 +70,7 @@ def test_many_images_are_named_by_a_pattern_that_fits_no_other(
 ) -> None:
     result = SimpleNamespace(
         used=[SimpleNamespace(name=name) for name in names],
-        calibration=SimpleNamespace(cost=Cost.IMAGE, settings={}),
+        calibration=SimpleNamespace(cost=Cost.IMAGE, settings=CalibrationSettings()),
     )
     views = tuple(range(len(names) - chosen, len(names)))
     action = Action(ActionKind.LEAVE_OUT_VIEWS, views=views)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
+from functools import partial
 from types import MappingProxyType
 from typing import Any, NamedTuple
 
@@ -23,6 +24,7 @@ from calibgui.engine.arrays import IntArray, Size
 from calibgui.engine.assessment import (
     calibrate_weighted,
     choose_board_shape,
+    choose_lens,
     choose_lens_stepwise,
     screen_outliers,
 )
@@ -34,9 +36,9 @@ from calibgui.engine.calibration import (
     Observation,
     Report,
 )
-from calibgui.engine.camera import find_model
-from calibgui.engine.detection import find_usable_covariances
+from calibgui.engine.camera import find_common_circle, find_model
 from calibgui.engine.errors import CalibrationError, Cancelled, Progress
+from calibgui.engine.features import find_usable_covariances
 from calibgui.engine.redetection import find_upside_down_views
 from calibgui.engine.threads import limit_blas_threads
 from calibgui.report.lens_choice import describe_lens_choice
@@ -49,10 +51,6 @@ _BOARD_SHAPE_UNTRIED = (
 _BOARD_SHAPE_STOPPED = (
     "The nominal board shape is taken: the comparison of models on unseen views was stopped."
 )
-_LENS_STOPPED = "The paper's lens model is taken: the comparison of lens models was stopped."
-_REASON = "model_reason"
-"""Key of a result's settings under which a lens model that was chosen automatically has its
-reason."""
 
 
 class ChosenLens(NamedTuple):
@@ -96,7 +94,7 @@ def calibrate_views(
 
     Raises:
         CalibrationError: as ``engine.calibrate``, with the names of images; for settings that do
-            not go together; or if no view is usable.
+            not go together, or that hold the whole camera; or if no view is usable.
         DegenerateError: if the views determine nothing at all.
         Cancelled: from `report` or `progress`.
     """
@@ -127,13 +125,13 @@ def calibrate_views(
 def recall_lens_choice(result: Result) -> ChosenLens | None:
     """Return the lens model of a result if it was chosen automatically, else None."""
     calibration = result.calibration
-    reason = calibration.settings.get(_REASON)
+    reason = calibration.settings.model_reason
     if reason is None:
         return None
     lens = find_model(calibration.camera.model)
     fixed = {
         name: value
-        for name, value in calibration.settings["fixed"].items()
+        for name, value in calibration.settings.fixed.items()
         if name in lens.names and name not in lens.held
     }
     return ChosenLens(calibration.camera.model, reason, fixed)
@@ -174,8 +172,12 @@ def _compare_lenses(
         if board_shape is BoardShapeModel.NOMINAL:
             return lens
     watch = _Watch(report)
+    first, choose = DEFAULT_MODEL, choose_lens_stepwise
+    if among := settings.candidates:
+        first, choose = among[0], partial(choose_lens, candidates=among, preferred=among)
+    title = find_model(first).title
     try:
-        choice = choose_lens_stepwise(
+        choice = choose(
             observations,
             corner_set.size,
             progress=progress,
@@ -187,12 +189,11 @@ def _compare_lenses(
             report=watch,
         )
     except CalibrationError as error:
-        reason = f"The paper's lens model is taken without a comparison. {error.message}"
-        return ChosenLens(DEFAULT_MODEL, reason)
+        return ChosenLens(first, f"{title} is taken without a comparison. {error.message}")
     except Cancelled:
         if not watch.stopped:
             raise
-        return ChosenLens(DEFAULT_MODEL, _LENS_STOPPED)
+        return ChosenLens(first, f"{title} is taken: the comparison of lens models was stopped.")
     return ChosenLens(choice.model, describe_lens_choice(choice), choice.chosen.fixed)
 
 
@@ -249,12 +250,14 @@ def _calibrate_whole(
         calibration = engine.calibrate(observations, size, **everything)
     if lens is not None:
         sentences = (lens.reason, *sentences)
-        calibration = replace(calibration, settings={**calibration.settings, _REASON: lens.reason})
+        stated = replace(calibration.settings, model_reason=lens.reason)
+        calibration = replace(calibration, settings=stated)
     calibration = _add_warnings(calibration, used, settings, sentences)
     if settings.robust:
         left = sum(len(view.image) for view in calibration.residuals)
         outliers = _count_corners(corner_set) - left
-        calibration = replace(calibration, settings={**calibration.settings, "outliers": outliers})
+        stated = replace(calibration.settings, outliers=outliers)
+        calibration = replace(calibration, settings=stated)
     return _make_result(calibration, replace(corner_set, views=views))
 
 
@@ -297,11 +300,11 @@ def _add_warnings(
     sentences: Sequence[str] = (),
 ) -> Calibration:
     """Return the calibration with further warnings, and with the settings on poor views."""
-    arguments = {"robust": settings.robust, "weigh_views": settings.weigh_views}
+    stated = replace(calibration.settings, robust=settings.robust, weigh_views=settings.weigh_views)
     return replace(
         calibration,
         warnings=(*calibration.warnings, *sentences, *_describe_open_places(used, calibration)),
-        settings={**calibration.settings, **arguments},
+        settings=stated,
     )
 
 
@@ -327,9 +330,21 @@ def _calibrate_partially(
 
 
 def _make_result(calibration: Calibration, corner_set: CornerSet) -> Result:
-    """Return a calibration with the views and the board that it was made from."""
+    """Return a calibration with the views and the board that it was made from.
+
+    Raises:
+        CalibrationError: if all parameters of the camera were held, so that there is no verdict.
+    """
+    if len(calibration.fixed) == len(calibration.camera.params):
+        raise CalibrationError(
+            f"All parameters of the camera are held ({', '.join(calibration.fixed)}), which leaves "
+            "nothing to calibrate.",
+            "Let one or more of them be estimated, or locate the board with the camera as it is: "
+            "`calibgui pose` takes its file.",
+        )
+    circle = find_common_circle(view.circle for view in corner_set.views if view.usable)
     return Result(
-        calibration,
+        replace(calibration, camera=replace(calibration.camera, circle=circle)),
         corner_set.views,
         corner_set.board,
         lengths_confirmed=corner_set.lengths_confirmed,

@@ -15,7 +15,7 @@ from calibgui.app.calibrating.calibration import shorten_names
 from calibgui.dataset import Result, View
 from calibgui.engine.boards import CHECKERBOARD
 from calibgui.engine.calibration import Cost, Observation
-from calibgui.engine.detection import Corners
+from calibgui.engine.features import Corners
 from calibgui.engine.redetection import (
     align_board_turns,
     apply_labels,

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 
 from calibgui.app.calibrating.calibration import shorten_names
 from calibgui.app.photographs.copies import disable_copies
@@ -47,8 +47,16 @@ def compare_methods(
         )
 
 
-def compare_methods_again(result: Result, progress: Progress | None = None) -> MethodComparison:
+def compare_methods_again(
+    result: Result,
+    progress: Progress | None = None,
+    check: Callable[[], None] | None = None,
+) -> MethodComparison:
     """Try all methods on the views of a result, and compare them with its camera.
+
+    Args:
+        result: any result.
+        progress, check: as for ``engine.assessment.compare_methods``.
 
     Raises:
         CalibrationError, Cancelled: as ``engine.assessment.compare_methods``.
@@ -61,6 +69,7 @@ def compare_methods_again(result: Result, progress: Progress | None = None) -> M
             camera,
             progress=progress,
             names=shorten_names(result.used),
+            check=check,
         )
 
 

@@ -30,8 +30,8 @@ from calibgui.engine.arrays import GridSize
 from calibgui.engine.boards import CHECKERBOARD, Board
 from calibgui.engine.calibration import Calibration, Cost, Report, Status
 from calibgui.engine.camera import project_points
-from calibgui.engine.detection import Corners
 from calibgui.engine.errors import CalibrationError, Progress
+from calibgui.engine.features import Corners
 from calibgui.engine.geometry import Pose
 from calibgui.engine.images import read_image
 from calibgui.report.numbers import format_count

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from datetime import datetime
 from enum import StrEnum
 from pathlib import Path
+from typing import assert_never
 
 import numpy as np
 
@@ -29,6 +30,7 @@ from calibgui.formats import Exporter, ExportReport
 from calibgui.formats.camera_conversion import export_camera
 from calibgui.formats.camera_import import read_result_file
 from calibgui.formats.csv_table import read_csv_rows
+from calibgui.formats.gate import parse_number
 
 _SECONDS_OF_DAY = 86400.0
 _FEW_DAYS = 5.0
@@ -46,7 +48,15 @@ class Scalar(StrEnum):
     @property
     def unit(self) -> str:
         """The unit of values, empty for a date and where the user alone knows it."""
-        return {Scalar.ZOOM: "mm", Scalar.TEMPERATURE: "°C"}.get(self, "")
+        match self:
+            case Scalar.ZOOM:
+                return "mm"
+            case Scalar.TEMPERATURE:
+                return "°C"
+            case Scalar.FOCUS | Scalar.DATE:
+                return ""
+            case _:
+                assert_never(self)
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -236,7 +246,7 @@ def parse_value(text: str, scalar: Scalar) -> float:
     text = text.strip()
     if scalar is Scalar.DATE:
         return datetime.fromisoformat(text).timestamp() / _SECONDS_OF_DAY
-    value = float(text.removesuffix(scalar.unit))
+    value = parse_number(text.removesuffix(scalar.unit).strip())
     if not np.isfinite(value):
         raise ValueError(f"{text!r} is not a finite number")
     return value
@@ -247,6 +257,8 @@ def _read_values(file: Path, scalar: Scalar) -> dict[Path, float]:
     found = {}
     for line, row in enumerate(read_csv_rows(file), start=2):
         try:
+            if not (row["file"] and row["value"]):
+                raise ValueError("a cell is empty")
             found[Path(row["file"])] = parse_value(row["value"], scalar)
         except (KeyError, TypeError, ValueError) as error:
             raise CalibrationError(

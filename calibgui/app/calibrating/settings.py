@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
+from calibgui.engine.assessment import AUTO, Change
 from calibgui.engine.boards import BoardShape, BoardShapeModel, BoardShapePrior
-from calibgui.engine.calibration import DEFAULT_METHOD, METHODS, Cost, check_method
+from calibgui.engine.calibration import DEFAULT_METHOD, METHODS, Calibration, Cost, check_method
 from calibgui.engine.camera import (
     MODELS,
     PINHOLE,
@@ -39,6 +40,8 @@ class Settings:
     """Name of the lens model, which `resolve_model_choice` takes, or None for the one that the
     views demand (``engine.assessment.choices.lens_choice``). The cost "paper" takes
     the printed lens of the paper instead of the default."""
+    candidates: tuple[str, ...] = ()
+    """Names of the lens models among which one is chosen where `model` is None; empty for all."""
     method: str = DEFAULT_METHOD
     """Name of the method of calibration, a key of ``calibration.METHODS``."""
     fixed: Mapping[str, float | None] = field(default_factory=dict)
@@ -49,18 +52,71 @@ class Settings:
     """The board's shape: a model to estimate, a known shape to hold, or None for the model that
     predicts unseen views best."""
     prior: BoardShapePrior | None = None
-    """Standard deviations that are known beforehand of a free board shape, mm."""
+    """Standard deviations of the corners of a board as drawn or of free shape that are known
+    beforehand, mm."""
     robust: bool = False
     """True if outliers are to be left out."""
     weigh_views: bool = False
     """True if every view is to be weighed by the noise found in it; with the image cost only."""
     once: bool = False
     """True if images are not to be searched again with the calibrated camera."""
+    improve: bool = False
+    """True if what makes the camera better and needs no new photograph is carried out
+    (``best_camera.py``), as far as the settings leave it open: lens model and board shape where
+    they are None, and which corners and views count."""
 
 
 DEFAULT_SETTINGS = Settings()
-NEW_PROJECT_SETTINGS = Settings(model=None)
-"""The settings that the window begins with."""
+"""The paper's camera, as asked: nothing is chosen, and nothing is carried out."""
+BEST_SETTINGS = Settings(model=None, board_shape=None, improve=True)
+"""The settings that the window and the command line begin with: the best camera."""
+
+
+def state_board_shape(settings: Settings, calibration: Calibration) -> Settings:
+    """Return the settings with the board's shape that a calibration has, if it is to be chosen."""
+    if settings.board_shape is not None:
+        return settings
+    return replace(
+        settings, board_shape=calibration.settings.board_shape or BoardShapeModel.NOMINAL
+    )
+
+
+def takes_remedies(settings: Settings) -> bool:
+    """Return whether lens model and board shape may change: not beside another method or cost."""
+    return settings.method == DEFAULT_METHOD and settings.cost is Cost.IMAGE
+
+
+def change_settings(settings: Settings, model: str, change: Change) -> Settings:
+    """Return the settings with a change.
+
+    Args:
+        settings: the settings as they are.
+        model: name of the lens model that the change is about.
+        change: the change.
+    """
+    fixed, freed = settings.fixed, settings.freed
+    if change.takes_image_cost:
+        settings = replace(settings, cost=Cost.IMAGE, method=DEFAULT_METHOD)
+    if change.lens_model is not None:
+        chosen = None if change.lens_model == AUTO else change.lens_model
+        settings = replace(settings, model=chosen)
+        fixed, freed = {name: value for name, value in fixed.items() if name in PINHOLE}, ()
+    elif change.holds_at_zero:  # a model that is chosen anew may have no such coefficient
+        held = DEFAULT_MODEL if settings.cost is Cost.PAPER else model
+        settings = replace(settings, model=held)
+    if change.board_shape is not None:
+        shape = None if change.board_shape == AUTO else BoardShapeModel(change.board_shape)
+        settings = replace(settings, board_shape=shape, prior=None)
+    changed = (*change.releases, *change.frees, *change.holds_at_zero)
+    fixed = {name: value for name, value in fixed.items() if name not in changed}
+    freed = tuple(name for name in freed if name not in changed)
+    return replace(
+        settings,
+        fixed={**fixed, **dict.fromkeys(change.holds_at_zero, 0.0)},
+        freed=(*freed, *change.frees),
+        robust=settings.robust or change.leaves_out_corners,
+        weigh_views=settings.weigh_views or change.weighs_views,
+    )
 
 
 def resolve_model_choice(model: str) -> str:

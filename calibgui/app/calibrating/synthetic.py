@@ -30,8 +30,9 @@ from calibgui.engine.assessment import separate_error_sources
 from calibgui.engine.boards import Board, BoardShapeModel
 from calibgui.engine.calibration import Calibration, Cost, recover_arguments
 from calibgui.engine.camera import Camera, project_points
-from calibgui.engine.detection import METHODS, Corners, find_corners
+from calibgui.engine.detection import find_corners
 from calibgui.engine.errors import CalibrationError, NoBoardError, Progress
+from calibgui.engine.features import METHODS, Corners
 from calibgui.engine.geometry import Pose
 from calibgui.engine.images import Appearance, render_view
 

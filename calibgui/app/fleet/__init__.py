@@ -9,7 +9,7 @@ from __future__ import annotations
 from calibgui.app.fleet.batch import BatchSummary, run_batch
 from calibgui.app.fleet.limits import NO_LIMITS, Limits, read_limits
 from calibgui.app.fleet.manifest import BoardSought, CameraTask, read_manifest
-from calibgui.app.fleet.schedulers import open_scheduler
+from calibgui.app.fleet.schedulers import describe_trust, open_scheduler
 
 __all__ = [
     "NO_LIMITS",
@@ -17,6 +17,7 @@ __all__ = [
     "BoardSought",
     "CameraTask",
     "Limits",
+    "describe_trust",
     "open_scheduler",
     "read_limits",
     "read_manifest",

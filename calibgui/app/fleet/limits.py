@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import tomllib
 from collections.abc import Iterator
 from dataclasses import dataclass, fields
 from pathlib import Path
@@ -11,7 +10,7 @@ from pathlib import Path
 from calibgui.dataset.fleet import FleetCamera, FleetFigures
 from calibgui.engine.assessment import Grade
 from calibgui.engine.errors import CalibrationError
-from calibgui.engine.files import describe_read_error, read_regular
+from calibgui.formats.toml_document import read_toml
 from calibgui.report.numbers import format_count
 
 _MAX_SIZE = 1 << 20
@@ -43,25 +42,16 @@ def read_limits(file: Path) -> Limits:
     Raises:
         CalibrationError: if the file cannot be read, or a key or a value is none that is known.
     """
-    try:
-        found = tomllib.loads(read_regular(file, _MAX_SIZE).decode("utf-8-sig"))
-    except OSError as error:
-        raise describe_read_error(file, error) from error
-    except ValueError as error:
-        raise CalibrationError(
-            f"{file} is not a TOML file: {error}.",
-            "Each line states a limit, as largest_edge_error_px = 0.5.",
-        ) from error
     known = [field.name for field in fields(Limits)]
-    for name, value in found.items():
+    found = {}
+    for name, value in read_toml(file, _MAX_SIZE).members().items():
         if name not in known:
             raise CalibrationError(
                 f"{file}: there is no limit {name!r}.", f"Choose from {', '.join(known)}."
             )
-        if isinstance(value, bool) or not isinstance(value, int | float) or not value >= 0:
-            raise CalibrationError(
-                f"{file}: {name} is not a number from 0 on.", f"State one, as {name} = 0.5."
-            )
+        if (limit := value.number()) < 0:
+            value.fail("a number from 0 on")
+        found[name] = limit
     return Limits(**found)
 
 

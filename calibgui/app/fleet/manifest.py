@@ -4,7 +4,7 @@ Columns, of which ``id`` and ``paths`` must be there:
 
     id           name of the set of photographs, which no other has
     paths        photographs: a folder, a pattern or a file, or several of them with ; between, from
-                 the table's folder on, or addresses that fsspec reads (s3://, http://)
+                 the table's folder on, or addresses (http://, https://, s3://, gs://)
     board        words of the board that replace the command line's: ROWSxCOLS, its kind, and the
                  side of a square, as "charuco 5x7 30mm"
     model        name of the lens model, or auto
@@ -32,12 +32,13 @@ from calibgui.app.calibrating.settings import (
     check_settings,
     resolve_model_choice,
 )
+from calibgui.app.fleet.photographs import check_address
 from calibgui.app.photographs.paths import is_remote
 from calibgui.dataset.fleet import FleetEntry
 from calibgui.engine.arrays import GridSize
 from calibgui.engine.boards import CHECKERBOARD, KINDS, Pattern
-from calibgui.engine.detection import METHODS, MIN_LINES
 from calibgui.engine.errors import CalibrationError
+from calibgui.engine.features import METHODS, MIN_LINES
 from calibgui.formats.csv_table import read_numbered_csv_rows
 
 _COLUMNS = ("id", "paths", "board", "model", "serial", "date", "temperature")
@@ -56,7 +57,7 @@ class BoardSought:
     pattern: Pattern | None = CHECKERBOARD
     """The pattern, whose unknown properties are inferred; None to find out all of it."""
     method: str = METHODS[0]
-    """How corners are located, one of ``detection.METHODS``."""
+    """How corners are located, one of ``features.METHODS``."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -184,10 +185,12 @@ def _read_task(
     except UnicodeEncodeError as error:
         raise CalibrationError("its name is not valid Unicode.", "Rename it.") from error
     folder = path if path.is_dir() else path.parent
+    names = [name for part in cells["paths"].split(";") if (name := part.strip())]
+    for name in filter(is_remote, names):
+        check_address(name)
     paths = tuple(
         name if is_remote(name) else os.path.abspath(folder / name)  # noqa: PTH100 - keeps links
-        for name in (part.strip() for part in cells["paths"].split(";"))
-        if name
+        for name in names
     )
     sought = read_board_words(cells["board"], board)
     if sought.square is None:
@@ -208,7 +211,7 @@ def read_board_words(text: str, board: BoardSought) -> BoardSought:
         if word in KINDS:
             if board.pattern is None or word != board.pattern.kind:
                 board = replace(board, pattern=KINDS[word])
-        elif match := re.fullmatch(r"(\d+)[x×](\d+)", word):
+        elif match := re.fullmatch(r"(\d{1,9})[x×](\d{1,9})", word):
             size = int(match[1]), int(match[2])
             if min(size) < MIN_LINES:
                 raise CalibrationError(
@@ -217,7 +220,7 @@ def read_board_words(text: str, board: BoardSought) -> BoardSought:
                 )
             board = replace(board, grid_size=size)
         elif match := re.fullmatch(r"(\d*\.?\d+)mm", word):
-            if not float(match[1]) > 0:
+            if not 0 < float(match[1]) < math.inf:
                 raise CalibrationError(f"{word} is not the side of a square.", "Write it as 30mm.")
             board = replace(board, square=float(match[1]))
         else:

@@ -1,12 +1,16 @@
 """The photographs of a camera of a fleet: where and of when they are, what changed, copies of them.
 
-They are files, or objects that fsspec reads where it is installed (s3://, http://, memory://). The
-latter are copied to a temporary folder for as long as a camera is worked on.
+They are files, or objects at addresses that fsspec reads where it is installed. The latter are
+copied to a temporary folder for as long as a camera is worked on. What is at an address is not
+trusted: neither the protocols that lead elsewhere are taken (fsspec has some that open archives,
+other programs' repositories and files here), nor more bytes than a photograph has, whatever the
+server says of their number.
 """
 
 from __future__ import annotations
 
 import hashlib
+import re
 import statistics
 import tempfile
 from collections.abc import Iterable, Iterator, Sequence
@@ -21,6 +25,13 @@ from calibgui.app.system.missing_library import describe_missing_extra
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.images import FORMATS, read_image_header
 
+PROTOCOLS = ("http", "https", "s3", "gs")
+"""The protocols of addresses: a web server, and objects stored at Amazon and Google."""
+_CHAIN = "::"
+"""What joins addresses of fsspec, of which one opens what the other reads."""
+_MAX_BYTES = 1 << 30
+"""Number of bytes of a photograph that are fetched at most: more than one of 150 megapixels has in
+colours of 16 bits that are not compressed."""
 _MARKS_OF_CHANGE = (
     "ETag",
     "etag",
@@ -43,6 +54,26 @@ class Photograph:
     """Its path, or its address."""
     state: str
     """What changes when it is written to; empty if that is not known without reading it."""
+
+
+def check_address(address: str) -> None:
+    """Refuse an address of another protocol than those of `PROTOCOLS`, or one within another.
+
+    Raises:
+        CalibrationError: if it is refused.
+    """
+    if _CHAIN in address:
+        raise CalibrationError(
+            f"The address {address} is several in one, joined by {_CHAIN}, which are not read.",
+            "Name the photographs themselves, as https://host/folder.",
+        )
+    protocol = address.partition("://")[0]
+    if protocol not in PROTOCOLS:
+        raise CalibrationError(
+            f"The address {address} is of the protocol {protocol!r}, which is not read.",
+            f"Addresses begin with {', '.join(f'{one}://' for one in PROTOCOLS)}; files and "
+            "folders here are named without any.",
+        )
 
 
 def list_photographs(paths: Iterable[str]) -> tuple[Photograph, ...]:
@@ -154,17 +185,44 @@ def _describe_state(info: dict[str, Any]) -> str:
 
 
 def _fetch(address: str, folder: Path) -> Path:
-    """Copy an object to a folder of its own, under its own name."""
+    """Copy an object to a folder of its own, under its own name.
+
+    Raises:
+        CalibrationError: if it cannot be read, or is larger than a photograph.
+    """
     folder.mkdir()
-    copy = folder / PurePosixPath(address).name
+    copy = folder / re.split(r"[/\\:]", address)[-1]
     with _explain_remote(address):
         system, path = _open_file_system(address)
-        system.get_file(path, str(copy))
+        system.get_file(path, str(copy), callback=_make_limit(address))
     return copy
 
 
+def _make_limit(address: str) -> Any:
+    """Return what fsspec tells how much of an object there is and has come, and which stops it.
+
+    What has come is counted as well, as servers may state no size, or a wrong one.
+    """
+    from fsspec.callbacks import Callback
+
+    def refuse_above_limit(size: int | None, come: int, **_: Any) -> None:
+        if max(size or 0, come) > _MAX_BYTES:
+            raise CalibrationError(
+                f"{address} is larger than {_MAX_BYTES >> 20} MB, the limit of a photograph that "
+                "is fetched.",
+                "Check the address; copy photographs that are as large to this machine.",
+            )
+
+    return Callback(hooks={"limit": refuse_above_limit})
+
+
 def _open_file_system(address: str) -> tuple[Any, str]:
-    """Return the file system of an address, and the path in it."""
+    """Return the file system of an address, and the path in it.
+
+    Raises:
+        CalibrationError: as `check_address`: a server's list may name addresses, too.
+    """
+    check_address(address)
     import fsspec.core
 
     # A worker that lives on would miss photographs that are added between two runs.

@@ -1,14 +1,16 @@
-"""Who does the tasks of a fleet: Dask's workers where it is installed, else processes here.
+"""Who does the tasks of a fleet: processes here, or workers of a scheduler of Dask that is named.
 
 Both do the same function to every item and yield what comes back in the order of completion. The
-workers are started when the first item is there: if nothing is to be done, nothing is started.
+workers are reached when the first item is there: if nothing is to be done, nothing is started.
+
+Processes here are reached by pipes that no other process has. A scheduler of Dask is reached over
+the network, and what comes from it is unpickled: `describe_trust` says what that means.
 """
 
 from __future__ import annotations
 
 import importlib.util
 import logging
-import os
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any, Protocol, TypeVar
@@ -29,6 +31,7 @@ _MAX_IN_FLIGHT = 4096
 memory and that of the driver stay flat."""
 _SCHEDULER_SECONDS = 10
 """Time after which a scheduler that does not answer counts as gone, s."""
+_TLS = "tls://"
 
 
 class Scheduler(Protocol):
@@ -43,34 +46,41 @@ class Scheduler(Protocol):
 
 
 @contextmanager
-def open_scheduler(
-    workers: int | None = None,
-    address: str | None = None,
-    announce: Callable[[str], None] = lambda _: None,
-) -> Iterator[Scheduler]:
-    """Give what does tasks: a scheduler of Dask that runs, one of our own, or a pool of processes.
+def open_scheduler(workers: int | None = None, address: str | None = None) -> Iterator[Scheduler]:
+    """Give what does tasks: a pool of processes, or a scheduler of Dask that runs.
 
     Args:
         workers: number of processes here; that of the processors if None.
-        address: of a scheduler of Dask that runs, such as tcp://host:8786.
-        announce: a function that is told in a sentence where the work can be watched.
+        address: of a scheduler of Dask that runs, such as tls://host:8786.
 
     Raises:
         CalibrationError: if an address is given, and Dask is not installed.
     """
-    count = workers or os.cpu_count() or 1
-    if not has_dask():
-        if address is not None:
-            raise CalibrationError(
-                f"The scheduler {address} needs Dask.", f"{describe_missing_extra('batch')}."
-            )
-        yield _Pool(count)
+    if address is None:
+        yield _Pool(workers)
         return
-    scheduler = _Dask(count, address, announce)
+    if not has_dask():
+        raise CalibrationError(
+            f"The scheduler {address} needs Dask.", f"{describe_missing_extra('batch')}."
+        )
+    scheduler = _Dask(address)
     try:
         yield scheduler
     finally:
         scheduler.close()
+
+
+def describe_trust(address: str) -> str:
+    """Say in a sentence who can run code as whom where work goes to a scheduler of Dask."""
+    if address.startswith(_TLS):
+        return (
+            f"The scheduler {address} is trusted: who has a certificate that Dask's settings "
+            "accept can run code as you, and you as whoever runs its workers."
+        )
+    return (
+        f"The scheduler {address} is trusted, without TLS: whoever can reach it can run code as "
+        "you, and you as whoever runs its workers."
+    )
 
 
 def has_dask() -> bool:
@@ -81,7 +91,7 @@ def has_dask() -> bool:
 class _Pool:
     """Processes on this machine."""
 
-    def __init__(self, count: int) -> None:
+    def __init__(self, count: int | None) -> None:
         self._count = count
 
     def run(self, task: Callable[[T], R], items: Sequence[T]) -> Iterator[tuple[int, R | Crashed]]:
@@ -89,14 +99,11 @@ class _Pool:
 
 
 class _Dask:
-    """Workers of Dask, here or wherever its scheduler has some."""
+    """Workers of Dask, wherever its scheduler has some."""
 
-    def __init__(self, count: int, address: str | None, announce: Callable[[str], None]) -> None:
-        self._count = count
+    def __init__(self, address: str) -> None:
         self._address = address
-        self._announce = announce
         self._client: Client | None = None
-        self._cluster: Any = None
 
     def run(self, task: Callable[[T], R], items: Sequence[T]) -> Iterator[tuple[int, R | Crashed]]:
         if not items:
@@ -122,40 +129,35 @@ class _Dask:
             yield indices.pop(future.key), self._take_result(future)
 
     def close(self) -> None:
-        """Let go of the workers, and end those that were started here."""
-        for part in (self._client, self._cluster):
-            if part is not None:
-                part.close()
+        """Let go of the workers."""
+        if self._client is not None:
+            self._client.close()
 
     def _connect(self) -> Client:
-        """Start workers here, or connect to a scheduler that has some."""
+        """Connect to the scheduler, with the certificates that Dask's own settings name."""
         import dask
-        from distributed import Client, LocalCluster
+        from distributed import Client
 
-        # A task whose worker died comes back as such: who asked decides what to do about it.
-        dask.config.set({"distributed.scheduler.allowed-failures": 0})
         # What ends the work is raised; the log would tell it again, with a traceback.
         logging.getLogger("distributed").setLevel(logging.CRITICAL)
+        settings = {}
+        if self._address.startswith(_TLS):
+            # Workers could be named by addresses without TLS: nothing is sent to those.
+            settings["distributed.comm.require-encryption"] = True
         try:
-            if self._address is None:
-                prepare_finder()  # compiled once: the workers load it
-                # Workers would keep samples of their stacks for an hour: up to 2 GB of each.
-                dask.config.set({"distributed.worker.profile.enabled": False})
-                self._cluster = LocalCluster(
-                    n_workers=self._count,
-                    threads_per_worker=1,
-                    host="127.0.0.1",
-                    dashboard_address="127.0.0.1:0",
-                    silence_logs=logging.CRITICAL,
-                )
-            client = Client(self._cluster or self._address, timeout=_SCHEDULER_SECONDS)
+            with dask.config.set(settings):
+                return Client(self._address, timeout=_SCHEDULER_SECONDS)
         except (OSError, ValueError, TimeoutError) as error:
             raise CalibrationError(
-                f"Dask's scheduler {self._address or 'on this machine'} does not answer: {error}.",
+                f"Dask's scheduler {self._address} does not answer: {error}.",
                 "Start it, and check its address.",
             ) from error
-        self._announce(f"Dask's dashboard: {client.dashboard_link}")
-        return client
+        except TypeError as error:  # how Dask tells that it has no certificates
+            raise CalibrationError(
+                f"Dask's scheduler {self._address} cannot be reached with TLS: {error}.",
+                "Name the certificates in Dask's settings, distributed.comm.tls.ca-file and "
+                "distributed.comm.tls.client.cert and key (docs.dask.org).",
+            ) from error
 
     def _take_result(self, future: Any) -> Any:
         """Return the result of a task that has ended. Raises what it raised."""
@@ -169,6 +171,6 @@ class _Dask:
             return Crashed()
         except CancelledError as error:
             raise CalibrationError(
-                f"Dask's scheduler {self._address or 'on this machine'} is gone.",
+                f"Dask's scheduler {self._address} is gone.",
                 "Start it again and repeat the command: what is done is kept.",
             ) from error

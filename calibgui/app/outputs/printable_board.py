@@ -1,4 +1,4 @@
-"""A board to print, as PDF or SVG in true size, with a scale bar to check the print.
+"""A board to print, as PDF, SVG or PNG in true size, with a scale bar to check the print.
 
 A checkerboard has one square more each way than inner corners. Its first square is dark. A board
 has at least half a square of white around it, which the corner finder needs. Printers often scale
@@ -7,12 +7,17 @@ pages: the user measures the scale bar with a ruler.
 
 from __future__ import annotations
 
+import io
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from html import escape
 from pathlib import Path
 
+import numpy as np
+from PIL import Image, ImageDraw, ImageFont
+
 from calibgui.engine import opencv
-from calibgui.engine.arrays import GridSize
+from calibgui.engine.arrays import Array, GridSize
 from calibgui.engine.boards import (
     AprilGrid,
     Board,
@@ -49,8 +54,11 @@ _TEXT_HEIGHT_MM = 3.2
 """Height of the text, mm."""
 _TEXT_ADVANCE_RATIO = 0.5
 """Mean width of a letter of the text, as a fraction of the height."""
-_POINTS_PER_MM = 72 / 25.4
+_MM_PER_INCH = 25.4
+_POINTS_PER_MM = 72 / _MM_PER_INCH
 """Number of PDF's units in a millimetre."""
+_DOTS_PER_INCH = 600
+"""Resolution of a PNG: that of common printers."""
 
 Rectangle = tuple[float, float, float, float]
 """Left, top, width, height on the page, mm."""
@@ -60,7 +68,7 @@ Disc = tuple[float, float, float]
 
 @dataclass(frozen=True, slots=True)
 class Page:
-    """The content of a page: black rectangles and discs, and a line of text."""
+    """The content of a page: black rectangles and discs, and lines of text."""
 
     size: tuple[float, float]
     """Width and height of the page, mm."""
@@ -70,9 +78,10 @@ class Page:
     """Discs of paper over the rectangles."""
     bar: float
     """Length of the scale bar, mm."""
-    text: str
+    lines: tuple[str, ...]
+    """Lines of text."""
     text_at: tuple[float, float]
-    """Left end of the base line of the text, mm."""
+    """Left end of the base line of the first, mm."""
 
     def svg(self) -> str:
         """Return the page as SVG."""
@@ -87,15 +96,17 @@ class Page:
         blanks = "".join(
             f'<circle cx="{x:.4f}" cy="{y:.4f}" r="{r:.4f}"/>\n' for x, y, r in self.white_discs
         )
-        x, y = self.text_at
+        text = "".join(
+            f'<text x="{x:.4f}" y="{y:.4f}" font-family="Helvetica, Arial, sans-serif" '
+            f'font-size="{_TEXT_HEIGHT_MM}">{escape(line)}</text>\n'
+            for x, y, line in self._place_lines()
+        )
         return (
             f'<svg xmlns="http://www.w3.org/2000/svg" width="{width}mm" height="{height}mm" '
             f'viewBox="0 0 {width} {height}">\n'
             f'<rect width="{width}" height="{height}" fill="white"/>\n'
             f'<g fill="black" shape-rendering="crispEdges">\n{shapes}</g>\n'
-            f'<g fill="white">\n{blanks}</g>\n'
-            f'<text x="{x:.4f}" y="{y:.4f}" font-family="Helvetica, Arial, sans-serif" '
-            f'font-size="{_TEXT_HEIGHT_MM}">{escape(self.text)}</text>\n</svg>\n'
+            f'<g fill="white">\n{blanks}</g>\n{text}</svg>\n'
         )
 
     def pdf(self) -> bytes:
@@ -107,11 +118,12 @@ class Page:
         squares += "".join(_draw_disc(x, height - y, r) for x, y, r in self.discs)
         blanks = "".join(_draw_disc(x, height - y, r) for x, y, r in self.white_discs)
         over = f"1 g\n{blanks}f\n0 g\n" if blanks else ""
-        x, y = self.text_at
-        text = self.text.replace("\\", "\\\\").replace("(", "\\(").replace(")", "\\)")
+        text = "".join(
+            f"BT /F1 {_TEXT_HEIGHT_MM} Tf {x:.4f} {height - y:.4f} Td ({_escape_pdf(line)}) Tj ET\n"
+            for x, y, line in self._place_lines()
+        )
         drawing = (
-            f"{_POINTS_PER_MM:.8f} 0 0 {_POINTS_PER_MM:.8f} 0 0 cm\n{squares}f\n{over}"
-            f"BT /F1 {_TEXT_HEIGHT_MM} Tf {x:.4f} {height - y:.4f} Td ({text}) Tj ET\n"
+            f"{_POINTS_PER_MM:.8f} 0 0 {_POINTS_PER_MM:.8f} 0 0 cm\n{squares}f\n{over}{text}"
         ).encode("cp1252")
         box = f"[0 0 {width * _POINTS_PER_MM:.4f} {height * _POINTS_PER_MM:.4f}]"
         objects = [
@@ -123,6 +135,50 @@ class Page:
             b"<< /Type /Font /Subtype /Type1 /BaseFont /Helvetica /Encoding /WinAnsiEncoding >>",
         ]
         return _assemble_pdf(objects)
+
+    def png(self) -> bytes:
+        """Return the page as PNG that states its true size, edges between dots as grey."""
+        scale = _DOTS_PER_INCH / _MM_PER_INCH
+        width, height = (round(scale * side) for side in self.size)
+        ink = np.zeros((height, width), np.float32)
+        for x, y, w, h in self.rectangles:
+            rows, down = _cover_dots(scale * y, scale * (y + h), height)
+            columns, across = _cover_dots(scale * x, scale * (x + w), width)
+            ink[rows, columns] += down[:, None] * across
+        for discs, is_dark in ((self.discs, True), (self.white_discs, False)):
+            for x, y, r in discs:
+                rows, _ = _cover_dots(scale * (y - r) - 1, scale * (y + r) + 1, height)
+                columns, _ = _cover_dots(scale * (x - r) - 1, scale * (x + r) + 1, width)
+                v, u = np.mgrid[rows, columns] + 0.5
+                disc = np.clip(scale * r + 0.5 - np.hypot(u - scale * x, v - scale * y), 0, 1)
+                part = ink[rows, columns]
+                ink[rows, columns] = np.maximum(part, disc) if is_dark else part * (1 - disc)
+        image = Image.fromarray(np.rint(255 * (1 - np.clip(ink, 0, 1))).astype(np.uint8))
+        font = ImageFont.load_default(scale * _TEXT_HEIGHT_MM)
+        for x, y, line in self._place_lines():
+            text = line.replace("×", "x")  # which the font lacks
+            ImageDraw.Draw(image).text((scale * x, scale * y), text, 0, font, anchor="ls")
+        file = io.BytesIO()
+        image.save(file, "PNG", dpi=(_DOTS_PER_INCH, _DOTS_PER_INCH))
+        return file.getvalue()
+
+    def _place_lines(self) -> Iterator[tuple[float, float, str]]:
+        """Yield the left end of the base line, mm, of each line of text, and the line."""
+        x, y = self.text_at
+        for k, line in enumerate(self.lines):
+            yield x, y + 1.25 * k * _TEXT_HEIGHT_MM, line
+
+
+def _escape_pdf(text: str) -> str:
+    """Escape what has a meaning in a text of PDF."""
+    return text.replace("\\", "\\\\").replace("(", "\\(").replace(")", "\\)")
+
+
+def _cover_dots(start: float, end: float, count: int) -> tuple[slice, Array]:
+    """Return the dots of a row of `count` that an interval touches, and how far it covers each."""
+    dots = slice(max(int(start), 0), min(int(np.ceil(end)), count))
+    first = np.arange(dots.start, dots.stop)
+    return dots, np.clip(np.minimum(first + 1, end) - np.maximum(first, start), 0.0, 1.0)
 
 
 def complete_pattern(pattern: Pattern, grid_size: GridSize) -> Pattern:
@@ -144,6 +200,7 @@ def complete_pattern(pattern: Pattern, grid_size: GridSize) -> Pattern:
             pattern.border or 2,
             bool(pattern.from_top),
             pattern.corner_squares is not False,
+            pattern.first_tag,
         )
     if isinstance(pattern, TaggedCheckerboard):
         return TaggedCheckerboard(
@@ -186,6 +243,33 @@ def choose_paper(board: Board) -> str:
     return max(PAPER_SIZES_MM, key=lambda paper: PAPER_SIZES_MM[paper])
 
 
+def choose_square(pattern: Pattern, grid_size: GridSize, paper: str) -> float:
+    """Return the largest side of a square that fits on paper, in whole mm where it has any."""
+    largest = measure_largest_square(pattern, grid_size, paper)
+    return float(np.floor(largest)) if largest >= 1 else largest
+
+
+def measure_largest_square(pattern: Pattern, grid_size: GridSize, paper: str) -> float:
+    """Measure the largest side of a square, mm, of which a board fits on paper.
+
+    Raises:
+        CalibrationError: if a property of the pattern is not known.
+    """
+    left, top, right, bottom = pattern.draw(grid_size).extent
+    width, height = _turn_paper(paper, is_wide=right - left > bottom - top)
+    # With half a square of white around the board.
+    return min(
+        (width - 2 * _MARGIN_MM) / (right - left + 1),
+        (height - 2 * _MARGIN_MM - _FOOT_HEIGHT_MM) / (bottom - top + 1),
+    )
+
+
+def _turn_paper(paper: str, *, is_wide: bool) -> tuple[float, float]:
+    """Return the width and height of paper that lies as a board does, mm."""
+    short, long = PAPER_SIZES_MM[paper]
+    return (long, short) if is_wide else (short, long)
+
+
 def lay_out_page(board: Board, paper: str) -> Page:
     """Lay out a board in true size on paper.
 
@@ -196,12 +280,8 @@ def lay_out_page(board: Board, paper: str) -> Page:
     ink = board.pattern.draw(board.grid_size)
     left, top, right, bottom = ink.extent
     across, down, side = right - left, bottom - top, board.square
-    short, long = PAPER_SIZES_MM[paper]
-    width, height = (long, short) if across > down else (short, long)
-    largest = min(
-        (width - 2 * _MARGIN_MM) / (across + 1),
-        (height - 2 * _MARGIN_MM - _FOOT_HEIGHT_MM) / (down + 1),
-    )
+    width, height = _turn_paper(paper, is_wide=across > down)
+    largest = measure_largest_square(board.pattern, board.grid_size, paper)
     if side > largest:
         raise CalibrationError(
             f"{describe_board(board)} does not fit on {paper} with {side:g} mm.",
@@ -229,12 +309,13 @@ def lay_out_page(board: Board, paper: str) -> Page:
     unit = "squares" if board.pattern.has_squares else "distance"
     if isinstance(board.pattern, AprilGrid):
         unit = "tags"
-    text = (
-        f"{bar:g} mm. Print without scaling and measure the bar. "
-        f"{describe_board(board).replace(' x ', ' × ')}, {unit} of {side:g} mm."
+    lines = (
+        f"{bar:g} mm. Print without scaling and measure the bar.",
+        f"{describe_board(board).replace(' x ', ' × ')}, {unit} of {side:g} mm.",
     )
+    longest = _TEXT_ADVANCE_RATIO * _TEXT_HEIGHT_MM * max(map(len, lines))
     text_at = (
-        min(x, width - _MARGIN_MM - _TEXT_ADVANCE_RATIO * _TEXT_HEIGHT_MM * len(text)),
+        max(min(x, width - _MARGIN_MM - longest), _MARGIN_MM),
         y + 2.3 + 1.4 * _TEXT_HEIGHT_MM,
     )
     return Page(
@@ -243,7 +324,7 @@ def lay_out_page(board: Board, paper: str) -> Page:
         tuple(discs),
         tuple(white_discs),
         bar,
-        text,
+        lines,
         text_at,
     )
 
@@ -263,7 +344,7 @@ def _draw_disc(x: float, y: float, r: float) -> str:
 
 
 def write_page(content: Page, path: Path) -> None:
-    """Write a page as PDF or SVG, by the suffix of `path`.
+    """Write a page as PDF, SVG or PNG, by the suffix of `path`.
 
     Raises:
         CalibrationError: if the suffix is another one, or the file cannot be written.
@@ -273,9 +354,11 @@ def write_page(content: Page, path: Path) -> None:
             write_atomically(path, content.pdf())
         case ".svg":
             write_atomically(path, content.svg().encode())
+        case ".png":
+            write_atomically(path, content.png())
         case _:
             raise CalibrationError(
-                f"{path} is neither a PDF nor an SVG file.", "End its name in .pdf or .svg."
+                f"{path} is not named as PDF, SVG or PNG.", "End its name in .pdf, .svg or .png."
             )
 
 

@@ -13,9 +13,11 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import cast
 
+import numpy as np
+
 from calibgui.app.outputs.output_folder import OutputFolder
 from calibgui.app.photographs.sensor_frame import choose_orientation
-from calibgui.dataset import Result, find_orientation
+from calibgui.dataset import PoseSet, Result, find_orientation
 from calibgui.engine import opencv
 from calibgui.engine.arrays import Array, Size
 from calibgui.engine.camera import Camera
@@ -28,6 +30,7 @@ from calibgui.engine.images import (
     Projection,
     ResampledImage,
     choose_ideal_cameras,
+    compute_board_extent,
     make_ideal_image,
     read_colour,
     read_image_header,
@@ -61,6 +64,8 @@ class Undistortion:
     view: FieldOfView = FieldOfView.ALL
     field_of_view: float | None = None
     """Angle from the left edge to the right one, radians, in place of `view`."""
+    square_pixels: bool = False
+    """True if perspective images have square pixels where the photographs have not."""
 
     def choose_cameras(self, camera: Camera) -> dict[str, IdealCamera]:
         """Choose the ideal cameras of the new images.
@@ -69,7 +74,11 @@ class Undistortion:
             CalibrationError: if there are none, for a reason of `choose_ideal_cameras`.
         """
         return choose_ideal_cameras(
-            camera, self.view, projection=self.projection, field_of_view=self.field_of_view
+            camera,
+            self.view,
+            projection=self.projection,
+            field_of_view=self.field_of_view,
+            square_pixels=self.square_pixels,
         )
 
 
@@ -144,10 +153,9 @@ def rectify_files(
         ForeignFilesError: as `OutputFolder`.
         Cancelled: from `progress`.
     """
-    camera = result.calibration.camera
+    camera, poses = result.calibration.camera, collect_poses(result)
     scale = pixels_per_mm or measure_natural_scale(result)
     extent = find_shown_extent(result)
-    poses = _collect_poses(result)
     orientation = find_orientation(result.used)
 
     def change(path: Path) -> Mapping[str, ResampledImage]:
@@ -164,13 +172,43 @@ def rectify_files(
     return _write_images("rectified", change, images, outputs, progress)
 
 
+def rectify_located(
+    located: PoseSet,
+    folder: Path,
+    pixels_per_mm: float | None = None,
+    progress: Progress | None = None,
+    overwrite: bool = False,
+) -> tuple[WrittenImage, ...]:
+    """Write the board of every photograph in which a known camera located it, as `rectify_files`.
+
+    Raises:
+        CalibrationError: as `rectify_files`.
+    """
+    camera, board = located.camera, located.board
+    assert board is not None  # it was found in photographs
+    extent = compute_board_extent(board)
+    found = {Path(view.image): view for view in located.views}
+    distances = [np.linalg.norm(view.pose.tvec) for _, view in located.located]
+    scale = pixels_per_mm or float(camera.focal.mean() / np.median(distances))
+
+    def change(path: Path) -> Mapping[str, ResampledImage]:
+        view = found[path]
+        if view.found is None:
+            raise CalibrationError(view.reason)
+        pixels = _read_in_frame(path, camera, None)
+        return {"": rectify_image(pixels, camera, view.found.pose, extent, scale)}
+
+    outputs = OutputFolder(folder / GEOMETRY_FILE, list(found), overwrite=overwrite)
+    return _write_images("rectified", change, list(found), outputs, progress)
+
+
 def _read_in_frame(path: Path, camera: Camera, orientation: int | None) -> Pixels:
     """Read a photograph, turned like the others of the camera."""
     header = read_image_header(path)
     return read_colour(path, choose_orientation(header, camera.size, orientation))
 
 
-def _collect_poses(result: Result) -> dict[str, Pose]:
+def collect_poses(result: Result) -> dict[str, Pose]:
     """Return the poses by the paths of the images and, where these are unique, their names."""
     pairs = list(zip(result.used, result.calibration.poses, strict=True))
     names = [Path(view.image).name for view, _ in pairs]

@@ -25,8 +25,8 @@ from calibgui.dataset import View, ViewStatus
 from calibgui.engine import detection as detectors
 from calibgui.engine.arrays import GridSize
 from calibgui.engine.boards import CHECKERBOARD, KINDS, Pattern
-from calibgui.engine.detection import Corners
 from calibgui.engine.errors import CalibrationError, UnknownPartError
+from calibgui.engine.features import Corners
 from calibgui.engine.images import read_image
 from calibgui.report.boards import name_kind
 
@@ -128,9 +128,7 @@ def find_grid_size(
     return infer_grid_size(view for _, view in found if isinstance(view, View))
 
 
-def find_any_board(
-    find: FindBoard, grid_size: GridSize | None, preparing: Callable[[], None] | None = None
-) -> Detection:
+def find_any_board(find: FindBoard, grid_size: GridSize | None) -> Detection:
     """Search photographs for a board of which no kind is stated.
 
     A plain checkerboard is looked for, and then what else they show. A size may have been stated as
@@ -139,13 +137,12 @@ def find_any_board(
     Args:
         find: searches the photographs for a board of a pattern and a size, None for any size.
         grid_size: of the board, if stated.
-        preparing: called if the detectors of other boards have to be compiled for their first use.
 
     Raises:
         CalibrationError: as `recognise_pattern`.
     """
     plain = find(CHECKERBOARD, grid_size)
-    other = recognise_pattern(plain.views, grid_size, preparing=preparing)
+    other = recognise_pattern(plain.views, grid_size)
     if other is None:
         return plain
     for size in dict.fromkeys((grid_size, grid_size and grid_size[::-1])):
@@ -160,7 +157,6 @@ def recognise_pattern(
     views: Sequence[View],
     grid_size: GridSize | None = None,
     stop: Event | None = None,
-    preparing: Callable[[], None] | None = None,
 ) -> Pattern | None:
     """Return the pattern that photographs show in which a plain checkerboard was looked for.
 
@@ -171,7 +167,6 @@ def recognise_pattern(
         views: what was found.
         grid_size: of the board that was looked for, if stated.
         stop: abandons the search for other kinds when set.
-        preparing: called if the detectors of other boards have to be compiled for their first use.
 
     Returns:
         None if it is a plain checkerboard, maybe of another size, or nothing that can be found.
@@ -185,7 +180,7 @@ def recognise_pattern(
         samples = choose_samples(views)
         if grid_size is not None and find_grid_size(samples, CHECKERBOARD, stop) is not None:
             return None
-        return find_other_pattern(samples, CHECKERBOARD, stop, preparing)
+        return find_other_pattern(samples, CHECKERBOARD, stop)
     view, corners = max(found, key=lambda pair: len(pair[1]))
     try:
         marks = detectors.look_for_marks(read_image(view.image, view.orientation).pixels, corners)
@@ -208,7 +203,6 @@ def find_other_pattern(
     images: Iterable[str],
     stated: Pattern,
     stop: Event | None = None,
-    preparing: Callable[[], None] | None = None,
 ) -> Pattern | None:
     """Return another pattern than `stated` that is found in some of the `images`, else None.
 
@@ -219,7 +213,7 @@ def find_other_pattern(
         Cancelled: if `stop` was set.
     """
     others = [pattern for pattern in KINDS.values() if pattern.kind != stated.kind]
-    return _find_best_pattern(images, others, _search_image, stop, preparing)
+    return _find_best_pattern(images, others, _search_image, stop)
 
 
 def find_mirrored_pattern(images: Iterable[str], stop: Event | None = None) -> Pattern | None:
@@ -240,7 +234,6 @@ def _find_best_pattern(
     patterns: Sequence[Pattern],
     search: Callable[[tuple[str, Pattern]], Corners | UnknownPartError | None],
     stop: Event | None,
-    preparing: Callable[[], None] | None = None,
 ) -> Pattern | None:
     """Return the pattern that `search` finds in most images, of several that with most corners.
 
@@ -253,7 +246,7 @@ def _find_best_pattern(
     read: Counter[str] = Counter()
     for some in images[:_FIRST_SAMPLES], images[_FIRST_SAMPLES:]:
         tries = [(image, pattern) for image in some for pattern in patterns]
-        for i, seen in map_in_processes(search, tries, stop, preparing, prepare_every_finder):
+        for i, seen in map_in_processes(search, tries, stop, prepare_every_finder):
             kind = tries[i][1].kind
             if isinstance(seen, Corners):
                 found[kind] += 1

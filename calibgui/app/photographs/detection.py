@@ -19,16 +19,17 @@ from pathlib import Path
 from threading import Event
 from typing import Protocol
 
+from calibgui.app.photographs.interlacing import INTERLACED, is_interlaced
 from calibgui.app.photographs.sensor_frame import list_other_frames, share_frame
 from calibgui.app.system.kernel_preparation import choose_preparation
 from calibgui.app.system.workers import Crashed, map_in_processes
 from calibgui.dataset import DEFAULT_SQUARE, CornerSet, View, ViewStatus
 from calibgui.engine import detection
 from calibgui.engine.arrays import Array, GridSize, Size
-from calibgui.engine.boards import CHECKERBOARD, Board, Pattern
-from calibgui.engine.detection import METHODS, Corners
+from calibgui.engine.boards import CHECKERBOARD, AprilGrid, Board, Pattern
 from calibgui.engine.errors import CalibrationError, MirroredError, NoBoardError
-from calibgui.engine.images import Image, mirror_orientation, read_image
+from calibgui.engine.features import METHODS, Corners
+from calibgui.engine.images import Image, find_image_circle, mirror_orientation, read_image
 
 _MIN_PARTS = 3
 """Number of photographs in which the largest part of a board has one size, from which it counts as
@@ -91,7 +92,6 @@ def find_views(
     orientation: int | None = None,
     method: str = METHODS[0],
     pattern: Pattern = CHECKERBOARD,
-    preparing: Callable[[], None] | None = None,
     search_image: SearchImage | None = None,
 ) -> Detection:
     """Search all images for the board, on all processors.
@@ -106,10 +106,8 @@ def find_views(
         size: width and height of the camera's images; if None, those of most images that show the
             board, or of most images if none does.
         orientation: EXIF orientation by which the images are turned; the most frequent one if None.
-        method: of locating corners, one of ``detection.METHODS``.
+        method: of locating corners, one of ``features.METHODS``.
         pattern: of the board; its unknown properties are inferred from the whole set.
-        preparing: called if the detector has to be compiled for its first use, which takes about
-            ``estimate_preparation(pattern)`` seconds.
         search_image: does what `search_view` does, as one that remembers; `search_view` if None.
 
     Raises:
@@ -133,7 +131,6 @@ def find_views(
             ),
             items,
             stop,
-            preparing,
             choose_preparation(pattern),
         )
         for i, view in results:
@@ -166,7 +163,12 @@ def find_views(
             )
     seen = None if grid_size else infer_grid_size(views)
     shared = None if grid_size or seen else _find_shared_part(views)
-    if (inferred := seen or shared) is not None:
+    told = (
+        grid_size
+        if _get_first_tag(infer_pattern(views, pattern)) != _get_first_tag(pattern)
+        else None
+    )
+    if (inferred := seen or shared or told) is not None:
         grid_size, pattern = inferred, infer_pattern(views, pattern)
         again = [
             k for k, view in enumerate(views) if _is_worth_searching_again(view, inferred, pattern)
@@ -193,7 +195,9 @@ def search_view(
         image = read_image(view.image, view.orientation)
     except CalibrationError as error:
         return view.refuse(ViewStatus.UNREADABLE, str(error))
-    doubt = _describe_zero_tail(image)
+    view = replace(view, circle=find_image_circle(image.pixels))
+    interlaced = INTERLACED if is_interlaced(image.pixels) else ""
+    doubt = " ".join(filter(None, (_describe_zero_tail(image), interlaced)))
     try:
         corners = detection.find_corners(image.pixels, grid_size, view.roi, method, pattern=pattern)
     except NoBoardError as error:
@@ -297,7 +301,8 @@ def infer_grid_size(views: Iterable[View]) -> GridSize | None:
     """
     found = [view.corners for view in views if view.corners is not None]
     if found and all(corners.pattern.identifies_points for corners in found):
-        return measure_largest_part(found)
+        first = _get_first_tag(infer_pattern(views, found[0].pattern))
+        return measure_largest_part([c for c in found if _get_first_tag(c.pattern) == first])
     whole = Counter(
         corners.shape
         for corners in found
@@ -342,10 +347,16 @@ def infer_pattern(views: Iterable[View], stated: Pattern) -> Pattern:
     return stated.complete_from([pattern for pattern in found if pattern.kind == stated.kind])
 
 
+def _get_first_tag(pattern: Pattern) -> int:
+    """Return the number of the first tag of an AprilGrid; 0 for other boards."""
+    return (pattern.first_tag or 0) if isinstance(pattern, AprilGrid) else 0
+
+
 def _is_worth_searching_again(view: View, grid_size: GridSize, pattern: Pattern) -> bool:
     """Return whether a search for the known board can change the corners of a view."""
     if view.corners is not None:
-        return view.corners.shape != grid_size or view.corners.relative
+        is_numbered_alike = _get_first_tag(view.corners.pattern) == _get_first_tag(pattern)
+        return view.corners.shape != grid_size or view.corners.relative or not is_numbered_alike
     is_easier = view.roi is not None or pattern.identifies_points or not pattern.has_squares
     return view.status is ViewStatus.NO_BOARD and is_easier
 

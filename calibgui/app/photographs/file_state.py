@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from calibgui.app.photographs.image_store import Signature, compute_file_digest, read_signature
+from calibgui.engine.errors import CalibrationError
 
 
 @dataclass(frozen=True, slots=True)
@@ -24,7 +25,7 @@ class FileState:
             return True
         try:
             return compute_file_digest(self.path) == self.digest
-        except OSError:
+        except (OSError, CalibrationError):
             return False
 
 

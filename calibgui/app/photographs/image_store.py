@@ -14,6 +14,7 @@ import numpy.typing as npt
 
 from calibgui.engine import opencv
 from calibgui.engine.arrays import Size
+from calibgui.engine.files import open_regular
 from calibgui.engine.images import Image, read_image, stretch_levels
 
 MAX_MEMORY_BYTES = 100_000_000
@@ -62,8 +63,8 @@ def read_signature(path: str | Path) -> Signature:
 
 
 def compute_file_digest(path: str | Path) -> str:
-    """Compute the SHA-256 of a file's content."""
-    with Path(path).open("rb") as file:
+    """Compute the SHA-256 of a file's content. Raises as ``engine.files.open_regular``."""
+    with open_regular(path) as file:
         return hashlib.file_digest(file, "sha256").hexdigest()
 
 

@@ -8,11 +8,11 @@ from typing import Any
 
 import numpy as np
 
-from calibgui.engine import detection
+from calibgui.engine import detection, features, lattices
 from calibgui.engine.arrays import Array, GreyImage, GridSize, IntArray
 from calibgui.engine.boards import CHECKERBOARD, Pattern, checkerboard_symmetry
-from calibgui.engine.detection import METHODS, Corners
 from calibgui.engine.errors import CalibrationError, NoBoardError
+from calibgui.engine.features import METHODS, Corners
 from calibgui.engine.geometry import fit_homography
 
 _MIN_CONTRAST_RATIO = 0.1
@@ -33,8 +33,8 @@ def find_nearest_corner(image: GreyImage, uv: Array, reach: float) -> Array | No
     floor = _MIN_CONTRAST_RATIO * float(np.ptp(part))
     if floor <= 0:
         return None
-    saddles = detection.find_saddles(part, floor)
-    good, _ = detection.classify_saddles(saddles)
+    saddles = lattices.find_saddles(part, floor)
+    good, _ = lattices.classify_saddles(saddles)
     at = saddles.uv[good] + [left, top]
     distance = np.linalg.norm(at - uv, axis=1)
     if not len(at) or distance.min() > reach:
@@ -44,7 +44,7 @@ def find_nearest_corner(image: GreyImage, uv: Array, reach: float) -> Array | No
 
 def refine_corner(image: GreyImage, uv: Array, limit: float) -> Array | None:
     """Return the saddle point (2,) px within `limit` px of `uv` (2,) px; None if there is none."""
-    at, good = detection.refine_saddles(image, uv[None], np.array([1.2]), np.array([limit]))
+    at, good = features.refine_saddles(image, uv[None], np.array([1.2]), np.array([limit]))
     return at[0] if good[0] else None
 
 
@@ -64,7 +64,7 @@ def mark_board(
         grid_size: rows and columns if the user states them; counted if None.
         usual: rows and columns to try if counting fails.
         pattern: of the board.
-        method: of locating corners, one of ``detection.METHODS``.
+        method: of locating corners, one of ``features.METHODS``.
 
     Raises:
         NoBoardError: if no board is found there.

@@ -13,19 +13,12 @@ from pathlib import Path
 from types import MappingProxyType
 
 from calibgui.engine.errors import CalibrationError
-from calibgui.engine.images import FORMATS, read_image_header
+from calibgui.engine.images import FORMATS, SUFFIXES, list_suffixes, read_image_header
 
 _MAX_FOLDERS = 200
 """Number of folders that are looked through for images at most, where none were expected."""
 _MAX_LISTED = 5
 """Number of folders that a message names at most."""
-
-
-_UNREAD_FORMATS = (
-    *(".heic", ".heif", ".hif", ".avif"),
-    *(".dng", ".cr2", ".cr3", ".nef", ".arw", ".raf", ".orf", ".rw2", ".pef", ".gpr"),
-)
-"""Suffixes of photographs in formats that are not read: of phones, and cameras' raw images."""
 
 
 class NoImagesError(CalibrationError):
@@ -105,7 +98,7 @@ def count_images_below(folder: Path) -> dict[Path, int]:
             if not entry.name.startswith(".") and entry.is_dir(follow_symlinks=False)
         ]
         waiting += sorted(below, key=make_natural_key)
-        count = sum(map(_is_image, listed))
+        count = sum(_is_image(entry, FORMATS + list_suffixes()) for entry in listed)
         if count and place != folder:
             counts[place] = count
     return dict(sorted(counts.items(), key=lambda one: make_natural_key(one[0])))
@@ -135,11 +128,12 @@ def describe_unread_photographs(names: Sequence[str]) -> str:
     there are none. Those that lie beside an image of the same name are copies of it."""
     folders = [Path(name) for name in names if Path(name).is_dir()]
     read = {path.with_suffix("").name.casefold() for path in find_images(names)}
+    unread = {suffix for each in SUFFIXES.values() for suffix in each} - set(list_suffixes())
     suffixes = Counter(
         path.suffix.lower()
         for folder in folders
         for path in folder.iterdir()
-        if path.suffix.lower() in _UNREAD_FORMATS
+        if path.suffix.lower() in unread
         and not path.name.startswith(".")
         and path.stem.casefold() not in read
     )
@@ -148,7 +142,7 @@ def describe_unread_photographs(names: Sequence[str]) -> str:
     listed = ", ".join(f"{count} of {suffix}" for suffix, count in suffixes.most_common())
     return (
         f"Not read: photographs in other formats, {listed}. Save them as JPEG or PNG in full size, "
-        "without correcting the lens."
+        "without correcting the lens, or `pip install 'calibgui[photos]'`, which reads them."
     )
 
 
@@ -198,7 +192,11 @@ def _list_files(name: str) -> list[Path]:
     path = Path(name)
     if name and path.is_dir():
         with os.scandir(path) as entries:
-            images = [path / entry.name for entry in entries if _is_image(entry)]
+            listed = list(entries)
+        images = [path / entry.name for entry in listed if _is_image(entry)]
+        others = [path / entry.name for entry in listed if _is_image(entry, list_suffixes())]
+        stems = {image.stem.casefold() for image in images}  # a camera writes both
+        images += [other for other in others if other.stem.casefold() not in stems]
         if not images:
             raise _explain_lack(name, path)
         return images
@@ -221,8 +219,8 @@ def _explain_lack(name: str, folder: Path) -> NoImagesError:
     if not counts:
         return NoImagesError(
             f"The folder {name} holds no images that can be read{_describe_others(folder)}.",
-            f"Name a folder with files that end in {', '.join(FORMATS)}; save pictures of "
-            "other formats, and pictures of videos, as PNG or as JPEG in full size.",
+            f"Name a folder with files that end in {', '.join(FORMATS)}, or videos by their own "
+            "names; save pictures of other formats as PNG or as JPEG in full size.",
         )
     listed = _list_counts({below.relative_to(folder): count for below, count in counts.items()})
     first = next(iter(counts))
@@ -251,13 +249,13 @@ def _describe_others(folder: Path) -> str:
     return f", but files of other formats: {listed}" if listed else ""
 
 
-def _is_image(entry: os.DirEntry[str]) -> bool:
+def _is_image(entry: os.DirEntry[str], suffixes: tuple[str, ...] = FORMATS) -> bool:
     """Return whether an entry of a folder is an image; hidden files are other programs' notes.
 
     A broken link counts as an image, so that the user is told that it cannot be read.
     """
     hidden = entry.name.startswith(".")
-    if hidden or not entry.name.lower().endswith(FORMATS):
+    if hidden or not entry.name.lower().endswith(suffixes):
         return False
     if entry.is_file(follow_symlinks=False):
         return True

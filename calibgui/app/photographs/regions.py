@@ -9,8 +9,8 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from calibgui.engine.arrays import Array
-from calibgui.engine.detection import check_outline
 from calibgui.engine.errors import CalibrationError
+from calibgui.engine.lattices import check_outline
 from calibgui.formats.json_document import read_json
 
 

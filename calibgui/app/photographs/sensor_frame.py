@@ -12,6 +12,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
+from pathlib import Path
 
 from calibgui.dataset import View, ViewStatus
 from calibgui.engine.arrays import Size
@@ -60,6 +61,26 @@ def share_frame(
             note = "" if turned == header.exif.orientation else _NOTE
             result[k] = replace(result[k], orientation=turned, note=note)
     return result, size
+
+
+def find_common_size(
+    images: Iterable[Path], usual: Size, orientation: int | None = None
+) -> Size | None:
+    """Find the size of photographs, turned alike: the `usual` one if any has it, else that of most.
+
+    Args:
+        images: the files.
+        usual: width and height of the camera's images.
+        orientation: EXIF orientation by which the camera's photographs are turned, where known.
+
+    Returns:
+        None if no image can be read.
+    """
+    views = [View(str(path)) for path in images]
+    alike, _ = share_frame(views, usual, orientation)
+    if any(view.status is ViewStatus.WAITING for view in alike):
+        return usual
+    return share_frame(views, None, orientation)[1]
 
 
 def list_other_frames(

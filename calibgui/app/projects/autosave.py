@@ -20,7 +20,13 @@ from calibgui.app.projects.project import Project
 from calibgui.app.projects.project_file import read_project, write_project
 from calibgui.app.system.state_folder import find_state_folder
 from calibgui.engine.errors import CalibrationError
-from calibgui.engine.files import describe_write_error, write_atomically
+from calibgui.engine.files import (
+    describe_read_error,
+    describe_write_error,
+    read_regular,
+    write_atomically,
+)
+from calibgui.formats.json_document import MAX_JSON_SIZE
 
 AUTOSAVE_DELAY_S = 2.0
 """Time from an edit until it is in the file, s."""
@@ -114,7 +120,10 @@ def keep_discarded_work(work: Path, project_file: Path) -> Path:
         return keep_discarded(read_unsaved_work(work, project_file), name)
     except CalibrationError:
         path = _make_place(name)
-        write_atomically(path, work.read_bytes())
+        try:
+            write_atomically(path, read_regular(work, MAX_JSON_SIZE))
+        except OSError as error:
+            raise describe_read_error(work, error) from error
         return path
 
 

@@ -11,7 +11,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from calibgui.app.calibrating.settings import NEW_PROJECT_SETTINGS
+from calibgui.app.calibrating.settings import BEST_SETTINGS
 from calibgui.app.projects.project import Project
 
 Change = Callable[[Project], Project]
@@ -41,7 +41,7 @@ class Document:
     def __init__(
         self, project: Project | None = None, path: Path | None = None, *, saved: bool = True
     ) -> None:
-        project = project or Project(settings=NEW_PROJECT_SETTINGS)
+        project = project or Project(settings=BEST_SETTINGS)
         self.path = path
         self.listeners: list[Listener] = []
         self._steps: tuple[Step, ...] = (Step("", project),)

@@ -21,9 +21,9 @@ from calibgui.app.photographs.detection import (
 )
 from calibgui.dataset import DEFAULT_SQUARE, CornerSet, Result, View, ViewStatus
 from calibgui.engine.arrays import GridSize, Size
-from calibgui.engine.boards import CHECKERBOARD, KINDS, Board, Charuco, Circles, Pattern
-from calibgui.engine.detection import METHODS
+from calibgui.engine.boards import CHECKERBOARD, Board, Pattern
 from calibgui.engine.errors import CalibrationError
+from calibgui.engine.features import METHODS
 
 GRID_LINES = range(2, 201)
 """Numbers of rows, and of columns, that a board can be stated to have."""
@@ -55,7 +55,7 @@ class Project:
     grid_size: GridSize | None = None
     """Rows and columns of inner corners or circles as stated by the user; inferred if None."""
     method: str = METHODS[0]
-    """Method of locating corners, one of ``detection.METHODS``."""
+    """Method of locating corners, one of ``features.METHODS``."""
     square: float = DEFAULT_SQUARE
     """Side of a square, mm."""
     unit: Unit = Unit.MM
@@ -129,44 +129,6 @@ class Project:
     def find(self, image: str) -> int:
         """Return the index of the view of `image`; -1 if there is none."""
         return next((k for k, view in enumerate(self.views) if view.image == image), -1)
-
-
-def set_square(project: Project, square: float) -> Project:
-    """Return the project with squares (or distances of circles) of `square` mm.
-
-    Markers and circles keep their size, or become unknown if they do not fit. The user has stated
-    the length: it needs no confirmation.
-    """
-    ratio = project.square / square
-    try:
-        pattern = _scale_pattern(project.pattern, ratio)
-    except CalibrationError:
-        pattern = KINDS[project.pattern.kind]
-    return replace(project, square=square, pattern=pattern, lengths_confirmed=True)
-
-
-def confirm_lengths(project: Project) -> Project:
-    """Return the project with its squares as long as they are said to be, in the results too."""
-    results = {
-        name: replace(result, lengths_confirmed=True)
-        if result.board is not None and result.board.square == project.square
-        else result
-        for name, result in project.results.items()
-    }
-    return replace(project, lengths_confirmed=True, results=MappingProxyType(results))
-
-
-def _scale_pattern(pattern: Pattern, ratio: float) -> Pattern:
-    """Return the pattern with its own lengths times `ratio`.
-
-    Raises:
-        CalibrationError: if these do not fit the squares.
-    """
-    if isinstance(pattern, Charuco) and pattern.marker is not None:
-        return replace(pattern, marker=pattern.marker * ratio)
-    if isinstance(pattern, Circles) and pattern.diameter is not None:
-        return replace(pattern, diameter=pattern.diameter * ratio)
-    return pattern
 
 
 def set_pattern(project: Project, pattern: Pattern) -> Project:

@@ -12,9 +12,10 @@
                         freed, fixed (names, or an object of them with their values or null); plate
                         (the board's shape: a model, "auto" or a shape as in
                         ``board_shape_json.py``), prior_mm (in the plane and out of it, or null),
-                        robust; weigh_views and once (false where missing)
+                        robust; weigh_views, once and improve (false where missing)
     views               as in ``views_json.py``, and sha256 of the image file where known
     results             by name, each as a result.json is (``result_json.py``)
+    verdicts            by name, each as in ``verdict_json.py``, of the results that were judged
     settings_of_results by name, each as settings is, of the results whose settings are known
 
 Paths are relative to the folder of the file, with "/", so that folder and project move together;
@@ -45,24 +46,20 @@ from calibgui.app.calibrating.settings import (
 from calibgui.app.photographs.paths import is_remote
 from calibgui.app.projects.project import GRID_LINES, Project, Unit, relocate_images
 from calibgui.dataset import Result, View
+from calibgui.dataset.judging import keep_verdict, recall_verdict
 from calibgui.engine.arrays import GridSize
 from calibgui.engine.boards import CHECKERBOARD, Board, BoardShape, BoardShapeModel
 from calibgui.engine.calibration import DEFAULT_METHOD, Cost
 from calibgui.engine.calibration import METHODS as CALIBRATION_METHODS
-from calibgui.engine.detection import METHODS
 from calibgui.engine.errors import CalibrationError
+from calibgui.engine.features import METHODS
 from calibgui.engine.files import open_regular
 from calibgui.formats.board_shape_json import decode_board_shape, decode_prior, encode_board_shape
-from calibgui.formats.corners_json import decode_size
-from calibgui.formats.json_document import (
-    JsonWriter,
-    Node,
-    are_same_values,
-    check_format,
-    read_json,
-)
+from calibgui.formats.json_document import JsonWriter, are_same_values, check_format, read_json
+from calibgui.formats.node import Node
 from calibgui.formats.pattern_json import decode_pattern, encode_pattern
 from calibgui.formats.result_json import decode_result, encode_result
+from calibgui.formats.verdict_json import decode_verdict, encode_verdict
 from calibgui.formats.views_json import decode_views, encode_view
 
 FORMAT = "calibgui-project"
@@ -136,6 +133,11 @@ def encode_project(project: Project, folder: Path) -> dict[str, Any]:
         "settings": _encode_settings(project.settings),
         "views": [_encode_view(view, project, board) for view in project.views],
         "results": {name: encode_result(result) for name, result in project.results.items()},
+        "verdicts": {
+            name: encode_verdict(verdict, result)
+            for name, result in project.results.items()
+            if (verdict := recall_verdict(result)) is not None
+        },
         "settings_of_results": {
             name: _encode_settings(settings)
             for name, settings in project.settings_of_results.items()
@@ -160,6 +162,7 @@ def _encode_settings(settings: Settings) -> dict[str, Any]:
         "prior_mm": None if prior is None else (prior.in_plane, prior.out_of_plane),
         "robust": settings.robust,
         "weigh_views": settings.weigh_views,
+        "improve": settings.improve,
         "once": settings.once,
     }
 
@@ -234,7 +237,7 @@ def _decode_project(node: Node) -> Project:
     settings = _decode_settings(node["settings"])
     return Project(
         views=views,
-        size=decode_size(size) if size else None,
+        size=size.image_size() if size else None,
         pattern=pattern,
         grid_size=_decode_grid_size(board.get("rows"), board.get("cols")),
         method=method.choice(METHODS) if (method := board.get("corners")) else METHODS[0],
@@ -275,6 +278,7 @@ def _decode_settings(node: Node) -> Settings:
         robust=node["robust"].flag(),
         weigh_views=weigh.flag() if (weigh := node.get("weigh_views")) else False,
         once=once.flag() if (once := node.get("once")) else False,
+        improve=improve.flag() if (improve := node.get("improve")) else False,
     )
 
 
@@ -336,10 +340,13 @@ def _decode_results(node: Node, views: tuple[View, ...]) -> dict[str, Result]:
         return here if same else view
 
     results = {}
+    verdicts = node.get("verdicts")
     for name, record in node["results"].members().items():
         result = decode_result(record)
         pairs = zip(result.views, record["views"].value, strict=True)
         results[name] = replace(result, views=tuple(share(*pair) for pair in pairs))
+        if verdicts is not None and (verdict := verdicts.get(name)) is not None:
+            keep_verdict(result, decode_verdict(verdict, result))
     return results
 
 

@@ -3,15 +3,20 @@
 from __future__ import annotations
 
 import json
+import os
 from dataclasses import dataclass
 from pathlib import Path
 
 from calibgui.app.system.state_folder import find_state_folder
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.files import write_atomically
+from calibgui.formats.json_document import read_json
+from calibgui.formats.node import Node
 
 _MAX_RECENT = 10
 """Number of projects and folders that are remembered."""
+_MAX_SIZE = 1 << 20
+"""Size of the largest notes that are read, bytes: ten names have some kB."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -24,18 +29,23 @@ class Recent:
 
 
 def list_recent() -> list[Recent]:
-    """Return the projects and folders opened or saved lately that still exist, the newest first."""
+    """Return the projects and folders opened or saved lately that still exist, the newest first.
+
+    There are none as long as the notes are missing or damaged.
+    """
     try:
-        noted = json.loads(_find_file().read_text(encoding="utf-8"))
-        entries = [
-            # Notes of earlier versions are names of projects alone.
-            (note, "") if isinstance(note, str) else (note["path"], note["image"])
-            for note in noted
-        ]
-        recent = [Recent(Path(path), str(image)) for path, image in entries]
-        return [entry for entry in recent if entry.path.exists()]
-    except (OSError, ValueError, TypeError, KeyError):  # no notes yet, or damaged ones
+        recent = [_decode_note(note) for note in read_json(_find_file(), _MAX_SIZE).items()]
+    except (OSError, CalibrationError):
         return []
+    # A name that is too long for the system is of nothing that exists.
+    return [entry for entry in recent if os.path.exists(entry.path)]  # noqa: PTH110
+
+
+def _decode_note(note: Node) -> Recent:
+    """Return what a note is of; notes of earlier versions are names of projects alone."""
+    if isinstance(note.value, str):
+        return Recent(Path(note.file_name()), "")
+    return Recent(Path(note["path"].file_name()), note["image"].text())
 
 
 def remember_project(path: Path, image: str = "") -> None:

@@ -56,7 +56,7 @@ def _recover_settings(result: Result) -> Settings:
     lens, usual = find_model(calibration.camera.model), METHODS[arguments["method"]].held
     usual = lens.held if usual is None else usual
     defaults = dict(zip(lens.names, lens.defaults, strict=True))
-    held = stated["fixed"]
+    held = stated.fixed
     return Settings(
         cost=calibration.cost,
         # The cost "paper" takes the printed lens of the paper instead of the default.
@@ -66,6 +66,6 @@ def _recover_settings(result: Result) -> Settings:
         freed=tuple(name for name in usual if name not in held),
         board_shape=arguments["board_shape"],
         prior=arguments["prior"],
-        robust=bool(stated.get("robust")),
-        weigh_views=bool(stated.get("weigh_views")),
+        robust=bool(stated.robust),
+        weigh_views=bool(stated.weigh_views),
     )

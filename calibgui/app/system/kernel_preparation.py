@@ -1,18 +1,20 @@
-"""Kernels made ready before they are needed, so that nothing is compiled twice.
+"""Kernels loaded before work is shared among processes, and compiled before they are needed.
 
-A kernel is compiled at its first call for each type of image. If that is in several processes at
-once, each of them compiles it. Set-up scripts compile those of all detectors, for images of 8 and
-of 16 bits, by ``python -m calibgui.app.system.kernel_preparation``.
+Until a kernel is kept on disk the readable functions do its work (``engine.kernels``).
+`compile_kernels` compiles all of them, for images of 8 and of 16 bits, which ``calibgui prepare``,
+set-up scripts and the window ask for.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
+from threading import Event
 
 import numpy as np
 import numpy.typing as npt
 
-from calibgui.engine import boards, camera, detection, geometry, images
+from calibgui.app.system.workers import map_in_processes
+from calibgui.engine import boards, calibration, camera, detection, geometry, images, kernels
 
 _SQUARE_PX = 20
 """Side of the squares of the drawn board, px."""
@@ -26,6 +28,8 @@ _BARREL = 0.4
 _SHADE = 0.3
 """Part of the light that is lost at the darkest places: as much as it takes for the light of single
 corners to be fitted."""
+_SOLVED_VIEWS = 12
+"""Number of views that the prepared calibration has: enough for every kind of board shape."""
 _TILT = 0.1
 """Turn of the rendered boards about both axes, rad: as much as it takes for no line to be straight
 along the pixels."""
@@ -33,7 +37,7 @@ along the pixels."""
 
 def prepare_finder(depth: npt.DTypeLike = np.uint8) -> None:
     """Find the corners of a small board drawn through a lens in uneven light, beside a chequered
-    cloth, which loads or compiles the finder's kernels.
+    cloth, which loads the finder's kernels.
 
     Args:
         depth: type of the grey levels, np.uint8 or np.uint16.
@@ -66,9 +70,31 @@ def prepare_tag_finder(depth: npt.DTypeLike = np.uint8) -> None:
 
 
 def prepare_every_finder(depth: npt.DTypeLike = np.uint8) -> None:
-    """Prepare the detectors of all kinds of boards."""
-    prepare_tag_finder(depth)
-    prepare_circle_finder(depth)
+    """Prepare the detectors of all kinds of boards, if their kernels are kept."""
+    prepare_finder(depth)
+    if not kernels.was_any_missed():
+        prepare_tag_finder(depth)
+        prepare_circle_finder(depth)
+
+
+def prepare_solver() -> None:
+    """Calibrate from views of a small board with each kind of lens and shape that has kernels."""
+    board = boards.Board(6, 7, 30.0)
+    xy, middle = board.points(), np.array([90.0, 75.0])
+    truth = camera.Camera((640, 480), np.array([650.0, 650.0, 320.0, 240.0, 0.2, *[0.0] * 5]))
+    random = np.random.default_rng(1)
+    views = []
+    for turn in range(_SOLVED_VIEWS):
+        tilt = 0.5 * np.array([np.cos(turn), np.sin(turn), 0.1])
+        pose = geometry.Pose(tilt, np.array([*-middle, 400.0 + 10 * turn]))
+        uv = camera.project_points(xy, truth, pose) + random.normal(0, 0.05, (len(xy), 2))
+        views.append((uv, xy))
+    pixels = np.moveaxis(np.mgrid[200:440:6, 120:360:6], 0, -1)  # where there are corners
+    for model in ("lucchese", "splined-stereographic-8x6-90"):
+        found = calibration.calibrate(views, truth.size, model=model).camera
+        camera.pixels_from_rays(camera.rays_from_pixels(pixels, found), found)
+    for shape in (boards.BoardShapeModel.BOW, boards.BoardShapeModel.FREE):
+        calibration.calibrate(views, truth.size, board_shape=shape)
 
 
 def _find_rendered(board: boards.Board, depth: npt.DTypeLike) -> None:
@@ -85,6 +111,18 @@ def _find_rendered(board: boards.Board, depth: npt.DTypeLike) -> None:
     detection.find_corners(levels, pattern=board.pattern)
 
 
+def _prepare_deep_finder() -> None:
+    prepare_finder(np.uint16)
+
+
+def _prepare_deep_tag_finder() -> None:
+    prepare_tag_finder(np.uint16)
+
+
+def _prepare_deep_circle_finder() -> None:
+    prepare_circle_finder(np.uint16)
+
+
 _PREPARATIONS = {
     "circles": prepare_circle_finder,
     "asymmetric-circles": prepare_circle_finder,
@@ -92,8 +130,16 @@ _PREPARATIONS = {
 }
 """Functions that prepare detectors which need other kernels than that of checkerboards, by the kind
 of their boards."""
-_SECONDS = {prepare_finder: 25, prepare_circle_finder: 7, prepare_tag_finder: 35}
-"""Rough times, s, that compiling takes, once after an installation."""
+_ALL_PREPARATIONS: tuple[Callable[[], None], ...] = (
+    prepare_finder,
+    prepare_solver,
+    prepare_circle_finder,
+    prepare_tag_finder,
+    _prepare_deep_finder,
+    _prepare_deep_circle_finder,
+    _prepare_deep_tag_finder,
+)
+"""The preparations of all kernels, in an order in which two processes seldom need one at once."""
 
 
 def choose_preparation(pattern: boards.Pattern) -> Callable[..., None]:
@@ -101,11 +147,23 @@ def choose_preparation(pattern: boards.Pattern) -> Callable[..., None]:
     return _PREPARATIONS.get(pattern.kind, prepare_finder)
 
 
-def estimate_preparation(pattern: boards.Pattern) -> int:
-    """Estimate the time that preparing this detector takes if it has to be compiled, s."""
-    return _SECONDS[choose_preparation(pattern)]
+def compile_kernels(
+    progress: Callable[[int, int], None] | None = None, stop: Event | None = None
+) -> None:
+    """Compile the kernels that are not kept on disk yet, in two processes.
+
+    Args:
+        progress: called with the number of finished parts of the work, and of all.
+        stop: ends the work within 0.2 s when set; what is compiled by then is kept.
+
+    Raises:
+        Cancelled: if `stop` was set.
+    """
+    for done, _ in enumerate(map_in_processes(_compile, _ALL_PREPARATIONS, stop, count=2), 1):
+        if progress is not None:
+            progress(done, len(_ALL_PREPARATIONS))
 
 
-if __name__ == "__main__":
-    prepare_every_finder()
-    prepare_every_finder(np.uint16)
+def _compile(prepare: Callable[[], None]) -> None:
+    with kernels.compile_missing():
+        prepare()

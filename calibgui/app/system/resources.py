@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
-import calibgui
 from calibgui.engine.errors import CalibrationError
-from calibgui.formats.json_document import Node, read_json
+from calibgui.formats.json_document import read_json
+from calibgui.formats.node import Node
 
-_PACKAGE = Path(calibgui.__file__).resolve().parent
+_PACKAGE = Path(__file__).resolve().parents[2]
 
 
 def find_resource(name: str) -> Path:

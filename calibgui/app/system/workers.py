@@ -29,7 +29,7 @@ from typing import Any, TypeVar, cast
 
 from calibgui.engine import opencv
 from calibgui.engine.errors import CalibrationError, Cancelled
-from calibgui.engine.kernels import NumbaWarning, when_compiling
+from calibgui.engine.kernels import NumbaWarning
 from calibgui.engine.threads import limit_blas_threads
 
 T = TypeVar("T")
@@ -47,10 +47,6 @@ _serial = threading.local()
 
 class Crashed(Exception):  # noqa: N818 - a value, never raised
     """The result of a task whose process died."""
-
-
-class _Compiling:
-    """A message from a worker that has to compile kernels first."""
 
 
 @contextlib.contextmanager
@@ -71,7 +67,6 @@ def map_in_processes(
     task: Callable[[T], R],
     items: Sequence[T],
     stop: Event | None = None,
-    preparing: Callable[[], None] | None = None,
     prepare: Callable[[], None] | None = None,
     count: int | None = None,
 ) -> Generator[tuple[int, R | Crashed], None, None]:
@@ -83,9 +78,8 @@ def map_in_processes(
         task: a function of a module, or a partial of one, which is sent to other processes.
         items: arguments of the task.
         stop: ends the work at once when set.
-        preparing: called once if kernels have to be compiled first.
-        prepare: a function of a module that loads or compiles the kernels of the task. It is called
-            once before the work is shared, so that no two processes compile the same.
+        prepare: a function that loads the kernels of the task. It is called once, before the work
+            is shared, if the processes are copies of this one and need not load them again.
         count: number of processes; that of the processors if None.
 
     Raises:
@@ -95,48 +89,33 @@ def map_in_processes(
         Exception: any that `task` raised, with the traceback in the worker as a note.
     """
     waiting = list(enumerate(items))[::-1]
-    if prepare in _prepared or not items:
-        prepare = None
     is_serial = getattr(_serial, "is_on", False)
-    if prepare is not None and (is_serial or _can_fork()):
-        _prepare_here(prepare, preparing)
-        prepare = None
+    is_shared = bool(items) and (is_serial or _can_fork())
+    if prepare is not None and prepare not in _prepared and is_shared:
+        _prepare_here(prepare)
     if is_serial:
         yield from _do_here(task, items, stop)
         return
     team: list[tuple[Connection, BaseProcess]] = []
-    is_prepared = prepare is None
     # One that is killed before it begins costs nothing where others can begin.
     can_begin = False
     try:
         team.extend(
-            _start_worker(task, None if k else prepare)
-            for k in range(min(len(items), count or os.cpu_count() or 1))
+            _start_worker(task) for _ in range(min(len(items), count or os.cpu_count() or 1))
         )
         # The index of the item that each worker is busy with; None until it has started.
         busy: dict[Connection, int | None] = {connection: None for connection, _ in team}
         while busy:
-            # The others' messages wait until the first worker has prepared what all of them load.
-            heard = list(busy) if is_prepared else [team[0][0]]
-            ready = cast(list[Connection], wait(heard, _POLL_SECONDS))
+            ready = cast(list[Connection], wait(list(busy), _POLL_SECONDS))
             if stop is not None and stop.is_set():
                 raise Cancelled
             for connection in ready:
                 index = busy.pop(connection)
                 result, lost = _receive_result(connection)
-                if isinstance(result, _Compiling):
-                    busy[connection] = index
-                    if preparing is not None:
-                        preparing()
-                        preparing = None
-                    continue
                 if index is None:
                     if lost and not can_begin:
                         raise _explain_failed_start()
                     can_begin = not lost
-                if prepare is not None:
-                    _prepared.add(prepare)
-                    is_prepared = True
                 if lost and waiting:
                     team.append(_start_worker(task))
                     busy[team[-1][0]] = None
@@ -173,33 +152,29 @@ def _has_window() -> bool:
     return any(name.startswith("PySide6") for name in sys.modules)
 
 
-def _prepare_here(prepare: Callable[[], None], preparing: Callable[[], None] | None) -> None:
+def _prepare_here(prepare: Callable[[], None]) -> None:
     """Prepare in this process what workers are then forked with."""
-    with opencv.single_thread(), when_compiling(preparing or (lambda: None)):
+    with opencv.single_thread():
         prepare()
     gc.freeze()  # no process has to look for garbage among the libraries and kernels that it shares
     _prepared.add(prepare)
 
 
-def _start_worker(
-    task: Callable[[Any], Any], prepare: Callable[[], None] | None = None
-) -> tuple[Connection, BaseProcess]:
-    """Start a worker, which calls `prepare` first; return it with the connection for items and
-    results. Raises CalibrationError if the system starts no process."""
+def _start_worker(task: Callable[[Any], Any]) -> tuple[Connection, BaseProcess]:
+    """Start a worker; return it with the connection for items and results. Raises CalibrationError
+    if the system starts no process."""
     forks = _can_fork()
     context: Any = multiprocessing.get_context("fork" if forks else "spawn")
     ours, theirs = context.Pipe()
     niceness = _NICENESS if _has_window() else 0
-    process = context.Process(
-        target=_run_worker, args=(task, theirs, prepare, niceness), daemon=True
-    )
+    process = context.Process(target=_run_worker, args=(task, theirs, niceness), daemon=True)
     if forks:
         with opencv.single_thread(), _block_interrupts(), warnings.catch_warnings():
             # Python counts the threads of BLAS, which stops them itself before a fork.
             warnings.filterwarnings("ignore", ".*multi-threaded.*fork", DeprecationWarning)
             _start_process(process)
     else:
-        resource_tracker.ensure_running()  # it unblocks interrupts, and would be started within
+        resource_tracker.ensure_running()  # it unblocks signals, and would be started within
         with _block_interrupts():
             _start_process(process)
     theirs.close()
@@ -234,26 +209,18 @@ def _receive_result(connection: Connection) -> tuple[Any, bool]:
     return result, False
 
 
-def _run_worker(
-    task: Callable[[Any], Any],
-    connection: Connection,
-    prepare: Callable[[], None] | None,
-    niceness: int,
-) -> None:
-    """Prepare and report that the worker has started, then do `task` until the connection is
-    closed."""
+def _run_worker(task: Callable[[Any], Any], connection: Connection, niceness: int) -> None:
+    """Report that the worker has started, then do `task` until the connection is closed."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
+    # It was blocked at the start; what the parent does when it is asked to end is not for a worker.
+    signal.signal(signal.SIGTERM, signal.SIG_DFL)
+    if hasattr(signal, "pthread_sigmask"):  # not on Windows
+        signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGTERM})
     if hasattr(os, "nice"):  # not on Windows
         os.nice(niceness)
     opencv.use_threads(1)
     warnings.simplefilter("ignore", NumbaWarning)  # the parent process says so, once
-    with (
-        limit_blas_threads(),
-        contextlib.suppress(EOFError, ConnectionError),
-        when_compiling(lambda: connection.send((None, _Compiling()))),
-    ):
-        if prepare is not None:
-            prepare()
+    with limit_blas_threads(), contextlib.suppress(EOFError, ConnectionError):
         connection.send((None, None))
         _serve_items(task, connection)
 
@@ -277,11 +244,12 @@ def _serve_items(task: Callable[[Any], Any], connection: Connection) -> None:
 
 @contextlib.contextmanager
 def _block_interrupts() -> Iterator[None]:
-    """Block Ctrl-C in processes started meanwhile; their parent receives it and kills them."""
+    """Block Ctrl-C and SIGTERM in processes started meanwhile; their parent receives the former and
+    kills them."""
     if not hasattr(signal, "pthread_sigmask"):  # Windows
         yield
         return
-    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT, signal.SIGTERM})
     try:
         yield
     finally:

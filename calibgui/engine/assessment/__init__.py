@@ -34,13 +34,15 @@ if TYPE_CHECKING:
         CameraDifference as CameraDifference,
         compare_cameras as compare_cameras,
     )
-    from calibgui.engine.assessment.choices.cross_validation import (
+    from calibgui.engine.assessment.choices.board_shape_choice import (
         BoardShapeChoice as BoardShapeChoice,
+        choose_board_shape as choose_board_shape,
+    )
+    from calibgui.engine.assessment.choices.cross_validation import (
         Bootstrap as Bootstrap,
         CrossValidation as CrossValidation,
         Fold as Fold,
         bootstrap_views as bootstrap_views,
-        choose_board_shape as choose_board_shape,
         cross_validate as cross_validate,
     )
     from calibgui.engine.assessment.changes.drift import (
@@ -54,11 +56,15 @@ if TYPE_CHECKING:
         ErrorSources as ErrorSources,
         separate_error_sources as separate_error_sources,
     )
-    from calibgui.engine.assessment.causes.finding import (
-        MIN_HARM_PX as MIN_HARM_PX,
-        REMEDY_OF_LENS as REMEDY_OF_LENS,
+    from calibgui.engine.assessment.action import (
+        AUTO as AUTO,
         Action as Action,
         ActionKind as ActionKind,
+        Change as Change,
+    )
+    from calibgui.engine.assessment.finding import (
+        MIN_HARM_PX as MIN_HARM_PX,
+        REMEDY_OF_LENS as REMEDY_OF_LENS,
         Cause as Cause,
         Finding as Finding,
         find_explanation as find_explanation,
@@ -105,6 +111,10 @@ if TYPE_CHECKING:
         stack_residuals as stack_residuals,
         summarise_residuals as summarise_residuals,
     )
+    from calibgui.engine.assessment.changes.length_uncertainty import (
+        LengthUncertainty as LengthUncertainty,
+        estimate_length_uncertainty as estimate_length_uncertainty,
+    )
     from calibgui.engine.assessment.changes.series import (
         MIN_SETTINGS as MIN_SETTINGS,
         SPLINE as SPLINE,
@@ -136,13 +146,12 @@ load_on_demand(
             "check_calibration",
         ],
         "changes.comparison": ["CameraDifference", "compare_cameras"],
+        "choices.board_shape_choice": ["BoardShapeChoice", "choose_board_shape"],
         "choices.cross_validation": [
-            "BoardShapeChoice",
             "Bootstrap",
             "CrossValidation",
             "Fold",
             "bootstrap_views",
-            "choose_board_shape",
             "cross_validate",
         ],
         "changes.drift": [
@@ -153,11 +162,10 @@ load_on_demand(
             "measure_drift",
         ],
         "residuals.error_sources": ["ErrorSources", "separate_error_sources"],
-        "causes.finding": [
+        "action": ["AUTO", "Action", "ActionKind", "Change"],
+        "finding": [
             "MIN_HARM_PX",
             "REMEDY_OF_LENS",
-            "Action",
-            "ActionKind",
             "Cause",
             "Finding",
             "find_explanation",
@@ -190,6 +198,7 @@ load_on_demand(
             "stack_residuals",
             "summarise_residuals",
         ],
+        "changes.length_uncertainty": ["LengthUncertainty", "estimate_length_uncertainty"],
         "changes.series": ["MIN_SETTINGS", "SPLINE", "Series", "Setting", "fit_series"],
         "verdict": ["MIN_VIEWS_TO_BE_GOOD", "Grade", "PixelError", "Verdict", "judge_calibration"],
         "residuals.view_weights": ["calibrate_weighted"],

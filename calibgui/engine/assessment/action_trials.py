@@ -10,11 +10,11 @@ from dataclasses import replace
 from typing import Any, NamedTuple
 
 from calibgui.engine.arrays import Size
-from calibgui.engine.assessment.causes.finding import Action, ActionKind
-from calibgui.engine.assessment.choices.cross_validation import choose_board_shape
+from calibgui.engine.assessment.action import AUTO, Action, ActionKind, Change
+from calibgui.engine.assessment.choices.board_shape_choice import choose_board_shape
 from calibgui.engine.assessment.choices.lens_choice import choose_lens_stepwise
 from calibgui.engine.assessment.choices.lens_trial import LensTrial
-from calibgui.engine.assessment.residuals.outliers import screen_outliers, select_corners
+from calibgui.engine.assessment.residuals.outliers import screen_outliers
 from calibgui.engine.assessment.residuals.view_weights import calibrate_weighted
 from calibgui.engine.calibration.calibrate import calibrate
 from calibgui.engine.calibration.observations import Observation
@@ -72,52 +72,43 @@ def try_action(
     Raises:
         CalibrationError: if the views do not allow it.
     """
-    if action is None or not action.is_of_camera:
+    change = None if action is None else action.change
+    if action is None or change is None:
         return None
-    given, size = list(views), calibration.camera.size
-    recover = recover_image_arguments if action.takes_image_cost else recover_arguments
+    size = calibration.camera.size
+    given = [view for k, view in enumerate(views) if k not in change.leaves_out_views]
+    recover = recover_image_arguments if change.takes_image_cost else recover_arguments
     settings = recover(calibration)
-    is_repeated = settings == recover_arguments(calibration)
+    is_nominal = calibration.board_shape is None and settings == recover_arguments(calibration)
+    _change_held(settings, change)
     if check is not None:
         settings["report"] = _make_report(check)
-    match action.kind:
-        case ActionKind.ESTIMATE_BOARD_SHAPE:
-            del settings["board_shape"], settings["prior"]
-            is_nominal = calibration.board_shape is None and is_repeated
+    if change.lens_model == AUTO:
+        lens, camera = _choose_lens(given, size, settings)
+        return Trial(replace(action, model=lens.model, parameters=tuple(lens.fixed)), camera, given)
+    if change.lens_model is not None:
+        settings["model"] = change.lens_model
+    elif change.leaves_out_views and _is_lens_chosen(calibration):
+        # What followed two kinds of views is hardly the best of those that are left.
+        return Trial(action, _choose_lens(given, size, settings)[1], given)
+    if change.board_shape is not None:
+        del settings["board_shape"], settings["prior"]
+        if change.board_shape == AUTO:
             nominal = calibration if is_nominal else None
             board = choose_board_shape(given, size, nominal=nominal, **settings)
             return Trial(replace(action, model=board.model), board.chosen, given)
-        case ActionKind.CHOOSE_LENS_MODEL:
-            lens, camera = _choose_lens(given, size, settings)
-            held = tuple(lens.fixed)
-            return Trial(replace(action, model=lens.model, parameters=held), camera, given)
-        case ActionKind.LEAVE_OUT_CORNERS:
-            screening = screen_outliers(given, size, **settings)
-            kept = [
-                select_corners(view, good)
-                for view, good in zip(given, screening.kept, strict=True)
-                if good.any()
-            ]
-            return Trial(action, screening.calibration, kept)
-        case ActionKind.LEAVE_OUT_VIEWS:
-            kept = [view for k, view in enumerate(given) if k not in action.views]
-            if _is_lens_chosen(calibration):  # what followed two kinds of views is hardly the best
-                return Trial(action, _choose_lens(kept, size, settings)[1], kept)
-            return Trial(action, calibrate(kept, size, **settings), kept)
-        case ActionKind.ESTIMATE_SKEW:
-            fix = {name: value for name, value in settings["fix"].items() if name in PINHOLE}
-            settings |= {"model": action.model, "fix": fix, "free": action.parameters}
-            return Trial(action, calibrate(given, size, **settings), given)
-        case ActionKind.WEIGH_VIEWS:
-            return Trial(action, *calibrate_weighted(given, size, **settings))
-        case _:
-            changed = _change_held(settings, action)
-            return Trial(action, calibrate(given, size, **changed), given)
+        settings["board_shape"] = change.board_shape
+    if change.leaves_out_corners:
+        screening = screen_outliers(given, size, **settings)
+        return Trial(action, screening.calibration, screening.select_kept(given))
+    if change.weighs_views:
+        return Trial(action, *calibrate_weighted(given, size, **settings))
+    return Trial(action, calibrate(given, size, **settings), given)
 
 
 def _is_lens_chosen(calibration: Calibration) -> bool:
     """Return whether the lens model was chosen automatically."""
-    return "model_reason" in calibration.settings
+    return calibration.settings.model_reason is not None
 
 
 def _choose_lens(
@@ -142,10 +133,13 @@ def _make_report(check: Callable[[], None]) -> Report:
     return report
 
 
-def _change_held(settings: dict[str, Any], action: Action) -> dict[str, Any]:
-    """Return the arguments of a calibration with parameters freed, or held at 0."""
-    fixed = {n: v for n, v in settings["fix"].items() if n not in action.parameters}
-    free = [name for name in settings["free"] if name not in action.parameters]
-    if action.kind is ActionKind.FREE_HELD_VALUE:
-        return {**settings, "fix": fixed, "free": [*free, *action.parameters]}
-    return {**settings, "fix": {**fixed, **dict.fromkeys(action.parameters, 0.0)}, "free": free}
+def _change_held(settings: dict[str, Any], change: Change) -> None:
+    """Change which parameters the arguments of a calibration hold, and which they free."""
+    fix, free = settings.get("fix", {}), list(settings.get("free", ()))
+    if change.lens_model is not None:
+        fix, free = {name: value for name, value in fix.items() if name in PINHOLE}, []
+    changed = (*change.releases, *change.frees, *change.holds_at_zero)
+    fix = {name: value for name, value in fix.items() if name not in changed}
+    free = [name for name in free if name not in changed]
+    settings["fix"] = fix | dict.fromkeys(change.holds_at_zero, 0.0)
+    settings["free"] = [*free, *change.releases, *change.frees]

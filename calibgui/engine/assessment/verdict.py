@@ -25,9 +25,10 @@ large in one, and 2.2 times in one that has little to gain; the true error fell 
 x, 1.2 in the median: the truth is one draw.
 
 A calibration is good where it has been measured: its grade rests on the pixels that corners cover,
-and on half of all pixels. A board in the image's middle is not enough: where corners cover too
-little to know half of the pixels, this is a finding. An edge of the image that no photograph shows
-is no error of the calibration; its uncertainty is said in a sentence.
+and on half of all pixels. What is found wrong lowers it where it makes errors larger than the
+limit. A board in the image's middle is not enough: where corners cover too little to know half of
+the pixels, this is a finding. An edge of the image that no photograph shows is no error of the
+calibration; its uncertainty is said in a sentence.
 
 The error does not measure what no photograph of the set shows: the length of the squares, or a
 lens far from all corners that behaves otherwise than both formulas.
@@ -40,20 +41,20 @@ from dataclasses import dataclass, replace
 from enum import StrEnum
 
 import numpy as np
+import scipy
 
 from calibgui.engine.arrays import Array, BoolArray, Size
+from calibgui.engine.assessment.action import Action, ActionKind
 from calibgui.engine.assessment.action_trials import Trial, try_action_safely
-from calibgui.engine.assessment.causes.finding import (
+from calibgui.engine.assessment.causes.findings import list_findings
+from calibgui.engine.assessment.changes.camera_uncertainty import estimate_camera_uncertainty
+from calibgui.engine.assessment.changes.comparison import compare_cameras, find_covered_pixels
+from calibgui.engine.assessment.finding import (
     MAX_TELLING_PX,
-    Action,
-    ActionKind,
     Cause,
     Finding,
     describe_narrow_views,
 )
-from calibgui.engine.assessment.causes.findings import list_findings
-from calibgui.engine.assessment.changes.camera_uncertainty import estimate_camera_uncertainty
-from calibgui.engine.assessment.changes.comparison import compare_cameras, find_covered_pixels
 from calibgui.engine.assessment.lens_extrapolation import map_disagreement
 from calibgui.engine.calibration.observations import Observation
 from calibgui.engine.calibration.result import Calibration, Status
@@ -117,7 +118,7 @@ class PixelError:
     centre: float
     """At the image's centre."""
     edge: float
-    """Root mean square along the image's edge."""
+    """Root mean square along the edge of the image, or of what the lens shows of it."""
     worst: float
     """At the worst pixel."""
     median: float
@@ -213,7 +214,7 @@ def judge_calibration(
     pixels = _UNKNOWN if calibration.diagnosis is not None else _summarise(error, covered)
     left = pixels if mended is None else _summarise(mended, covered)
     if _is_narrow(calibration, left, tried):
-        part, is_mended = float(covered.mean()), mended is not None
+        part, is_mended = float(covered[~np.isnan(error)].mean()), mended is not None
         narrow = describe_narrow_views(part, left.covered, left.median, is_mended)
         tried = sorted([*tried, narrow], key=lambda finding: finding.harm, reverse=True)
     grade, reason = _grade(calibration, pixels, tried)
@@ -259,8 +260,10 @@ def _is_small(harm: float, error: Array) -> bool:
 def _compare_with_trial(
     calibration: Calibration, views: Sequence[Observation], trial: Trial
 ) -> tuple[Array, Array]:
-    """Return the errors (m, n) before an action and after it, px."""
+    """Return the errors (m, n) before an action and after it, px; NaN where there is no image."""
+    uv = make_mesh(*make_map_grid(calibration.camera.size))
     after = _map_uncertainty(trial.calibration, trial.views)
+    after = np.where(calibration.camera.lights(uv), after, np.nan)
     return np.hypot(_map_move(trial.calibration.camera, calibration, views), after), after
 
 
@@ -291,12 +294,10 @@ def _summarise(error: Array, covered: BoolArray) -> PixelError:
     if not seen.any():
         return _UNKNOWN
     rows, cols = error.shape
-    frame = np.concatenate([error[0], error[-1], error[1:-1, 0], error[1:-1, -1]])
-    if not np.isfinite(frame).any():  # a fisheye's circle within the image
-        frame = np.array([np.nanmax(error)])
+    edge = seen & ~scipy.ndimage.binary_erosion(seen)
     return PixelError(
         float(error[rows // 2, cols // 2]),
-        float(np.sqrt(np.nanmean(frame**2))),
+        _compute_rms(error[edge]),
         float(np.nanmax(error)),
         float(np.nanmedian(error)),
         _compute_rms(error[covered]),
@@ -351,7 +352,7 @@ def _grade(
             return Grade.NOT_USABLE, finding.message
     if is_poor:
         return Grade.NOT_USABLE, "Pixels are known too poorly."
-    if findings:
+    if findings and (count < MIN_VIEWS_TO_BE_GOOD or not error.worst_covered <= MAX_GOOD_PX):
         return Grade.USABLE, findings[0].message
     if count < MIN_VIEWS_TO_BE_GOOD:
         return Grade.USABLE, few
@@ -360,6 +361,11 @@ def _grade(
             "The photographs show nothing wrong, but pixels are known to "
             f"{format_two_digits(error.worst_covered)} px where they are known worst among "
             "corners: add views."
+        )
+    if findings:
+        return Grade.GOOD if error.median <= MAX_GOOD_PX else Grade.USABLE, (
+            f"{findings[0].message} It does little: pixels among corners are known to "
+            f"{format_two_digits(error.worst_covered)} px or better."
         )
     if error.worst <= MAX_GOOD_PX:
         return Grade.GOOD, "The photographs show nothing wrong."

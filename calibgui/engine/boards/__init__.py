@@ -37,6 +37,7 @@ if TYPE_CHECKING:
         PuzzleBoard as PuzzleBoard,
     )
     from calibgui.engine.boards.shape import (
+        ERROR_COEFFICIENTS as ERROR_COEFFICIENTS,
         BoardShape as BoardShape,
         BoardShapeModel as BoardShapeModel,
         BoardShapePrior as BoardShapePrior,
@@ -61,7 +62,7 @@ load_on_demand(
             "PrintedSquaresAndDots",
         ],
         "puzzleboard": ["CODE_LINES", "PuzzleBoard"],
-        "shape": ["BoardShape", "BoardShapeModel", "BoardShapePrior"],
+        "shape": ["ERROR_COEFFICIENTS", "BoardShape", "BoardShapeModel", "BoardShapePrior"],
         "tagged_checkerboard": ["TaggedCheckerboard"],
     },
 )

@@ -9,7 +9,8 @@ at
 
     X = (1 + s) floor(column / 2) + column mod 2,
 
-and Y likewise. Kalibr numbers the tags from the lower left one along the rows, the lowest first.
+and Y likewise. Kalibr numbers the tags from the lower left one along the rows, the lowest first;
+those who make several boards begin the second one where the first ended.
 """
 
 from __future__ import annotations
@@ -48,12 +49,14 @@ class TagLayout(NamedTuple):
     """Number of tags in a row."""
     from_top: bool
     """True if the first row is the top one, False if it is the bottom one."""
+    first: int = 0
+    """Number of the first tag."""
 
     def locate_squares(self, numbers: IntArray) -> IntArray:
-        """Return row and column (n, 2) of the tags `numbers` (n,), counted from tag 0; rows above
-        it are negative."""
+        """Return row and column (n, 2) of the tags `numbers` (n,), counted from the first tag;
+        rows above it are negative."""
         squares = np.empty((len(numbers), 2), dtype=np.int64)
-        np.divmod(numbers, self.cols, out=(squares[:, 0], squares[:, 1]))
+        np.divmod(numbers - self.first, self.cols, out=(squares[:, 0], squares[:, 1]))
         if not self.from_top:
             squares[:, 0] *= -1
         return squares
@@ -61,7 +64,7 @@ class TagLayout(NamedTuple):
     def number_squares(self, squares: IntArray) -> IntArray:
         """Return the numbers (n,) of the tags at `squares` (n, 2), as of `locate_squares`."""
         rows = squares[:, 0] if self.from_top else -squares[:, 0]
-        return np.asarray(self.cols * rows + squares[:, 1])
+        return np.asarray(self.first + self.cols * rows + squares[:, 1])
 
 
 @dataclass(frozen=True, slots=True)
@@ -79,6 +82,8 @@ class AprilGrid(CodedPattern):
     """True if the tags are numbered from the top row down, False if from the bottom row up."""
     corner_squares: bool | None = None
     """True if small dark squares stand between the corners of the tags, False if they do not."""
+    first_tag: int | None = None
+    """Number of the first tag; if None it is 0 unless the images show that it is not."""
 
     def __post_init__(self) -> None:
         check_tags(self.family, self.border)
@@ -86,6 +91,11 @@ class AprilGrid(CodedPattern):
             raise CalibrationError(
                 f"The gap between tags cannot be {self.spacing:g} of their side.",
                 "State the gap over the side of a tag: above 0, at most 1; usually 0.3.",
+            )
+        if self.first_tag is not None and self.first_tag < 0:
+            raise CalibrationError(
+                f"The first tag cannot have the number {self.first_tag}.",
+                "State the lowest number on the board: 0 on most.",
             )
 
     @property
@@ -113,13 +123,18 @@ class AprilGrid(CodedPattern):
         if not boards:
             return self
         most = Counter(
-            (board.family, board.border, board.from_top, board.corner_squares) for board in boards
+            (board.family, board.border, board.from_top, board.corner_squares, board.first_tag)
+            for board in boards
         )
-        family, border, from_top, squares = most.most_common(1)[0][0]
+        family, border, from_top, squares, first_tag = most.most_common(1)[0][0]
         gaps = [board.spacing for board in boards if board.spacing]
-        gap = _combine_gaps(gaps) if gaps else None
         return self.fill_unknown(
-            family=family, spacing=gap, border=border, from_top=from_top, corner_squares=squares
+            family=family,
+            spacing=_combine_gaps(gaps) if gaps else None,
+            border=border,
+            from_top=from_top,
+            corner_squares=squares,
+            first_tag=first_tag,
         )
 
     def draw(self, grid_size: GridSize) -> PrintedPattern:
@@ -140,13 +155,15 @@ class AprilGrid(CodedPattern):
                 "Choose that pattern with a step of 2, a smaller gap, or no squares.",
             )
         rows, cols = count_tags(grid_size)
-        check_number_of_tags(self.family, rows * cols)
+        first = self.first_tag or 0
+        check_number_of_tags(self.family, first + rows * cols)
         border = self.border or MAX_BORDER
         n = load_family(self.family).side + 2 * border
         dark = np.zeros((rows * (n + 1) + 1, cols * (n + 1) + 1), dtype=np.bool_)
         dark[:: n + 1, :: n + 1] = self.corner_squares is not False
-        layout = TagLayout(cols, bool(self.from_top))
-        for number, (row, col) in enumerate(layout.locate_squares(np.arange(rows * cols)).tolist()):
+        numbers = np.arange(first, first + rows * cols)
+        squares = TagLayout(cols, bool(self.from_top), first).locate_squares(numbers)
+        for number, (row, col) in zip(numbers.tolist(), squares.tolist(), strict=True):
             top = (row if self.from_top else row + rows - 1) * (n + 1) + 1
             left = col * (n + 1) + 1
             dark[top : top + n, left : left + n] = draw_tag(self.family, number, border)

@@ -1,10 +1,10 @@
 """Calibration: from corners to a camera, with poses, standard deviations and a diagnosis.
 
 `calibrate` takes `Observation` records and returns a `Calibration`; `METHODS` lists the methods
-that it can use. `refit` expresses a calibration in another lens model, `convert_camera` a camera
-without corners; `recover_arguments` gives the arguments that repeat a calibration on other views.
-The remaining functions analyse views and results for reports: copies among the views, the paper's
-tables, correlations.
+that it can use. `locate_board` gives the pose of a board under a known camera. `refit` expresses a
+calibration in another lens model, `convert_camera` a camera without corners; `recover_arguments`
+gives the arguments that repeat a calibration on other views. The remaining functions analyse views
+and results for reports: copies among the views, the paper's tables, correlations.
 
     >>> import numpy as np
     >>> from calibgui.engine.boards import Board
@@ -31,6 +31,10 @@ from typing import TYPE_CHECKING
 from calibgui.engine.faces import load_on_demand
 
 if TYPE_CHECKING:
+    from calibgui.engine.calibration.board_poses import (
+        BoardPose as BoardPose,
+        locate_board as locate_board,
+    )
     from calibgui.engine.calibration.calibrate import calibrate as calibrate
     from calibgui.engine.calibration.conversion import (
         Conversion as Conversion,
@@ -41,12 +45,14 @@ if TYPE_CHECKING:
         evaluate_cosines_equation as evaluate_cosines_equation,
     )
     from calibgui.engine.calibration.methods import (
-        DEFAULT_METHOD as DEFAULT_METHOD,
         METHODS as METHODS,
         check_method as check_method,
     )
     from calibgui.engine.calibration.methods.method import Method as Method
-    from calibgui.engine.calibration.observations import Observation as Observation
+    from calibgui.engine.calibration.observations import (
+        Observation as Observation,
+        make_observation as make_observation,
+    )
     from calibgui.engine.calibration.partial.degeneracy import (
         find_copies as find_copies,
         is_in_one_spot as is_in_one_spot,
@@ -57,9 +63,15 @@ if TYPE_CHECKING:
         make_paper_table as make_paper_table,
     )
     from calibgui.engine.calibration.refit import Refit as Refit, refit as refit
+    from calibgui.engine.calibration.scaling import (
+        has_own_lengths as has_own_lengths,
+        scale_lengths as scale_lengths,
+    )
     from calibgui.engine.calibration.result import (
+        DEFAULT_METHOD as DEFAULT_METHOD,
         Assumption as Assumption,
         Calibration as Calibration,
+        CalibrationSettings as CalibrationSettings,
         Cost as Cost,
         Degeneracy as Degeneracy,
         DegenerateError as DegenerateError,
@@ -75,19 +87,22 @@ if TYPE_CHECKING:
 load_on_demand(
     __name__,
     {
+        "board_poses": ["BoardPose", "locate_board"],
         "calibrate": ["calibrate"],
         "conversion": ["Conversion", "convert_camera", "find_followed_angle"],
         "initialisation.single_view_pose": ["evaluate_cosines_equation"],
-        "methods": ["DEFAULT_METHOD", "METHODS", "check_method"],
+        "methods": ["METHODS", "check_method"],
         "methods.method": ["Method"],
-        "observations": ["Observation"],
+        "observations": ["Observation", "make_observation"],
         "partial.degeneracy": ["find_copies", "is_in_one_spot"],
         "problem": ["recover_arguments"],
         "refinement.covariances": ["compute_correlations", "make_paper_table"],
         "refit": ["Refit", "refit"],
         "result": [
+            "DEFAULT_METHOD",
             "Assumption",
             "Calibration",
+            "CalibrationSettings",
             "Cost",
             "Degeneracy",
             "DegenerateError",
@@ -99,5 +114,6 @@ load_on_demand(
             "Undetermined",
             "ViewResiduals",
         ],
+        "scaling": ["has_own_lengths", "scale_lengths"],
     },
 )

@@ -7,11 +7,13 @@ buys dense linear algebra over all views at once.
 
 from __future__ import annotations
 
+import hashlib
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
+import numpy.typing as npt
 import scipy
 
 from calibgui.engine.arrays import Array, BoolArray, IntArray, compute_median
@@ -45,6 +47,9 @@ _BEGINS, _ENDS = [0, 0, 1], [1, 2, 2]
 """Numbers of the points through which the lines lead that may hold all others."""
 _POINTS_THAT_TELL = 12
 """Number of points, spread over all, that mostly show that no line holds all points but one."""
+_MAX_ASYMMETRY = 1e-6
+"""Largest difference of a covariance from its transpose, over its standard deviations: what is
+beyond rounding to six digits is an error of whoever stated it."""
 _MIN_VARIANCE = 1e-100
 """Variance of a corner below which its covariance cannot be inverted, px^2."""
 
@@ -110,7 +115,7 @@ def pack_observations(
     names = names or name_views(len(views))
     if len(names) != len(views):
         raise ValueError(f"{len(names)} names do not name {len(views)} views")
-    shaped = [_check_shapes(*view, name=name) for view, name in zip(views, names, strict=True)]
+    shaped = [make_observation(*view, name=name) for view, name in zip(views, names, strict=True)]
     # All or nothing: a mixture of weighted and unweighted views has no common noise level.
     cov = [view.cov for view in shaped if view.cov is not None]
     if cov and len(cov) < len(shaped):
@@ -191,25 +196,57 @@ def measure_pitch(observations: Observations) -> float:
     return float(min(compute_median(distance) for distance in nearest))
 
 
-def _check_shapes(uv: Array, xy: Array, cov: Array | None = None, *, name: str) -> Observation:
-    """Return a view as float64 arrays; refuse shapes that do not match and too few corners."""
-    uv, xy = np.asarray(uv, np.float64), np.asarray(xy, np.float64)
+def digest_views(views: Observations) -> tuple[str, ...]:
+    """Return a digest of the measured corners of each view, by which it is recognised again."""
+    return tuple(
+        hashlib.sha256(uv[views.corners_of(k)].tobytes()).hexdigest()[:16]
+        for k, uv in enumerate(views.uv)
+    )
+
+
+def make_observation(
+    uv: npt.ArrayLike, xy: npt.ArrayLike, cov: npt.ArrayLike | None = None, *, name: str = "View"
+) -> Observation:
+    """Make the observation of a view, in float64.
+
+    Args:
+        uv: corners (n, 2) px, or (n, 1, 2) as OpenCV has them.
+        xy: their places on the board (n, 2) mm, or (n, 3) with Z = 0.
+        cov: covariances (n, 2, 2) of the corners, px^2, where they are known.
+        name: name of the view for messages.
+
+    Raises:
+        CalibrationError: for shapes that do not match, and fewer than four corners.
+    """
+    uv, xy = (_drop_opencvs_axis(np.asarray(points, np.float64)) for points in (uv, xy))
+    if xy.ndim == 2 and xy.shape[1] == 3:
+        if xy[:, 2].any():
+            raise CalibrationError(
+                f"{name}: board points are not in one plane: some Z are not 0.",
+                "Give the places on a flat board, (n, 2) or (n, 3) with Z = 0.",
+            )
+        xy = xy[:, :2]
     if uv.ndim != 2 or uv.shape[1:] != (2,) or xy.shape != uv.shape:
         raise CalibrationError(
             f"{name}: corners of shape {uv.shape} do not match board points of shape {xy.shape}.",
-            "Both must be (n, 2), one row a corner.",
+            "Both must have one row a corner, (n, 2) or as OpenCV has them, (n, 1, 2) and (n, 3).",
         )
-    cov = None if cov is None else np.asarray(cov, np.float64)
-    if cov is not None and cov.shape != (*uv.shape, 2):
+    spread = None if cov is None else np.asarray(cov, np.float64)
+    if spread is not None and spread.shape != (*uv.shape, 2):
         raise CalibrationError(
-            f"{name}: covariances of shape {cov.shape} do not match {len(uv)} corners.",
+            f"{name}: covariances of shape {spread.shape} do not match {len(uv)} corners.",
             "They must be (n, 2, 2), px^2.",
         )
     if len(uv) < 4:
         raise CalibrationError(
             f"{name} has {len(uv)} corners; a view needs at least 4.", "Remove it."
         )
-    return Observation(uv, xy, cov)
+    return Observation(uv, xy, spread)
+
+
+def _drop_opencvs_axis(points: Array) -> Array:
+    """Return points (n, 1, d), as OpenCV's functions return and take them, as (n, d)."""
+    return points[:, 0] if points.ndim == 3 and points.shape[1] == 1 else points
 
 
 def _pad(rows: Sequence[Array], counts: IntArray) -> Array:
@@ -258,16 +295,28 @@ def _check_images(part: Observations, names: Sequence[str]) -> None:
     )
     if part.cov is not None:
         require(
+            np.all(_are_symmetric(part.cov), axis=1),
+            " has a corner covariance that is not symmetric.",
+            "Leave the covariances out or correct them.",
+        )
+        require(
             np.all(_are_positive_definite(part.cov), axis=1),
             " has a corner covariance that is not positive definite.",
             "Leave the covariances out or correct them.",
         )
 
 
+def _are_symmetric(cov: Array) -> BoolArray:
+    """Return whether covariances (..., 2, 2) are symmetric, but for rounding."""
+    difference = np.abs(cov[..., 0, 1] - cov[..., 1, 0])
+    variances = np.abs(cov[..., 0, 0] * cov[..., 1, 1])
+    return np.asarray(difference <= _MAX_ASYMMETRY * np.sqrt(variances))
+
+
 def _are_positive_definite(cov: Array) -> BoolArray:
     """Return whether covariances (..., 2, 2) have eigenvalues above `_MIN_VARIANCE`.
 
-    Only their lower triangles count. As a quotient the smaller eigenvalue keeps its digits.
+    They are symmetric. As a quotient the smaller eigenvalue keeps its digits.
     """
     a, b, c = cov[..., 0, 0], cov[..., 1, 0], cov[..., 1, 1]
     larger = (a + c) / 2 + np.hypot((a - c) / 2, b)

@@ -63,16 +63,14 @@ of the lens model is found by no comparison of views.
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
 import scipy
 
 from calibgui.engine.arrays import Array, IntArray
 from calibgui.engine.boards.shape import BoardShape
+from calibgui.engine.calibration.refinement.covariances import Estimate
 from calibgui.engine.calibration.refinement.residuals import BoardMotion, compute_view_products
 from calibgui.engine.calibration.refinement.schur import invert_pose_roots, invert_roots
-from calibgui.engine.calibration.result_assembly import Estimate
 
 _SIGNIFICANCE = 0.01
 """Probability with which noise alone widens the uncertainties."""
@@ -161,11 +159,10 @@ def _compare_with_others(R: Array) -> tuple[Array, Array]:
 def _assume_disagreement(estimate: Estimate) -> Estimate:
     """Widen an estimate from views that are too few to show whether they disagree."""
     ratio = _ASSUMED_DISAGREEMENT**2
-    shape = estimate.board_shape
     return estimate._replace(
         camera_covariance=ratio * estimate.camera_covariance,
         pose_covariances=ratio * estimate.pose_covariances,
-        board_shape=shape and replace(shape, sigma=_ASSUMED_DISAGREEMENT * shape.sigma),
+        board_shape=estimate.board_shape and estimate.board_shape.scale_errors(ratio),
     )
 
 
@@ -183,8 +180,8 @@ def _widen_board_shape(
     """Widen an estimated board shape by the uncertainty that it takes over from the camera."""
     if board_shape is None or board_motion is None:
         return board_shape
-    more = np.einsum("iap,pq,iaq->ia", board_motion.motion, added, board_motion.motion)
-    return replace(board_shape, sigma=np.sqrt(board_shape.sigma**2 + more))
+    values, axes = np.linalg.eigh(added)
+    return board_shape.add_errors(board_motion.motion @ (axes * np.sqrt(np.maximum(values, 0.0))))
 
 
 def _compute_excess(covariance: Array, root: Array) -> Array:

@@ -44,14 +44,12 @@ from typing import NamedTuple
 import numpy as np
 
 from calibgui.engine.arrays import Array
-from calibgui.engine.calibration.observations import Observations
-from calibgui.engine.calibration.options import Options
+from calibgui.engine.calibration.methods.method import Problem
 from calibgui.engine.calibration.partial.degeneracy import find_traded_focal_lengths
+from calibgui.engine.calibration.refinement.covariances import Estimate
 from calibgui.engine.calibration.refinement.levenberg_marquardt import StartError, minimise
 from calibgui.engine.calibration.refinement.residuals import State, build_stage_two
 from calibgui.engine.calibration.result import Cost, Undetermined
-from calibgui.engine.calibration.result_assembly import Estimate
-from calibgui.engine.camera.camera import Camera
 from calibgui.engine.camera.models import PINHOLE, find_model
 
 _MIN_TOLERATED_SHARE = 0.1
@@ -84,32 +82,29 @@ class _Point(NamedTuple):
     """Height above the minimum, in standard deviations."""
 
 
-def add_profile_width(
-    estimate: Estimate, observations: Observations, options: Options, tolerated: Array
-) -> tuple[Estimate, tuple[Undetermined, ...]]:
+def add_profile_width(estimate: Estimate, problem: Problem, tolerated: Array) -> Estimate:
     """Widen an estimate where its cost rises more slowly than a parabola.
 
     Args:
         estimate: the estimate with the image cost, with all that its covariance counts, for a board
             whose shape is not estimated.
-        observations: the views.
-        options: the options of the calibration.
+        problem: the problem that it solves.
         tolerated: (P,) standard deviations beyond which the free parameters count as undetermined.
 
     Returns:
-        The estimate, and the parameters that are open on one side. A coordinate of the centre is
-        not among them, nor a focal length that no coefficient makes up for: what these cameras
-        image is open as well, which their widened standard deviations say.
+        The estimate, whose undetermined parameters include those that are open on one side. A
+        coordinate of the centre is not among them, nor a focal length that no coefficient makes up
+        for: what these cameras image is open as well, which their widened standard deviations say.
     """
-    free, covariance = options.free, estimate.camera_covariance
+    free, covariance = problem.free, estimate.camera_covariance
     sigma = np.sqrt(np.diag(covariance))
     shares = np.where(np.diag(estimate.noise_covariance) > 0, sigma / tolerated, 0.0)
     if not shares.max(initial=0.0) > _MIN_TOLERATED_SHARE:  # also if one is NaN
-        return estimate, ()
-    if find_model(options.model).control_points is not None:
-        return estimate, ()  # a prior holds what the corners leave open
+        return estimate
+    if find_model(problem.model).control_points is not None:
+        return estimate  # a prior holds what the corners leave open
     i = int(np.argmax(shares))
-    profile = _Profile(estimate, observations, options, i, float(tolerated[i]))
+    profile = _Profile(estimate, problem, i, float(tolerated[i]))
     is_followed = np.zeros(len(free), dtype=bool)
     halves: list[Array] = []
     for sign in (1.0, -1.0):
@@ -121,14 +116,15 @@ def add_profile_width(
     widest = max(halves, key=lambda half: float(half[i]))
     if widest[i] > sigma[i]:
         estimate = _widen(estimate, i, widest, profile.poses_by_camera)
-    names = np.array(options.names)[free]
-    camera = Camera(options.size, estimate.state.params, options.model)
-    traded = find_traded_focal_lengths(camera, tuple(names.tolist()), covariance)
+    names, camera = np.array(problem.free_parameters), problem.make_camera(estimate.state)
+    traded = find_traded_focal_lengths(camera, problem.free_parameters, covariance)
     is_bounded = np.isin(names, [name for name in PINHOLE if name not in traded])
     if is_bounded[i]:
-        return estimate, ()
+        return estimate
     opened = names[is_followed & ~is_bounded].tolist()
-    return estimate, tuple(Undetermined(name, _REASON) for name in opened)
+    undetermined = {name: Undetermined(name, _REASON) for name in opened}
+    undetermined |= {u.name: u for u in estimate.undetermined}
+    return estimate._replace(undetermined=tuple(undetermined.values()))
 
 
 def _widen(estimate: Estimate, i: int, half: Array, poses_by_camera: Array) -> Estimate:
@@ -145,21 +141,14 @@ def _widen(estimate: Estimate, i: int, half: Array, poses_by_camera: Array) -> E
 class _Profile:
     """The least cost for each value of one parameter of the camera."""
 
-    def __init__(
-        self,
-        estimate: Estimate,
-        observations: Observations,
-        options: Options,
-        i: int,
-        tolerated: float,
-    ) -> None:
+    def __init__(self, estimate: Estimate, problem: Problem, i: int, tolerated: float) -> None:
         """Take the index of a free parameter, and the standard deviation that is tolerated."""
         normal, noise = estimate.solution.normal, estimate.noise_covariance
         variance = estimate.camera_covariance[i, i]
-        self.estimate, self.observations, self.free = estimate, observations, options.free
-        self.others = np.delete(options.free, i)
-        self.problem = build_stage_two(
-            observations, options.model, Cost.IMAGE, options.scale, self.others
+        self.estimate, self.free = estimate, problem.free
+        self.others = np.delete(problem.free, i)
+        self.normal_at = build_stage_two(
+            estimate.observations, problem.model, Cost.IMAGE, problem.scale, self.others
         )
         self.along = noise[:, i] / noise[i, i]
         """(P,) change of the free parameters with this one."""
@@ -190,11 +179,11 @@ class _Profile:
         """Find the point of the profile at a distance, from another; None if there is none."""
         by_camera = (distance - point.distance) * self.along
         start = point.state.take_step(by_camera, self.poses_by_camera @ by_camera, self.free)
-        views = self.observations
+        views = self.estimate.observations
         data = float(np.sum(views.uv**2))
         try:
             solution = minimise(
-                self.problem, start, self.others, views.count, data, None, _MAX_ITERATIONS
+                self.normal_at, start, self.others, views.count, data, None, _MAX_ITERATIONS
             )
         except StartError:
             if halvings == _MAX_HALVINGS:

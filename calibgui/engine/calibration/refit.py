@@ -97,7 +97,7 @@ def _select_common_held(original: Calibration, model: str) -> dict[str, float]:
     symmetric map is symmetric, and that of a map of the plane without distortion has none either.
     """
     fixed, own, other = (
-        original.settings["fixed"],
+        original.settings.fixed,
         find_model(original.camera.model),
         find_model(model),
     )

@@ -16,7 +16,7 @@ from typing import Any, overload
 import numpy as np
 
 from calibgui.engine.arrays import Array, freeze
-from calibgui.engine.boards.shape import BoardShape
+from calibgui.engine.boards.shape import BoardShape, BoardShapeModel, BoardShapePrior
 from calibgui.engine.camera.camera import Camera
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.geometry.pose import Pose
@@ -179,7 +179,65 @@ class ViewResiduals:
         return float(np.sqrt(np.vdot(self.image, self.image) / len(self.image)))
 
 
-@dataclass(frozen=True, eq=False, slots=True)
+DEFAULT_METHOD = "lucchese"
+"""Name of the method that `calibrate` uses unless told otherwise."""
+
+
+@dataclass(frozen=True, slots=True)
+class CalibrationSettings:
+    """What a calibration was asked for; None for what it does not state, as in old results."""
+
+    cost: Cost = Cost.IMAGE
+    model: str | None = None
+    """The lens model."""
+    fixed: Mapping[str, float] = field(default_factory=dict)
+    """Values of the intrinsics that were held."""
+    max_iterations: int | None = None
+    board_shape: BoardShapeModel | None = None
+    """The model of the board's shape."""
+    is_board_shape_held: bool | None = None
+    """Whether the board's shape was given, and not estimated."""
+    prior: BoardShapePrior | None = None
+    """What was known beforehand of the board's deviations from its drawing."""
+    method: str = DEFAULT_METHOD
+    model_reason: str | None = None
+    """Why the lens model was chosen, where that was done automatically."""
+    robust: bool | None = None
+    """Whether outliers were to be left out."""
+    weigh_views: bool | None = None
+    """Whether views were to be weighed by their noise."""
+    outliers: int | None = None
+    """Number of corners that were left out as outliers, where they were to be."""
+    others: Mapping[str, Any] = field(default_factory=dict)
+    """What a file states besides."""
+
+    def encode(self) -> dict[str, Any]:
+        """Return what is stated, by the names that result files and digests have for it."""
+        prior = None if self.prior is None else [self.prior.in_plane, self.prior.out_of_plane]
+        held = self.is_board_shape_held
+        named = {
+            "cost": self.cost.value,
+            "model": self.model,
+            "fixed": dict(self.fixed),
+            "max_iterations": self.max_iterations,
+            "plate": None if self.board_shape is None else self.board_shape.value,
+            "plate_held": held,
+            "prior_mm": prior,
+            "method": None if self.method == DEFAULT_METHOD else self.method,
+            "model_reason": self.model_reason,
+            "robust": self.robust,
+            "weigh_views": self.weigh_views,
+            "outliers": self.outliers,
+        }
+        stated = {
+            name: value
+            for name, value in named.items()
+            if value is not None or (name == "prior_mm" and held is not None)  # may be null
+        }
+        return {**stated, **self.others}
+
+
+@dataclass(frozen=True, eq=False, slots=True, weakref_slot=True, repr=False)
 class Calibration:
     """A calibrated camera, the views' poses and everything needed to judge them."""
 
@@ -232,7 +290,7 @@ class Calibration:
     (``overdispersion.py``), if it is significant; the uncertainties then include it. 0
     otherwise."""
     warnings: tuple[str, ...] = ()
-    settings: Mapping[str, Any] = field(default_factory=dict)
+    settings: CalibrationSettings = CalibrationSettings()
     digest: str = ""
     """SHA-256 of the observations and settings of the calibration."""
     seconds: float = float("nan")
@@ -241,6 +299,23 @@ class Calibration:
 
     def __post_init__(self) -> None:
         freeze(self, "sigma", "covariance", "noise_covariance", "pose_covariances")
+
+    def __repr__(self) -> str:
+        """Return the camera with its standard deviations, on few lines."""
+        width, height = self.camera.size
+        square = [np.sum(view.image**2, axis=1) for view in self.residuals]
+        count = sum(map(len, square))
+        rms = np.sqrt(sum(map(np.sum, square)) / max(count, 1))
+        values = ", ".join(
+            f"{name} {value:.6g} ± {sigma:.2g}"
+            for name, value, sigma in zip(
+                self.camera.names, self.camera.params.tolist(), self.sigma.tolist(), strict=True
+            )
+        )
+        return (
+            f"<Calibration: {self.camera.model}, {width} x {height} px, {self.status.value}\n"
+            f" {values}\n RMS {rms:.3g} px of {count:,} corners in {len(self.residuals)} views>"
+        )
 
     @property
     def sigma_by_noise(self) -> Array:

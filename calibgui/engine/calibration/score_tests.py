@@ -36,8 +36,10 @@ is eliminated with their poses.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
@@ -53,7 +55,6 @@ from calibgui.engine.calibration.refinement.residuals import (
     compute_image_residuals,
 )
 from calibgui.engine.camera.camera import Camera
-from calibgui.engine.camera.models import find_model
 
 LENS_CELLS = 8
 """Number of cells, along the image's longer side, of the displacement that a lens may cause. With
@@ -104,7 +105,7 @@ class LinearisedFit:
         if key in self._kept:
             return self._kept[key]
         state, part = self.state.select_views(views), self.observations.select_views(views)
-        found = compute_image_residuals(state, part, find_model(self.camera.model))
+        found = compute_image_residuals(state, part, self.camera.model)
         if views.stop <= _MAX_KEPT_VIEWS:
             self._kept[key] = found
         return found
@@ -130,6 +131,12 @@ class LinearisedFit:
         holds the noise that the columns are tested against.
         """
         return self.observations.uv[views] + self.linearise_unweighted(views).residual
+
+    @cached_property
+    def extent(self) -> tuple[Array, Array]:
+        """Least and largest X and Y, (2,) each, mm, of the board's corners that were seen."""
+        xy = self.observations.xy[self.observations.mask > 0, :2]
+        return xy.min(axis=0), xy.max(axis=0)
 
     @property
     def degrees_of_freedom(self) -> int:
@@ -230,10 +237,17 @@ class SharedCauses:
         y, fitted = (
             self._solve(["", *names], self._b_of_views) for names in ((*after, cause), after)
         )
-        Q = y.T @ y - fitted.T @ fitted
-        np.fill_diagonal(Q, 0.0)
-        spread = np.sqrt(2 * np.sum(Q**2))
-        return float(Q.sum() / spread) if spread > 0 else 0.0
+        # Views i and j explain Q_ij together, Q = y^T y - fitted^T fitted. Of all pairs, only the
+        # sums are wanted, which follow from y and fitted without the pairs.
+        own = np.sum(y**2, axis=0) - np.sum(fitted**2, axis=0)
+        all_say = np.sum(y.sum(axis=1) ** 2) - np.sum(fitted.sum(axis=1) ** 2)
+        squares = [
+            float(np.sum((a @ b.T) ** 2)) for a, b in ((y, y), (fitted, fitted), (y, fitted))
+        ]
+        square = squares[0] + squares[1] - 2 * squares[2] - float(own @ own)
+        if square <= np.finfo(float).eps * sum(squares):  # rounding errors are left
+            return 0.0
+        return float(all_say - own.sum()) / math.sqrt(2 * square)
 
     def do_views_agree(self, cause: str, *after: str) -> bool:
         """Return whether the views agree about a cause, so that they may share it."""

@@ -1,7 +1,8 @@
 """What a camera is: its lens model and parameters, and the maps from points to pixels and back.
 
 `Camera` holds the values; `project_points`, `distort_points` and `undistort_points` use them.
-`MODELS` lists the lens models by id, `find_model` finds one.
+`MODELS` lists the lens models by id, `find_model` finds one. `SensorMode` leads from the images
+that a camera was calibrated with to those of another of its streams.
 """
 
 from __future__ import annotations
@@ -20,6 +21,10 @@ if TYPE_CHECKING:
         project_points as project_points,
         undistort_points as undistort_points,
     )
+    from calibgui.engine.camera.image_circle import (
+        ImageCircle as ImageCircle,
+        find_common_circle as find_common_circle,
+    )
     from calibgui.engine.camera.model import Lens as Lens
     from calibgui.engine.camera.models import (
         MODELS as MODELS,
@@ -32,6 +37,10 @@ if TYPE_CHECKING:
     from calibgui.engine.camera.models.lucchese import Lucchese as Lucchese
     from calibgui.engine.camera.models.splined_stereographic import (
         SplinedStereographic as SplinedStereographic,
+    )
+    from calibgui.engine.camera.sensor_mode import (
+        SensorMode as SensorMode,
+        describe_mode as describe_mode,
     )
     from calibgui.engine.camera.projection import (
         pixels_from_rays as pixels_from_rays,
@@ -50,6 +59,7 @@ load_on_demand(
             "project_points",
             "undistort_points",
         ],
+        "image_circle": ["ImageCircle", "find_common_circle"],
         "model": ["Lens"],
         "models": [
             "MODELS",
@@ -62,5 +72,6 @@ load_on_demand(
         "models.lucchese": ["Lucchese"],
         "models.splined_stereographic": ["SplinedStereographic"],
         "projection": ["pixels_from_rays", "rays_from_pixels"],
+        "sensor_mode": ["SensorMode", "describe_mode"],
     },
 )

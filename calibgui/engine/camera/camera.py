@@ -2,28 +2,36 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
 
-from calibgui.engine.arrays import Array, Size, freeze
+from calibgui.engine.arrays import Array, BoolArray, Size, freeze
+from calibgui.engine.camera.image_circle import ImageCircle
 from calibgui.engine.camera.models import find_model, list_parameter_names, resolve_model_id
 from calibgui.engine.errors import CalibrationError
 
+_MAX_DIGITS = 12
+"""Length of the longest number that a message repeats, characters."""
+_MAX_SIDE_PX = 1_000_000
+"""Largest side of an image, px; a longer one is an error of whoever stated it."""
 
-def check_image_size(size: Size) -> Size:
+
+def check_image_size(size: Sequence[float]) -> Size:
     """Return the width and height of an image as whole numbers.
 
     Raises:
-        CalibrationError: if one of them is below 1.
+        CalibrationError: if they are not two whole numbers of pixels, from 1 to a million.
     """
-    width, height = (int(length) for length in size)
-    if min(width, height) < 1:
+    sides = tuple(size)
+    if len(sides) != 2 or not all(1 <= side <= _MAX_SIDE_PX and side % 1 == 0 for side in sides):
+        stated = " x ".join(str(side)[:_MAX_DIGITS] for side in sides)
         raise CalibrationError(
-            f"There is no image of {width} x {height} pixels.", "Give its width and height."
+            f"There is no image of {stated} pixels.", "Give its width and height."
         )
-    return width, height
+    return int(sides[0]), int(sides[1])
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -56,6 +64,8 @@ class Camera:
     `names`."""
     model: str = "lucchese"
     """The lens model, a key of ``camera.models.MODELS``; ids of earlier versions are replaced."""
+    circle: ImageCircle | None = None
+    """The part of the image that the lens lights; None where it fills all of it."""
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "size", check_image_size(self.size))
@@ -73,6 +83,12 @@ class Camera:
                 f"No camera has the parameters {self.params.tolist()}.",
                 "Give finite numbers, and focal lengths above 0.",
             )
+
+    def lights(self, uv: Array) -> BoolArray:
+        """Return (...) whether the lens lights pixels (..., 2)."""
+        if self.circle is None:
+            return np.ones(uv.shape[:-1], dtype=bool)
+        return self.circle.contains(uv)
 
     @property
     def names(self) -> tuple[str, ...]:

@@ -16,6 +16,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from enum import StrEnum
+from typing import assert_never
 
 import numpy as np
 import numpy.typing as npt
@@ -144,9 +145,14 @@ def compute_displacement(
     if part is DisplacementPart.COMPLETE:
         return complete
     radial = _compute_correction(points, _keep_radial_part(camera))
-    if part is DisplacementPart.RADIAL:
-        return radial
-    return Displacement(complete.vector - radial.vector, complete.by_pixel - radial.by_pixel)
+    match part:
+        case DisplacementPart.RADIAL:
+            return radial
+        case DisplacementPart.DECENTERING:
+            others = complete.vector - radial.vector
+            return Displacement(others, complete.by_pixel - radial.by_pixel)
+        case _:
+            assert_never(part)
 
 
 def _compute_correction(uv: Array, camera: Camera) -> Displacement:

@@ -6,7 +6,13 @@ a <- a - J^-1 (F(a, k) - b), J = dF/da. At the solution da/db = J^-1 and da/dk =
 A polynomial lens map is invertible only out to the fold where det J = 0, and may unfold again
 further out. The iteration therefore starts from the inverse of the radial part, which one
 table of this curve up to its fold gives for all points; points that have no inverse inside
-the fold come back as NaN. A rational curve can end at a pole instead, which no step may cross.
+the fold come back as NaN. A rational curve can end at a pole instead, to which a step goes half of
+the way at most, and bend sharply before it: a step that leads farther from b is halved until it
+does not (damped Newton).
+
+How closely F can be met is not known beforehand: where numerator and denominator of a rational
+curve both come near 0, their rounding is enlarged thousands of times. A solution is therefore told
+by its next step, which is short at a solution whatever the rounding, and never beyond a fold.
 """
 
 from __future__ import annotations
@@ -23,8 +29,9 @@ _MAX_ITERATIONS = 50
 """Number of Newton steps, at most."""
 _MAX_STEP = 4e-15
 """Length of the last Newton step, relative to 1 + |a|: a few units in the last place."""
-_MAX_RESIDUAL = 1e-13
-"""Residual, relative to 1 + |b|, up to which a point has converged although its steps have not."""
+_MAX_STANDING_STEP = 1e-7
+"""Length of a step, relative to 1 + |a|, up to which a point is a solution although its steps do
+not vanish: as steps shrink quadratically, nothing but rounding is left of them."""
 _NODES = 1024
 """Number of nodes of the radial table: Newton then starts within 1e-3 of the radius."""
 
@@ -80,24 +87,32 @@ def invert_map(
     """
     target = b.reshape(-1, 2)
     a, reach = _invert_radial_part(target, radial)
+    accepted, nearest = a.copy(), np.full(len(a), np.inf)
     active = np.flatnonzero(np.isfinite(target).all(axis=1))
     with np.errstate(all="ignore"):  # points without an inverse overflow; they end as NaN below
         for _ in range(_MAX_ITERATIONS):
             mapped = forward(a[active])
-            step = solve_pairs(mapped.by_point, mapped.points - target[active])
-            a[active] = _stop_before_pole(a[active], a[active] - step, radial.pole)
+            miss = mapped.points - target[active]
+            distance = np.hypot(*miss.T)
+            farther = (distance > nearest[active])[:, None]
+            step = solve_pairs(mapped.by_point, miss)
+            step = np.where(farther, (a[active] - accepted[active]) / 2, step)
+            accepted[active] = np.where(farther, accepted[active], a[active])
+            nearest[active] = np.fmin(nearest[active], distance)
             length = np.hypot(*step.T)
+            room = (radial.pole - np.hypot(*a[active].T)) / 2
+            a[active] -= step * np.fmin(1.0, room / length)[:, None]
             moving = ~(length <= _MAX_STEP * (1 + np.hypot(*a[active].T))) & np.isfinite(length)
             active = active[moving]
             if active.size == 0:
                 break
         mapped = forward(a)
         J = mapped.by_point
-        miss = np.abs(mapped.points - target).max(axis=1, initial=0.0)
+        step = solve_pairs(J, mapped.points - target)
         det = J[:, 0, 0] * J[:, 1, 1] - J[:, 0, 1] * J[:, 1, 0]
-        scale = 1 + np.abs(target).max(axis=1, initial=0.0)
-        inside = (det > 0) & (J[:, 0, 0] + J[:, 1, 1] > 0) & (np.hypot(*a.T) < reach)
-        bad = ~(inside & (miss <= _MAX_RESIDUAL * scale))
+        radius = np.hypot(*a.T)
+        inside = (det > 0) & (J[:, 0, 0] + J[:, 1, 1] > 0) & (radius < reach)
+        bad = ~(inside & (np.hypot(*step.T) <= _MAX_STANDING_STEP * (1 + radius)))
         a[bad] = np.nan
         inverse = np.empty_like(J)
         inverse[:, 0, 0], inverse[:, 1, 1] = J[:, 1, 1] / det, J[:, 0, 0] / det
@@ -130,15 +145,6 @@ def _invert_radial_part(target: Array, radial: RadialCurve) -> tuple[Array, floa
         shrink = np.where(radius > 0, np.interp(radius, radial.evaluate(r), r) / radius, 1.0)
         start = target * shrink[:, None]
     return start, float(folds[:2].mean()) if len(folds) > 1 else radial.pole
-
-
-def _stop_before_pole(a: Array, moved: Array, pole: float) -> Array:
-    """Return the points (n, 2) after a step, at most half of the way from a to the pole."""
-    if np.isinf(pole):
-        return moved
-    radius = np.hypot(*moved.T)
-    halfway = (np.hypot(*a.T) + pole) / 2
-    return np.where((radius < pole)[:, None], moved, moved * (halfway / radius)[:, None])
 
 
 def solve_pairs(J: Array, miss: Array) -> Array:

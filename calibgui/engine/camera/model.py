@@ -22,6 +22,8 @@ from collections.abc import Mapping
 from types import MappingProxyType
 from typing import NamedTuple
 
+import numpy as np
+
 from calibgui.engine.arrays import Array
 
 
@@ -81,6 +83,12 @@ class Lens(ABC):
 
     asymmetric: tuple[str, ...] = ()
     """Names of the coefficients without which the lens is symmetric about its axis."""
+    odd_along: tuple[tuple[str, ...], tuple[str, ...]] = (
+        ("p2", "s1", "s2", "skew"),
+        ("p1", "s3", "s4", "skew"),
+    )
+    """Names of the coefficients that change their sign in the lens that is mirrored along x, and in
+    the one that is mirrored along y; by default those of OpenCV's names."""
     radius_in_pixels: bool = False
     """True if d is in units of fx along both axes (the paper's radius), not of fx and fy."""
     valley: Trials | None = None
@@ -124,6 +132,17 @@ class Lens(ABC):
         """Map image points to rays of length 1 as `unproject` does, with derivatives by d only."""
         rays, by_point, _ = self.unproject(d, k)
         return rays, by_point
+
+    def mirror(self, k: Array, along: tuple[bool, bool]) -> Array:
+        """Return the coefficients of the mirrored lens: it images (-X, Y, Z) where this one images
+        (X, Y, Z), with -d_x for d_x, if it is mirrored along x, and so along y."""
+        odd = [
+            set(names)
+            for names, is_mirrored in zip(self.odd_along, along, strict=True)
+            if is_mirrored
+        ]
+        signs = [(-1.0) ** sum(name in names for names in odd) for name in self.names]
+        return np.asarray(k * np.array(signs))
 
     def fit_to_rays(self, rays: Array, d: Array) -> Array | None:  # noqa: ARG002 - for overrides
         """Fit the coefficients (C,) to image points of rays, where that is a linear problem.

@@ -1,9 +1,10 @@
 """The validity of a lens model: the part of the image in which it is one to one.
 
 Polynomials fold: beyond some radius the image of a ray moves back towards the axis. Quotients have
-poles, and closed forms end at an angle. A pixel counts as valid if the model gives it a ray that
-is imaged at the pixel again, and neighbouring pixels have neighbouring rays turning the same way:
-with the derivatives b_u and b_v of the ray b, (b_u x b_v) . b > 0.
+poles, and closed forms end at an angle. A pixel counts as valid if the lens lights it
+(``image_circle.py``), the model gives it a ray that is imaged at the pixel again, and neighbouring
+pixels have neighbouring rays turning the same way: with the derivatives b_u and b_v of the ray b,
+(b_u x b_v) . b > 0.
 """
 
 from __future__ import annotations
@@ -20,12 +21,12 @@ _MAX_RETURN_ERROR = 1e-6
 
 
 def find_valid_pixels(uv: Array, camera: Camera) -> BoolArray:
-    """Return (...) whether the camera's model is one-to-one at pixels (..., 2)."""
+    """Return (...) whether pixels (..., 2) are lit, and the camera's model one-to-one there."""
     with np.errstate(all="ignore"):  # a pixel far from any image has no ray
         rays, by_uv = rays_and_slopes(uv, camera)
         back = np.linalg.norm(pixels_from_rays(rays, camera) - uv, axis=-1)
         turning = np.sum(np.cross(by_uv[..., 0], by_uv[..., 1]) * rays, axis=-1)
-        return np.asarray((back < _MAX_RETURN_ERROR) & (turning > 0))
+        return np.asarray((back < _MAX_RETURN_ERROR) & (turning > 0) & camera.lights(uv))
 
 
 def measure_angles(uv: Array, camera: Camera) -> Array:

@@ -1,4 +1,4 @@
-"""The entry and exit of every detector: its image and the noise of that, the rejected corners.
+"""The entry and exit of every detector: its image, and the rejected corners.
 
 Detectors take grey levels of any of three types and list the corners that they saw but do not
 trust; they share the functions here. Those that read markers look at 8 bits, and at the negative
@@ -7,23 +7,28 @@ where the print is bright on dark.
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import numpy.typing as npt
 
 from calibgui.engine.arrays import Array, GreyImage
-from calibgui.engine.detection.corners import RejectedCorner
 from calibgui.engine.errors import NoBoardError
+from calibgui.engine.features.corners import RejectedCorner
 from calibgui.engine.images.reading import stretch_levels
 
 _MIN_READABLE_RANGE = 100
 """Range of 8-bit grey levels from which on markers are read in them as they are: OpenCV looks for
 squares darker than their surroundings by 7 levels or more."""
+_COLOUR_WEIGHTS = np.array([0.2065, 0.587, 0.2065])
+"""Weights of the colours: those of ITU-R BT.601, of red and blue their mean, as OpenCV has them the
+other way round than others."""
 _MIN_IMAGE_SIDE = 16
 """Short side of the smallest image that can show a board, px; a smaller one is refused."""
 
 
 def check_grey_levels(image: npt.ArrayLike) -> GreyImage:
-    """Check an image (h, w) of grey levels and return it contiguous.
+    """Check an image (h, w) of grey levels, or (h, w, 3) of colours, and return it in grey.
 
     Returns:
         The image as uint8 or uint16 if it is of that type, otherwise as float32.
@@ -33,8 +38,13 @@ def check_grey_levels(image: npt.ArrayLike) -> GreyImage:
         ValueError: the array has another number of dimensions, or levels that are not finite.
     """
     grey = np.asarray(image)
+    if grey.ndim == 3 and grey.shape[2] == 3:
+        grey = _average_colours(grey)
     if grey.ndim != 2:
-        raise ValueError(f"an image of grey levels (h, w) is needed, not of shape {grey.shape}")
+        raise ValueError(
+            "an image of grey levels (h, w), or of colours (h, w, 3), is needed, not of shape "
+            f"{grey.shape}; engine.read_image reads a file"
+        )
     if min(grey.shape) < _MIN_IMAGE_SIDE:
         raise NoBoardError(
             f"An image of {grey.shape[1]} x {grey.shape[0]} pixels is too small for a board.",
@@ -48,16 +58,11 @@ def check_grey_levels(image: npt.ArrayLike) -> GreyImage:
     return grey
 
 
-def estimate_least_noise(image: GreyImage) -> float:
-    """Estimate the variance that the grey levels of an image have at least, levels^2.
-
-    A drawn or saturated image shows no noise, but its levels are rounded: whole levels are off by
-    up to half of one, evenly, which is a variance of 1/12 (Widrow 1956); levels of type float32 by
-    their last digit. Without it corners in such images would seem to be free of error.
-    """
-    if image.dtype in (np.uint8, np.uint16):
-        return 1 / 12
-    return float(np.spacing(max(np.abs(image).max(), np.finfo(np.float32).tiny)) ** 2 / 12)
+def _average_colours(image: npt.NDArray[Any]) -> npt.NDArray[Any]:
+    """Average an image (h, w, 3) of the type that it has, whether red is first or last."""
+    grey = image @ _COLOUR_WEIGHTS
+    whole = np.issubdtype(image.dtype, np.integer)
+    return np.rint(grey).astype(image.dtype) if whole else np.asarray(grey)
 
 
 def convert_for_reading(image: GreyImage) -> npt.NDArray[np.uint8]:

@@ -24,8 +24,8 @@ from calibgui.engine.detection.apriltags.find_tagged_checkerboard import (
 from calibgui.engine.detection.charuco.find_charuco import find_charuco
 from calibgui.engine.detection.checkerboard.find_checkerboard import find_checkerboard
 from calibgui.engine.detection.circles.find_circles import find_circles
-from calibgui.engine.detection.corners import Corners
 from calibgui.engine.detection.puzzleboard.find_puzzleboard import find_puzzleboard
+from calibgui.engine.features.corners import Corners
 
 
 class Detector(Protocol):
@@ -65,7 +65,8 @@ def find_corners(
     """Locate the corners of the board in an image, or the circles of a grid.
 
     Args:
-        image: (h, w) grey levels, uint8, uint16 or floating.
+        image: (h, w) grey levels or (h, w, 3) colours, uint8, uint16 or floating, or what
+            ``read_image`` returns.
         grid_size: rows and columns of inner corners; inferred if None. A checkerboard of which only
             a part is seen then counts as what is seen of it.
         roi: (4, 2) px, points at or just outside the board's outermost corners, in order around

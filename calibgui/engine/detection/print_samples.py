@@ -124,15 +124,15 @@ class PrintSample:
             image: (h, w) grey levels.
             prepare: filters a tile before it is searched.
         """
-        found = [np.zeros((0, 4, 2))]
+        parts = [np.zeros((0, 4, 2))]
         for row, col in self._corners.tolist():
             top, left = max(row - _MARGIN, 0), max(col - _MARGIN, 0)
             part = image[top : row + _TILE + _MARGIN, left : col + _TILE + _MARGIN]
             quads = opencv.detect_dark_quads(prepare(part), is_quick=True, is_part=True)
-            found.append(quads + np.array([left, top]))
-            if sum(map(len, found)) > _MAX_QUADS:
+            parts.append(quads + np.array([left, top]))
+            if sum(map(len, parts)) > _MAX_QUADS:
                 break
-        return np.concatenate(found)
+        return np.concatenate(parts)
 
 
 def _score_tiles(halved: GreyImage) -> Array:

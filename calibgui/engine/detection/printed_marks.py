@@ -20,8 +20,8 @@ import numpy as np
 
 from calibgui.engine.arrays import Array, GreyImage
 from calibgui.engine.boards.puzzleboard import DOT_DIAMETER
-from calibgui.engine.detection.corners import Corners
-from calibgui.engine.detection.lattice import estimate_steps
+from calibgui.engine.features.corners import Corners
+from calibgui.engine.features.lattice import estimate_steps
 from calibgui.engine.images.sampling import sample_image
 
 _MIN_STEP = 0.65

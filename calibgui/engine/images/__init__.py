@@ -1,4 +1,4 @@
-"""Photographs: reading and writing, undistortion, rectification, rendering of synthetic views."""
+"""Photographs: reading, writing, undistorting, rectifying, drawing axes, rendering views."""
 
 from __future__ import annotations
 
@@ -7,12 +7,18 @@ from typing import TYPE_CHECKING
 from calibgui.engine.faces import load_on_demand
 
 if TYPE_CHECKING:
+    from calibgui.engine.images.drawn_axes import draw_axes as draw_axes
     from calibgui.engine.images.exif import Exif as Exif
     from calibgui.engine.images.headers import Header as Header
-    from calibgui.engine.images.lost_angles import (
-        LostAngles as LostAngles,
-        describe_lost_angles as describe_lost_angles,
-        measure_lost_angles as measure_lost_angles,
+    from calibgui.engine.images.hidden_angles import (
+        HiddenAngles as HiddenAngles,
+        describe_hidden_angles as describe_hidden_angles,
+        measure_hidden_angles as measure_hidden_angles,
+    )
+    from calibgui.engine.images.image_circle_search import find_image_circle as find_image_circle
+    from calibgui.engine.images.photo_libraries import (
+        SUFFIXES as SUFFIXES,
+        list_suffixes as list_suffixes,
     )
     from calibgui.engine.images.projections import (
         IdealCamera as IdealCamera,
@@ -23,6 +29,7 @@ if TYPE_CHECKING:
         FORMATS as FORMATS,
         Image as Image,
         Pixels as Pixels,
+        is_video as is_video,
         mirror_orientation as mirror_orientation,
         read_colour as read_colour,
         read_image as read_image,
@@ -52,14 +59,18 @@ if TYPE_CHECKING:
 load_on_demand(
     __name__,
     {
+        "drawn_axes": ["draw_axes"],
         "exif": ["Exif"],
         "headers": ["Header"],
-        "lost_angles": ["LostAngles", "describe_lost_angles", "measure_lost_angles"],
+        "hidden_angles": ["HiddenAngles", "describe_hidden_angles", "measure_hidden_angles"],
+        "image_circle_search": ["find_image_circle"],
+        "photo_libraries": ["SUFFIXES", "list_suffixes"],
         "projections": ["IdealCamera", "Projection", "list_cube_rotations"],
         "reading": [
             "FORMATS",
             "Image",
             "Pixels",
+            "is_video",
             "mirror_orientation",
             "read_colour",
             "read_image",

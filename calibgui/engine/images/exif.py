@@ -15,18 +15,32 @@ import struct
 import warnings
 from dataclasses import dataclass
 from datetime import datetime
+from enum import IntEnum
 from mmap import mmap
 from typing import Any
 
 from calibgui.engine.arrays import Size
 
-_SUBFILE_TYPE, _WIDTH, _HEIGHT = 254, 256, 257
+
+class _Tag(IntEnum):
+    """Tags of directories."""
+
+    SUBFILE_TYPE = 254
+    WIDTH = 256
+    HEIGHT = 257
+    MAKE = 271
+    MODEL = 272
+    ORIENTATION = 274
+    DATE_OF_CHANGE = 306
+    EXIF_DIRECTORY = 34665
+    DATE_OF_EXPOSURE = 36867
+    FOCAL_LENGTH = 37386
+    LENS_MODEL = 42036
+    DNG_VERSION = 50706
+
+
 _SMALLER_COPY, _NO_PAGE = 0b001, 0b101
 """Bits of the subfile type of a smaller copy of a page, and of that and of a mask."""
-_DNG_VERSION = 50706
-_MAKE, _MODEL, _ORIENTATION, _DATE_OF_CHANGE = 271, 272, 274, 306
-_EXIF_DIRECTORY = 34665
-_DATE_OF_EXPOSURE, _FOCAL_LENGTH, _LENS_MODEL = 36867, 37386, 42036
 
 _DAMAGE = (
     ArithmeticError,
@@ -85,7 +99,7 @@ def read_tiff(data: bytes | mmap) -> tuple[Size, Exif, int]:
     """
     try:
         tags, exif = _read_tags(data)
-        width, height = tags.get(_WIDTH), tags.get(_HEIGHT)
+        width, height = tags.get(_Tag.WIDTH), tags.get(_Tag.HEIGHT)
     except _DAMAGE as error:
         raise ValueError("damaged directory") from error
     if not (isinstance(width, int) and isinstance(height, int)):
@@ -98,10 +112,10 @@ def is_raw_tiff(data: bytes | mmap) -> bool:
     that of a preview, or it is a DNG."""
     try:
         first = _load_directory(data)
-        is_preview = bool(first.get(_SUBFILE_TYPE, 0) & _SMALLER_COPY)
+        is_preview = bool(first.get(_Tag.SUBFILE_TYPE, 0) & _SMALLER_COPY)
     except _DAMAGE:
         return False
-    return is_preview or _DNG_VERSION in first or data[8:10] == b"CR"
+    return is_preview or _Tag.DNG_VERSION in first or data[8:10] == b"CR"
 
 
 def _count_further_pages(data: bytes | mmap, first: Any) -> int:
@@ -111,10 +125,12 @@ def _count_further_pages(data: bytes | mmap, first: Any) -> int:
         seen.add(offset)
         try:
             page = _load_directory(data, offset)
-            is_page = not page.get(_SUBFILE_TYPE, 0) & _NO_PAGE
+            is_page = not page.get(_Tag.SUBFILE_TYPE, 0) & _NO_PAGE
         except _DAMAGE:
             break
-        count += is_page and all(page.get(tag) == first.get(tag) for tag in (_WIDTH, _HEIGHT))
+        count += is_page and all(
+            page.get(tag) == first.get(tag) for tag in (_Tag.WIDTH, _Tag.HEIGHT)
+        )
         offset = page.next
     return count
 
@@ -135,17 +151,20 @@ def _load_directory(data: bytes | mmap, offset: int | None = None, group: int | 
 def _read_tags(data: bytes | mmap) -> tuple[Any, Exif]:
     """Read the first directory of a TIFF, and the EXIF in it and in the one it points to."""
     first = _load_directory(data)
-    tags = {key: first.get(key) for key in (_MAKE, _MODEL, _ORIENTATION, _DATE_OF_CHANGE)}
+    tags = {
+        key: first.get(key)
+        for key in (_Tag.MAKE, _Tag.MODEL, _Tag.ORIENTATION, _Tag.DATE_OF_CHANGE)
+    }
     with contextlib.suppress(*_DAMAGE):  # absent or damaged: what the first directory says stands
-        tags |= dict(_load_directory(data, first[_EXIF_DIRECTORY], _EXIF_DIRECTORY))
-    orientation = tags[_ORIENTATION]
+        tags |= dict(_load_directory(data, first[_Tag.EXIF_DIRECTORY], _Tag.EXIF_DIRECTORY))
+    orientation = tags[_Tag.ORIENTATION]
     return first, Exif(
         orientation if isinstance(orientation, int) and 1 <= orientation <= 8 else 1,
-        _read_text(tags[_MAKE]),
-        _read_text(tags[_MODEL]),
-        _read_text(tags.get(_LENS_MODEL)),
-        _read_length(tags.get(_FOCAL_LENGTH)),
-        _read_date(tags.get(_DATE_OF_EXPOSURE)) or _read_date(tags[_DATE_OF_CHANGE]),
+        _read_text(tags[_Tag.MAKE]),
+        _read_text(tags[_Tag.MODEL]),
+        _read_text(tags.get(_Tag.LENS_MODEL)),
+        _read_length(tags.get(_Tag.FOCAL_LENGTH)),
+        _read_date(tags.get(_Tag.DATE_OF_EXPOSURE)) or _read_date(tags[_Tag.DATE_OF_CHANGE]),
     )
 
 

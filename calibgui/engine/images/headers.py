@@ -7,8 +7,8 @@ The containers are walked here, their EXIF is read by Pillow (``exif.py``). Pill
 containers too, but does not serve here: it notices a truncated file only when it decodes it,
 and so with an eXIf chunk behind a PNG's pixels; it creates a WebP's decoder, with its canvas, to
 learn the size; it refuses TIFF samples that OpenCV reads; and its limit of 179 million pixels
-is raised only for the whole process. Camera raw formats and HEIC, which Pillow reads by
-plug-ins, are not read.
+is raised only for the whole process. Camera raw formats and HEIC are read by libraries that may be
+installed (``photo_libraries.py``).
 """
 
 from __future__ import annotations
@@ -30,11 +30,11 @@ _ZEROS = bytes(64)
 
 
 class ForeignKind(Enum):
-    """Kinds of files that people take for photographs, and that are not read."""
+    """Kinds of files that people take for photographs, and that are not read without more."""
 
     VIDEO = "a video"
-    HEIF = "a HEIC or AVIF image, which is not read"
-    RAW = "a camera's raw image, which is not read"
+    HEIF = "a HEIC or AVIF image, which cannot be read here"
+    RAW = "a camera's raw image, which cannot be read here"
 
 
 _TIFF = (b"II*\0", b"MM\0*", b"II+\0", b"MM\0+")
@@ -64,7 +64,7 @@ class Header:
     """Format, stored size and EXIF of an image file."""
 
     format: str
-    """Name of the format: JPEG, PNG, WebP, TIFF, BMP or PNM."""
+    """Name of the format: JPEG, PNG, WebP, TIFF, BMP, PNM, HEIC or raw."""
     stored: Size
     """Width and height as stored, px."""
     exif: Exif = _NO_EXIF

@@ -26,6 +26,11 @@ from calibgui.engine.arrays import Size
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.files import open_regular, read_regular, write_atomically
 from calibgui.engine.images.headers import ForeignKind, Header, find_foreign_kind, read_header
+from calibgui.engine.images.photo_libraries import (
+    decode_photo,
+    is_library_installed,
+    read_photo_header,
+)
 
 Pixels = npt.NDArray[np.uint8] | npt.NDArray[np.uint16]
 PathLike = str | os.PathLike[str]
@@ -46,11 +51,15 @@ _INVERSE = {6: 8, 8: 6}
 """EXIF orientations that another one takes back; each of the others takes back itself."""
 _FORMAT_HINT = "Use PNG, JPEG, TIFF, BMP, WebP or PGM with 8 or 16 bits."
 _HINTS = {
-    ForeignKind.VIDEO: "Save single frames of it as PNG first, some 20 in which the board stands "
-    "still in different positions.",
-    ForeignKind.HEIF: "Save it as JPEG or PNG first, and set the phone to the compatible format.",
-    ForeignKind.RAW: "Save it as JPEG or TIFF in full size first, without correcting the lens.",
+    ForeignKind.VIDEO: "Commands that calibrate take a video as it is. For the window save frames "
+    "of it as PNG: `calibgui detect VIDEO` does so.",
+    ForeignKind.HEIF: "`pip install 'calibgui[photos]'` reads it. Or save it as JPEG or PNG first, "
+    "and set the phone to the compatible format.",
+    ForeignKind.RAW: "`pip install 'calibgui[photos]'` reads it. Or save it as JPEG or TIFF in "
+    "full size first, without correcting the lens.",
 }
+_KINDS = {"HEIC": ForeignKind.HEIF, "raw": ForeignKind.RAW}
+"""Kinds of the photographs that libraries read, by the format in their headers."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -66,6 +75,10 @@ class Image:
     zero_tail: float = 0.0
     """Share of the file that is only zeros, at its end: black pixels, or a copy that was
     interrupted. 0 if it is shorter than a page of memory."""
+
+    def __array__(self, dtype: npt.DTypeLike | None = None, copy: bool | None = None) -> Pixels:
+        """Return the pixels, so that functions of arrays take a photograph as it is."""
+        return np.array(self.pixels, dtype=dtype, copy=copy)
 
     @property
     def size(self) -> Size:
@@ -160,6 +173,19 @@ def read_image_header(path: PathLike) -> Header:
         raise _make_unreadable_error(path, error) from error
 
 
+def is_video(path: PathLike) -> bool:
+    """Return whether a file is a video, by its first bytes.
+
+    Raises:
+        CalibrationError: if `path` cannot be read.
+    """
+    try:
+        with open_regular(path) as file:
+            return find_foreign_kind(file.read(16)) is ForeignKind.VIDEO
+    except OSError as error:
+        raise _make_unreadable_error(Path(path), error) from error
+
+
 def write_image(path: PathLike, pixels: Pixels) -> None:
     """Write (h, w) grey or (h, w, 3) RGB pixels in the format of the path's suffix, atomically.
 
@@ -190,7 +216,7 @@ def _read_turned(path: Path, orientation: int | None, colour: bool) -> tuple[Pix
     if not data:
         raise _make_empty_error(path)
     header = _read_checked_header(path, data)
-    pixels = opencv.decode_image(data, colour) if header.is_complete else None
+    pixels = _decode(data, header, colour) if header.is_complete else None
     if pixels is None:
         raise CalibrationError(
             f"{path} cannot be decoded: the {header.format} image is cut short, damaged, or packed "
@@ -200,12 +226,18 @@ def _read_turned(path: Path, orientation: int | None, colour: bool) -> tuple[Pix
     if pixels.dtype not in (np.uint8, np.uint16):
         raise CalibrationError(f"{path} holds {pixels.dtype} samples.", _FORMAT_HINT)
     stated = header.exif.orientation
-    if header.format != "TIFF":
+    if header.format not in ("TIFF", "HEIC"):
         pixels = _turn(pixels, orientation or stated)
-    elif orientation is not None:  # OpenCV has turned it
+    elif orientation is not None:  # its decoder has turned it
         pixels = _turn(_turn(pixels, _INVERSE.get(stated, stated)), orientation)
     zeros = len(data) - len(data.rstrip(b"\0")) if data.endswith(_PAGE) else 0
     return np.ascontiguousarray(pixels), header, zeros / len(data)
+
+
+def _decode(data: bytes, header: Header, colour: bool) -> Any:
+    """Return the pixels of an image file; None if it is damaged."""
+    kind = _KINDS.get(header.format)
+    return decode_photo(kind, data, colour) if kind else opencv.decode_image(data, colour)
 
 
 def mirror_orientation(orientation: int) -> int:
@@ -235,8 +267,10 @@ def _read_checked_header(path: Path, data: bytes | mmap.mmap) -> Header:
     header = read_header(data)
     if header is None:
         kind = find_foreign_kind(data)
-        if kind is not None:
+        header = read_photo_header(kind, data) if kind and is_library_installed(kind) else None
+        if kind is not None and header is None:
             raise CalibrationError(f"{path} is {kind.value}.", _HINTS[kind])
+    if header is None:
         raise CalibrationError(
             f"{path} is not an image of a known format, or cut short.", _FORMAT_HINT
         )

@@ -42,7 +42,7 @@ def rectify_image(
         CalibrationError: if the image has another size than the camera, or the output would
             have no pixels or too many.
     """
-    check_image(image, camera)
+    image = check_image(image, camera)
     left, top, right, bottom = extent
     low, high = np.array([left, top]), np.array([right, bottom])
     shape = (high - low) * pixels_per_mm

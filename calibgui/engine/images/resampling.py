@@ -97,12 +97,14 @@ def is_inside(uv: Array | FloatImage, size: Size) -> BoolArray:
     return np.asarray((u >= low) & (u <= right) & (v >= low) & (v <= bottom))
 
 
-def check_image(image: Pixels, camera: Camera) -> None:
-    """Refuse an image that is not the camera's, or that cannot be resampled.
+def check_image(image: npt.ArrayLike, camera: Camera) -> Pixels:
+    """Return the pixels of an image, which ``read_image`` may have returned; refuse one that is not
+    the camera's, or that cannot be resampled.
 
     Raises:
         CalibrationError: if its type or size is not one that can be resampled.
     """
+    image = np.asarray(image)
     if image.dtype not in (np.uint8, np.uint16, np.float32, np.float64):
         raise CalibrationError(
             f"An image of {image.dtype} samples cannot be resampled.",
@@ -120,6 +122,7 @@ def check_image(image: Pixels, camera: Camera) -> None:
             f"The image has {width} x {height} pixels.",
             f"Images of at most {opencv.MAX_SIDE} pixels a side can be resampled.",
         )
+    return image
 
 
 def make_matrix(focal: Array, centre: Array) -> Array:

@@ -28,7 +28,7 @@ def sample_image(image: GreyImage, uv: Array) -> Array:
     """
     last = np.array(image.shape[::-1]) - 1
     at = np.clip(uv, 0, last)
-    before = np.minimum(at.astype(np.int64), last - 1)
+    before = np.minimum(np.nan_to_num(at).astype(np.int64), last - 1)  # NaN stays in a and b
     a, b = np.moveaxis(at - before, -1, 0)
     u, v = np.moveaxis(before, -1, 0)
     above = (1 - a) * image[v, u] + a * image[v, u + 1]

@@ -11,6 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from enum import StrEnum
+from typing import assert_never
 
 import numpy as np
 
@@ -19,6 +20,7 @@ from calibgui.engine.arrays import Array, Size
 from calibgui.engine.camera.camera import Camera, check_image_size
 from calibgui.engine.camera.models import find_model
 from calibgui.engine.camera.plane import PlaneLens
+from calibgui.engine.camera.sensor_mode import SensorMode
 from calibgui.engine.errors import CalibrationError, parse_choice
 from calibgui.engine.images.outline import (
     find_axis,
@@ -75,6 +77,7 @@ def undistort_image(
     size: Size | None = None,
     projection: Projection | str = Projection.PERSPECTIVE,
     field_of_view: float | None = None,
+    square_pixels: bool = False,
 ) -> ResampledImage:
     """Make the image that an ideal camera would have taken, a pinhole camera by default.
 
@@ -86,6 +89,8 @@ def undistort_image(
         projection: how to show it.
         field_of_view: angle from the left edge of the output to the right one, radians, in place
             of `view`.
+        square_pixels: whether a perspective output has equal focal lengths, and is stretched for
+            that, where the camera's differ; the other projections have square pixels anyway.
 
     Raises:
         CalibrationError: if the image has another size than the camera, or what
@@ -102,13 +107,14 @@ def undistort_image(
         ((48, 64), True)
         >>> ideal_focal_length = undistorted.matrix[0, 0]
     """
-    check_image(image, camera)
+    image = check_image(image, camera)
     if projection == Projection.CUBE:
         raise CalibrationError(
             "A cube is several images.",
             "Make one with each camera of choose_ideal_cameras, by make_ideal_image.",
         )
-    (ideal,) = choose_ideal_cameras(camera, view, size, projection, field_of_view).values()
+    chosen = choose_ideal_cameras(camera, view, size, projection, field_of_view, square_pixels)
+    (ideal,) = chosen.values()
     return make_ideal_image(image, camera, ideal)
 
 
@@ -118,7 +124,7 @@ def make_ideal_image(image: Pixels, camera: Camera, ideal: IdealCamera) -> Resam
     Raises:
         CalibrationError: if the image has another size than the camera.
     """
-    check_image(image, camera)
+    image = check_image(image, camera)
     trace_rays = prepare_tracing(camera)
     return resample_image(
         image,
@@ -135,6 +141,7 @@ def choose_ideal_cameras(
     size: Size | None = None,
     projection: Projection | str = Projection.PERSPECTIVE,
     field_of_view: float | None = None,
+    square_pixels: bool = False,
 ) -> dict[str, IdealCamera]:
     """Choose the ideal cameras of which undistorted images are made.
 
@@ -142,9 +149,9 @@ def choose_ideal_cameras(
     `field_of_view` says otherwise; a cylindrical one ends at 60 degrees above and below the axis.
 
     Args:
-        camera, view, size, projection, field_of_view: as for `undistort_image`. Of a cube, the
-            faces that show anything are made, whatever the view; they are square, and as wide as
-            keeps the scale of the image's middle if `size` is None.
+        camera, view, size, projection, field_of_view, square_pixels: as for `undistort_image`. Of a
+            cube, the faces that show anything are made, whatever the view; they are square, and as
+            wide as keeps the scale of the image's middle if `size` is None.
 
     Returns:
         The faces of a cube by their names, or one camera by the name "".
@@ -156,17 +163,23 @@ def choose_ideal_cameras(
     """
     view = parse_choice(FieldOfView, view, "field of view")
     projection = parse_choice(Projection, projection, "projection")
+    if square_pixels:  # an ideal camera of the stretched images is one of the scene as well
+        camera = SensorMode.squaring_pixels(camera).adapt_camera(camera)
     if projection is Projection.CUBE:
         return _choose_cube_faces(camera, size, field_of_view)
     size = check_image_size(size or camera.size)
     if field_of_view is not None:
         matrix = _span_field_of_view(camera, size, projection, field_of_view)
-    elif view is FieldOfView.SAME_SCALE:
-        axis, scale = find_axis(camera)
-        scale = scale if projection is Projection.PERSPECTIVE else np.full(2, scale[0])
-        matrix = make_matrix(scale, axis + (np.array(size) - camera.size) / 2)
-    else:
-        matrix = _fit_outline(camera, size, projection, view is FieldOfView.ALL)
+        return {"": IdealCamera(size, matrix, projection)}
+    match view:
+        case FieldOfView.SAME_SCALE:
+            axis, scale = find_axis(camera)
+            scale = scale if projection is Projection.PERSPECTIVE else np.full(2, scale[0])
+            matrix = make_matrix(scale, axis + (np.array(size) - camera.size) / 2)
+        case FieldOfView.ALL | FieldOfView.NO_BORDER:
+            matrix = _fit_outline(camera, size, projection, view is FieldOfView.ALL)
+        case _:
+            assert_never(view)
     return {"": IdealCamera(size, matrix, projection)}
 
 
@@ -264,7 +277,8 @@ def _fit_outline(camera: Camera, size: Size, projection: Projection, shows_all: 
 
     def is_borderless(zoom: float) -> bool:
         rays = IdealCamera(size, make_zoomed(zoom), projection).find_rays(edge)
-        return bool(is_inside(trace_rays(rays), camera.size).all())
+        pixels = trace_rays(rays)
+        return bool((is_inside(pixels, camera.size) & camera.lights(pixels)).all())
 
     return make_zoomed(_find_least_zoom(is_borderless, zoom, least))
 
@@ -280,19 +294,26 @@ def _find_outline(camera: Camera) -> Array:
     rays = trace_pixels(sides, camera)
     is_unseen = np.isnan(rays).any(axis=-1)
     if is_unseen.any():
+        outermost = find_outermost_pixels(sides[is_unseen], camera)
         # A fisheye's circle may end within its image; a lens without one has an image everywhere.
-        if isinstance(find_model(camera.model), PlaneLens):
+        if isinstance(find_model(camera.model), PlaneLens) and not _ends_image(outermost, camera):
             raise CalibrationError(
                 "The lens model folds over within the image: some pixels have no ideal place.",
                 f"Undistort with the view {FieldOfView.SAME_SCALE.value!r}, or calibrate again "
                 "with corners closer to the image's edges.",
             )
-        rays[is_unseen] = trace_pixels(find_outermost_pixels(sides[is_unseen], camera), camera)
+        rays[is_unseen] = trace_pixels(outermost, camera)
     if np.isnan(rays).any():
         raise CalibrationError(
             "The lens model sees nothing around its axis.", "Check the camera's parameters."
         )
     return rays
+
+
+def _ends_image(uv: Array, camera: Camera) -> bool:
+    """Return whether pixels (n, 2) are those along the circle that the lens lights, within 1 px."""
+    circle = camera.circle
+    return circle is not None and not circle._replace(radius=circle.radius - 1).contains(uv).any()
 
 
 def _measure_extent(
@@ -302,18 +323,23 @@ def _measure_extent(
     x, y = np.moveaxis(points, -1, 0)
     X, Y, Z = np.moveaxis(outline, -1, 0)
     latitude = np.arctan2(Y, np.hypot(X, Z))
-    if projection is Projection.STEREOGRAPHIC:
-        x, y = points.transpose(2, 0, 1) * np.minimum(
-            1.0, _MAX_STEREOGRAPHIC_RADIUS / np.hypot(x, y)
-        )
-    elif projection is not Projection.PERSPECTIVE:
-        x = x[np.abs(latitude) <= _MAX_FITTED_LATITUDE]
-    if projection is Projection.CYLINDRICAL:
-        y = np.clip(y, -np.tan(_MAX_FITTED_LATITUDE), np.tan(_MAX_FITTED_LATITUDE))
-    elif projection is Projection.EQUIRECTANGULAR:
-        poles = np.array([[0.0, -1.0, 0.0], [0.0, 1.0, 0.0]])
-        is_seen = is_inside(prepare_tracing(camera)(poles), camera.size)
-        y = np.append(y, (np.array([-1, 1]) * np.pi / 2)[is_seen])
+    match projection:
+        case Projection.PERSPECTIVE | Projection.CUBE:  # a face of a cube is perspective
+            pass
+        case Projection.STEREOGRAPHIC:
+            x, y = points.transpose(2, 0, 1) * np.minimum(
+                1.0, _MAX_STEREOGRAPHIC_RADIUS / np.hypot(x, y)
+            )
+        case Projection.CYLINDRICAL:
+            x = x[np.abs(latitude) <= _MAX_FITTED_LATITUDE]
+            y = np.clip(y, -np.tan(_MAX_FITTED_LATITUDE), np.tan(_MAX_FITTED_LATITUDE))
+        case Projection.EQUIRECTANGULAR:
+            x = x[np.abs(latitude) <= _MAX_FITTED_LATITUDE]
+            poles = np.array([[0.0, -1.0, 0.0], [0.0, 1.0, 0.0]])
+            is_seen = is_inside(prepare_tracing(camera)(poles), camera.size)
+            y = np.append(y, (np.array([-1, 1]) * np.pi / 2)[is_seen])
+        case _:
+            assert_never(projection)
     return np.array([x.min(), y.min()]), np.array([x.max(), y.max()])
 
 

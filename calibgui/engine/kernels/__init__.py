@@ -10,22 +10,33 @@ A kernel that serves some arguments only, such as polynomial lenses, says so wit
 takes a third of a second; the module of a kernel is loaded at its first call. If numba turns out
 to be unusable then, as after an update of NumPy that it does not know yet, a `NumbaWarning` says so
 once, and the readable functions go on.
+
+Nobody waits for the compiler: until a module's kernels are kept on disk the readable functions
+work. They are compiled in a `compile_missing` block, which ``calibgui prepare``, set-up and the
+window enter, and where the readable functions have taken as long as compiling would: who rents
+until the rent has reached the price never pays more than twice the least (Karlin, Manasse, Rudolph
+and Sleator, Competitive snoopy caching, Algorithmica 3, 1988).
 """
 
 from __future__ import annotations
 
+import time
 import warnings
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from functools import update_wrapper
 from importlib import import_module
 from importlib.util import find_spec
+from pkgutil import iter_modules
 from typing import Any, Generic, ParamSpec, TypeVar
+
+import numpy as np
 
 COMPILED = find_spec("numba") is not None
 """True if numba is installed, and was not found to be unusable."""
-SOLVER_SECONDS = 15
-"""Rough time, s, of compiling the kernels of the calibration, once after an installation."""
+_PRICE_SECONDS = 3.0
+"""Time of the processor, s, that compiling a module of kernels counts as: the mean of some 25 that
+take 80 s together (`calibgui prepare`)."""
 
 POLYNOMIAL_LENSES = {
     "lucchese": (0, 1, 2, 3, 4, 5, 6, 7, 8, 9),
@@ -43,9 +54,11 @@ RAY_LENSES = {
     "double-sphere": (0, 1, 2, 3, 4, 5),
 }
 """Lens models of rays in all directions that the kernels of the normal equations know, and the
-place of each camera parameter among fx, fy, cx, cy and either k1, k2, k3, k4, p1, p2 or xi, alpha,
-beta (``kernels.ray_lenses``)."""
-COMPILED_LENSES = POLYNOMIAL_LENSES | RAY_LENSES
+place of each camera parameter among fx, fy, cx, cy and the coefficients of its kind
+(``kernels.cameras.CameraTuple``)."""
+QUOTIENT_LENSES = {"rational": (*range(12), 16), "thin-prism": tuple(range(17))}
+"""Lens models whose radial part is a quotient, and the place of each camera parameter likewise."""
+COMPILED_LENSES = POLYNOMIAL_LENSES | RAY_LENSES | QUOTIENT_LENSES
 """Lens models that have kernels of the normal equations with the image cost."""
 
 _P = ParamSpec("_P")
@@ -101,17 +114,86 @@ class Kernelled(Generic[_P, _T]):
     def kernel(self) -> Callable[_P, _T]:
         """The compiled counterpart, loaded at its first use; it needs numba."""
         if self._kernel is None:
-            self._kernel = getattr(import_module(f"{__name__}.{self._module}"), self._name)
+            self._kernel = getattr(_import_kernels(self._module), self._name)
         return self._kernel
 
     def __call__(self, *args: _P.args, **kwargs: _P.kwargs) -> _T:
-        """Call the kernel if numba is installed and it serves the arguments, else the reference."""
+        """Call the kernel if it is ready and serves the arguments, else the reference."""
         is_served = COMPILED and (self._serves is None or self._serves(*args, **kwargs))
         if is_served and self._kernel is not None:
             return self._kernel(*args, **kwargs)
-        if is_served and can_compile():
+        if not is_served or not can_compile():
+            return self.reference(*args, **kwargs)
+        if _is_worth_loading(self._module):
             return self.kernel(*args, **kwargs)
-        return self.reference(*args, **kwargs)
+        result: _T = self._count(self.reference)(*args, **kwargs)
+        return result
+
+    def _count(self, readable: Callable[..., Any]) -> Callable[..., Any]:
+        """Return a function that adds its time to its module's, as do functions that it returns."""
+
+        def run(*args: Any, **kwargs: Any) -> Any:
+            begin = time.thread_time()
+            with np.errstate(all="ignore"):  # nor do kernels tell of what is not finite
+                result = readable(*args, **kwargs)
+            spent = time.thread_time() - begin
+            _spent[self._module] = _spent.get(self._module, 0.0) + spent
+            return self._count(result) if callable(result) else result
+
+        return run
+
+
+_spent: dict[str, float] = {}
+"""Time, s, that readable functions took in this process in place of each module's kernels."""
+_missed: dict[str, int] = {}
+"""State of the place of kept kernels when those of a module were looked for in vain."""
+_is_compiling = False
+"""True if kernels that are called are compiled (`compile_missing`)."""
+
+
+def _import_kernels(module: str) -> Any:
+    return import_module(f"{__name__}.{module}")
+
+
+def _is_worth_loading(module: str) -> bool:
+    """Return whether the kernels of a module are kept, or are to be compiled now."""
+    if _is_compiling or _spent.get(module, 0.0) >= _PRICE_SECONDS:
+        return True
+    keeping = _import_kernels("common")
+    state = keeping.read_keeping_state()
+    if _missed.get(module) == state:
+        return False
+    if keeping.are_kept(_import_kernels(module)):
+        return True
+    _missed[module] = state
+    return False
+
+
+def are_all_kept() -> bool:
+    """Return whether every kernel is kept on disk; true where there is no numba to compile them.
+
+    It loads all modules of kernels, which takes half a second.
+    """
+    if not can_compile():
+        return True
+    modules = [_import_kernels(each.name) for each in iter_modules(__path__)]
+    return all(map(_import_kernels("common").are_kept, modules))
+
+
+def was_any_missed() -> bool:
+    """Return whether readable functions worked in this process whose kernels were not kept."""
+    return bool(_missed)
+
+
+@contextmanager
+def compile_missing() -> Iterator[None]:
+    """Compile all kernels that are called in the `with` block and are not kept on disk yet."""
+    global _is_compiling
+    before, _is_compiling = _is_compiling, True
+    try:
+        yield
+    finally:
+        _is_compiling = before
 
 
 def with_kernel(
@@ -130,30 +212,3 @@ def with_kernel(
         return Kernelled(reference, module, name, serves)
 
     return decorate
-
-
-@contextmanager
-def when_compiling(notify: Callable[[], None]) -> Iterator[None]:
-    """Call `notify` once if a kernel has to be compiled in the `with` block.
-
-    Kernels are compiled once and then kept on disk. Entering the block imports numba, if it is
-    installed.
-    """
-    if not can_compile():
-        yield
-        return
-    from numba.core import event
-
-    class Notifier(event.Listener):  # type: ignore[misc]  # numba is not typed
-        has_notified = False
-
-        def on_start(self, event: Any) -> None:  # noqa: ARG002 - numba's signature
-            if not self.has_notified:
-                self.has_notified = True
-                notify()
-
-        def on_end(self, event: Any) -> None:
-            """Do nothing: one notification is enough."""
-
-    with event.install_listener("numba:compile", Notifier()):
-        yield

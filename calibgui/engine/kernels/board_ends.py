@@ -1,4 +1,4 @@
-"""Squares to either side of a line, compiled: see ``detection.checkerboard.board_ends``."""
+"""Squares to either side of a line, compiled: see ``lattices.board_ends``."""
 
 from __future__ import annotations
 

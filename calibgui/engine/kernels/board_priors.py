@@ -1,4 +1,4 @@
-"""The choice of polynomials over a board, compiled: see ``detection.checkerboard.board_priors``."""
+"""The choice of polynomials over a board, compiled: see ``corner_fit.board_priors``."""
 
 from __future__ import annotations
 

@@ -12,14 +12,18 @@ from __future__ import annotations
 import contextlib
 import hashlib
 import os
+import sys
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from functools import cache
 from pathlib import Path
+from types import ModuleType
 from typing import Any, ParamSpec, TypeVar
 
 import numpy as np
 import numpy.typing as npt
+from llvmlite.binding import get_host_cpu_name
+from numba import __version__ as numba_version
 from numba import config, njit
 
 from calibgui.engine.arrays import Array, GreyImage
@@ -48,6 +52,10 @@ _MAX_SWEEPS = 30
 """Number of sweeps of rotations that an eigenvector may take; five are usual."""
 _NEGLIGIBLE = 1e-36
 """Sum of squares aside the diagonal, over that on it, at which a matrix counts as diagonal."""
+_caches: dict[str, list[KernelCache | None]] = {}
+"""The folders in which the kernels of each imported module are kept; None for one without."""
+_places: set[str] = set()
+"""Folders of these."""
 _NEXT = np.uintp(1)
 _NO = np.float32(0)
 _MIN_BLOCKS_FOR_THREADS = 4
@@ -58,12 +66,15 @@ def compiled(function: Callable[_P, _T]) -> Callable[_P, _T]:
     """Compile a function, and keep the result for the next start if there is a place to keep it."""
     compiled_function: Any = njit(nogil=True, **_OPTIONS)(function)
     usual, config.CACHE_DIR = config.CACHE_DIR, _find_cache_folder()
+    cache = None
     try:
         # Neither the package's folder nor the user's cache may be one that can be written.
         with contextlib.suppress(RuntimeError):
-            compiled_function._cache = KernelCache(function)
+            cache = compiled_function._cache = KernelCache(function)
+            _places.add(cache.cache_path)
     finally:
         config.CACHE_DIR = usual
+    _caches.setdefault(function.__module__, []).append(cache)
     kernel: Callable[_P, _T] = compiled_function
     return kernel
 
@@ -88,15 +99,29 @@ def compiled_allocating_part(function: Callable[_P, _T]) -> Callable[_P, _T]:
 
 @cache
 def _find_cache_folder() -> str:
-    """Return a folder that serves these sources only.
+    """Return a folder that serves these sources, this numba and this processor only.
 
     Numba compiles a kernel anew if its own file has changed, but not if another file has changed
     from which the kernel calls a function.
     """
     here = Path(__file__).parent
     sources = b"".join(file.read_bytes() for file in sorted(here.glob("*.py")))
-    state = hashlib.sha256(sources).hexdigest()[:16]
+    machine = f"{numba_version} {sys.implementation.cache_tag} {get_host_cpu_name()}"
+    state = hashlib.sha256(sources + machine.encode()).hexdigest()[:16]
     return str(Path(config.CACHE_DIR or here / "__pycache__") / f"calibgui-{state}")
+
+
+def read_keeping_state() -> int:
+    """Return a number that changes when a kernel is kept that was not before."""
+    return sum(os.stat(place).st_mtime_ns for place in _places)  # noqa: PTH116 - in a microsecond
+
+
+def are_kept(module: ModuleType) -> bool:
+    """Return whether the kernels of a module are kept on disk, each for some kind of arguments, and
+    those of the modules that it has functions from."""
+    makers = {module.__name__, *(getattr(each, "__module__", "") for each in vars(module).values())}
+    caches = [cache for maker in makers for cache in _caches.get(maker, ())]
+    return all(cache is not None and cache.is_filled() for cache in caches)
 
 
 def run_in_blocks(count: int, run: Callable[[slice], None]) -> None:

@@ -129,3 +129,7 @@ class KernelCache(FunctionCache):  # type: ignore[misc]  # numba is not typed
         rtsys.initialize(target_context)
         with self._guard_against_spurious_io_errors():
             return self._load_overload(sig, target_context)
+
+    def is_filled(self) -> bool:
+        """Return whether the kernel is kept for some kind of arguments."""
+        return bool(self._cache_file._load_index())

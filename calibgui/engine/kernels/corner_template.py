@@ -1,4 +1,4 @@
-"""Samples around corners, compiled; see ``detection.checkerboard.corner_template``.
+"""Samples around corners, compiled; see ``features.corner_template``.
 
 Only `_fill_samples` and `_fill_sectors` read the image: what else is computed from the samples
 would be compiled anew for each type of image.

@@ -1,5 +1,5 @@
 """The pixels in the bands along crossing edges, compiled: see ``EdgeSupport`` of
-``detection.checkerboard.x_corner_model``.
+``corner_fit.x_corner_model``.
 
 A band is an edge's tangent, normal, curvature, arm and width, seven numbers.
 """

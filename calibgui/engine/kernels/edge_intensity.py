@@ -1,4 +1,4 @@
-"""The grey level near a blurred edge, compiled: see ``detection.edge_intensity``.
+"""The grey level near a blurred edge, compiled: see ``features.edge_intensity``.
 
 Pixels are taken in blocks that the processor's first cache holds, row after row of one array, so
 that loops over a block become vector instructions. For the same reason the exponential is

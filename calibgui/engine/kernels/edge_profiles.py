@@ -1,4 +1,4 @@
-"""Profiles across edges, compiled: see ``detection.checkerboard.edge_profiles``."""
+"""Profiles across edges, compiled: see ``features.edge_profiles``."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Sums over the squares between edges, compiled: see ``detection.checkerboard.flat_squares``.
+"""Sums over the squares between edges, compiled: see ``corner_fit.light_gradients``.
 
 Bright and dark quarters are summed apart, without p': the sums with it are their differences.
 """

@@ -1,4 +1,4 @@
-"""The homography and the radial lens of a grid map, compiled: ``detection.grid_map``."""
+"""The homography and the radial lens of a grid map, compiled: ``lattices.grid_map``."""
 
 from __future__ import annotations
 
@@ -376,7 +376,7 @@ def fit_map(
     inversion_steps: int,
     damping: float,
 ) -> tuple[Array, Array, Array]:
-    """Compute ``detection.grid_map._fit_map``."""
+    """Compute ``lattices.grid_map._fit_map``."""
     H, centre, bend = np.empty((3, 3)), np.zeros(2), np.zeros(3)
     _fit_map(
         make_contiguous(cells), make_contiguous(uv), min_points, min_misfit, max_ratio, max_points,
@@ -386,14 +386,14 @@ def fit_map(
 
 
 def invert_lens(e: Array, w: Array, bend: Array, steps: int) -> Array:
-    """Compute ``detection.grid_map._invert_lens``."""
+    """Compute ``lattices.grid_map._invert_lens``."""
     out = np.empty((len(e), 2))
     _invert_lens(make_contiguous(e), make_contiguous(w), make_contiguous(bend), steps, out)
     return out
 
 
 def locate_cells(H: Array, centre: Array, bend: Array, cells: Array, steps: int) -> Array:
-    """Compute ``detection.grid_map._locate_cells``."""
+    """Compute ``lattices.grid_map._locate_cells``."""
     out = np.empty((len(cells), 2))
     H, centre, bend, cells = map(make_contiguous, (H, centre, bend, cells))
     _locate_cells(H, centre, bend, cells, steps, out)
@@ -401,7 +401,7 @@ def locate_cells(H: Array, centre: Array, bend: Array, cells: Array, steps: int)
 
 
 def differentiate_map(H: Array, bend: Array, cells: Array, steps: int) -> tuple[Array, Array]:
-    """Compute ``detection.grid_map._differentiate_map``."""
+    """Compute ``lattices.grid_map._differentiate_map``."""
     first, second = np.empty((2, len(cells), 2, 2))
     H, bend, cells = map(make_contiguous, (H, bend, cells))
     _differentiate_map(H, bend, cells, steps, first, second)

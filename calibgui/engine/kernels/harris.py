@@ -1,4 +1,4 @@
-"""Harris' score around corners, compiled: see ``detection.checkerboard.harris``."""
+"""Harris' score around corners, compiled: see ``features.harris``."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Steps and predictions on a lattice, compiled: the loops of ``detection.lattice``."""
+"""Steps and predictions on a lattice, compiled: the loops of ``features.lattice``."""
 
 from __future__ import annotations
 
@@ -103,7 +103,7 @@ def _predict_places(uv: Array, out: Array) -> None:
 
 
 def estimate_steps(uv: Array, reach: int) -> tuple[Array, Array]:
-    """Compute ``detection.lattice._estimate_steps``."""
+    """Compute ``features.lattice._estimate_steps``."""
     uv = np.ascontiguousarray(uv)
     right, down = np.empty_like(uv), np.empty_like(uv)
     _estimate_steps_along(uv, 0, 1, reach, right)
@@ -112,7 +112,7 @@ def estimate_steps(uv: Array, reach: int) -> tuple[Array, Array]:
 
 
 def predict_places(uv: Array) -> Array:
-    """Compute ``detection.lattice.predict_places``."""
+    """Compute ``features.lattice.predict_places``."""
     expected = np.empty_like(uv)
     _predict_places(np.ascontiguousarray(uv), expected)
     return expected

@@ -1,4 +1,4 @@
-"""The graph of neighbours, compiled: the loops of ``detection.checkerboard.neighbour_graph``.
+"""The graph of neighbours, compiled: the loops of ``lattices.neighbour_graph``.
 
 The junctions nearest to one are looked up in a grid of square cells: cell by cell in rings around
 its own, until no cell beyond can hold a nearer one.
@@ -196,7 +196,7 @@ def choose_neighbours(
     places: Array,
     limits: tuple[float, float, float],
 ) -> Int32Array:
-    """Compute ``detection.checkerboard.neighbour_graph._choose_neighbours``."""
+    """Compute ``lattices.neighbour_graph._choose_neighbours``."""
     ends = np.full((len(uv), 4), -1, dtype=np.int32)
     count = min(max_neighbours, len(uv) - 1)
     _choose_neighbours(smooth, uv, along, contrast, *sort_points(uv), count, places, limits, ends)
@@ -217,7 +217,7 @@ def _fill_closing_edges(ends: Int32Array, closing: BoolArray) -> None:
 
 
 def find_closing_edges(ends: Int32Array) -> BoolArray:
-    """Compute ``detection.checkerboard.neighbour_graph._find_closing_edges``."""
+    """Compute ``lattices.neighbour_graph._find_closing_edges``."""
     closing = np.zeros(ends.shape, dtype=np.bool_)
     _fill_closing_edges(ends, closing)
     return closing
@@ -238,11 +238,12 @@ def _fill_blocks(ends: Int32Array, closing: BoolArray, member: IntArray, size: I
                 if closing[i, k] and not size[j]:
                     member[count], size[j] = j, 1
                     count += 1
-        size[member[:count]] = count
+        for m in range(count):
+            size[member[m]] = count
 
 
 def measure_blocks(ends: Int32Array, closing: BoolArray) -> IntArray:
-    """Compute ``detection.checkerboard.neighbour_graph._measure_blocks``."""
+    """Compute ``lattices.neighbour_graph._measure_blocks``."""
     size = np.zeros(len(ends), dtype=np.int64)
     _fill_blocks(ends, closing, np.empty_like(size), size)
     return size
@@ -284,7 +285,7 @@ def _walk_graph(
                 if j < 0 or seen[j] or (is_apart[j] and not closing[i, k]):
                     continue
                 if not (closing[i, k] or is_waiting):
-                    waiting[last] = here, k
+                    waiting[last, 0], waiting[last, 1] = here, k
                     last += 1
                     continue
                 seen[j] = True
@@ -304,41 +305,8 @@ def walk_graph(
     seeds: IntArray,
     directions: IntArray,
 ) -> tuple[Int32Array, Int32Array, Int32Array]:
-    """Compute ``detection.checkerboard.neighbour_graph._walk_graph``."""
+    """Compute ``lattices.neighbour_graph._walk_graph``."""
     n = len(ends)
     nodes, origin, placed = np.empty(n, np.int32), np.empty(n, np.int32), np.empty((n, 3), np.int32)
     count = _walk_graph(ends, closing, is_apart, seeds, directions, nodes, origin, placed)
     return nodes[:count], origin[:count], placed[:count]
-
-
-@compiled
-def _check_agreement(
-    ends: Int32Array, nodes: Int32Array, placed: Int32Array, directions: IntArray, agree: BoolArray
-) -> None:
-    """Fill `agree` with the result of `check_agreement`."""
-    where = np.empty(ends.shape[0], dtype=np.int32)
-    for m in range(nodes.shape[0]):
-        where[nodes[m]] = m
-    for m in range(nodes.shape[0]):
-        row, col, turn = placed[m]
-        votes = 0
-        for k in range(4):
-            end = ends[nodes[m], k]
-            if end < 0:
-                continue
-            there = placed[where[end // 4]]
-            direction = (k + turn) % 4
-            agrees = there[0] == row + directions[direction, 0]
-            agrees &= there[1] == col + directions[direction, 1]
-            agrees &= there[2] == (direction + 2 - end) % 4
-            votes += 1 if agrees else -1
-        agree[m] = votes > 0
-
-
-def check_agreement(
-    ends: Int32Array, nodes: Int32Array, placed: Int32Array, directions: IntArray
-) -> BoolArray:
-    """Compute ``detection.checkerboard.neighbour_graph._check_agreement``."""
-    agree = np.empty(len(nodes), dtype=np.bool_)
-    _check_agreement(ends, nodes, placed, directions, agree)
-    return agree

@@ -5,8 +5,8 @@ The readable reference, which this file is tested against, is ``calibration.refi
 All polynomial lens models are eq. 10's (``polynomial_lens.py``): the paper's corrects, and is
 inverted from the measured corner; the others distort. With M = d(measured) / d(ideal) the
 derivatives by the coefficients are -M basis(measured) for the first and S basis(ideal) for the
-others, with S = [1 skew; 0 1]. The lenses of ``ray_lenses.py`` image points in all directions, with
-the derivatives by the point and by the coefficients. Padded corners carry zero weight.
+others, with S = [1 skew; 0 1]. The lenses of ``ray_lenses.py`` image points, with the derivatives
+by the point and by the coefficients. Padded corners carry zero weight.
 """
 
 from __future__ import annotations
@@ -47,7 +47,7 @@ Blocks = tuple[Array, Array, Array, Array, Array, Array]
 def _differentiate_by_params(
     fc: tuple[float, float, float, float, float], base: Array, lead: Array, d: Array, F: Array
 ) -> None:
-    """Fill the rows of F (11, 2N) with derivatives of u (first N), v by fx, fy, cx, cy, k and skew.
+    """Fill the rows of F (17, 2N) with derivatives of u (first N), v by fx, fy, cx, cy, k and skew.
 
     `base` (2, N) is where the basis is evaluated, `lead` (4, N) what multiplies it.
     """
@@ -133,7 +133,7 @@ def _make_workspace(N: int) -> Workspace:
     """Return the arrays of one view that later calls fill: R X, 1 / depth, n, d, M, lead, F,
     X_cam and dd/dX_cam."""
     rotated, inverse_depth, n, d = np.empty((3, N)), np.empty(N), np.empty((2, N)), np.empty((2, N))
-    M, lead, F = np.empty((4, N)), np.zeros((4, N)), np.zeros((11, 2 * N))
+    M, lead, F = np.empty((4, N)), np.zeros((4, N)), np.zeros((17, 2 * N))
     lead[0, :] = 1.0
     lead[3, :] = 1.0
     F[2, :N] = 1.0
@@ -196,7 +196,8 @@ def _fill_jacobian(
 ) -> None:
     """Fill J (P + 7, 2N) with the whitened [J_free J_pose r] of the view last projected."""
     rotated, inverse_depth, n, d, M, lead, F, _, G = work
-    fx, fy, cx, cy, _, _, _, p1, p2, p3, skew = camera
+    fx, fy, cx, cy = camera[:4]
+    p1, p2, p3, skew = camera[7:11]
     P, N = rows.shape[0], uv.shape[1]
     if is_of_rays(kind):
         for i in range(N):
@@ -297,6 +298,39 @@ def _sum_views(
             by_pose[view] = 0.0
             for m in range(6):
                 _add_corner_products(C, J[P + m], by_pose[view], m)
+
+
+@compiled
+def _linearise_views(
+    camera: CameraTuple,
+    kind: int,
+    R: Array,
+    T: Array,
+    uv: Array,
+    xyz: Array,
+    weight: Array,
+    rows: IntArray,
+    residual: Array,
+    by_params: Array,
+    by_pose: Array,
+) -> None:
+    """Fill residual (K, N, 2), by_params (K, N, 2, P) and by_pose (K, N, 2, 6), not whitened; NaN
+    for a view with corners that have no image."""
+    K, _, N = uv.shape
+    P = rows.shape[0]
+    work, J = _make_workspace(N), np.empty((P + 7, 2 * N))
+    for view in range(K):
+        good = _project_view(camera, kind, R[view], T[view], uv[view], xyz[view], work)
+        _fill_jacobian(camera, kind, uv[view], weight[view], False, rows, work, J)
+        lost = 0.0 if good else np.nan
+        for i in range(N):
+            for row in range(2):
+                j = i + row * N
+                residual[view, i, row] = J[P + 6, j] + lost
+                for m in range(P):
+                    by_params[view, i, row, m] = J[m, j] + lost
+                for m in range(6):
+                    by_pose[view, i, row, m] = J[P + m, j] + lost
 
 
 @compiled
@@ -437,6 +471,29 @@ def prepare_blocks(
         )
 
     return blocks_at
+
+
+def linearise_image_residuals(
+    state: CameraAndPoses, observations: MeasuredViews, model: str
+) -> tuple[Array, Array, Array]:
+    """Compute ``calibration.refinement.residuals.linearise_image_residuals``.
+
+    Where Newton's method does not reach one corner the whole view is NaN.
+    """
+    lens, (uv, xyz, weight) = pack_camera(model, state.params), pack_views(observations)
+    R, T = make_contiguous(state.R), make_contiguous(state.T)
+    rows = find_rows(model, np.arange(len(state.params)))
+    residual = np.empty(observations.uv.shape)
+    by_params, by_pose = (np.empty((*residual.shape, count)) for count in (len(rows), 6))
+
+    def run(part: slice) -> None:
+        _linearise_views(
+            *lens, R[part], T[part], uv[part], xyz[part], weight[part], rows,
+            residual[part], by_params[part], by_pose[part],
+        )  # fmt: skip
+
+    run_in_blocks(len(R), run)
+    return residual, by_params, by_pose
 
 
 def compute_residuals(

@@ -1,8 +1,9 @@
-"""Lens models of rays in all directions, compiled: image points with all derivatives.
+"""Lens models that are not eq. 10's, compiled: image points with all derivatives.
 
-The readable counterparts are ``camera.models.kannala_brandt`` (with and without decentering), and
-``ucm``, ``eucm`` and ``double_sphere``, which are one formula here: a ray is shifted along the
-axis by xi times its length, and then imaged as in the extended unified model,
+The readable counterparts are ``camera.models.kannala_brandt`` (with and without decentering),
+``rational`` and ``thin_prism``, which is the former with more terms, and ``ucm``, ``eucm`` and
+``double_sphere``, which are one formula here: a ray is shifted along the axis by xi times its
+length, and then imaged as in the extended unified model,
 
     zeta = Z + xi |r|,    w = sqrt(beta R^2 + zeta^2),    D = alpha w + (1 - alpha) zeta,
     d = (X, Y) / D,
@@ -20,7 +21,7 @@ from math import pi, sqrt
 import numpy as np
 
 from calibgui.engine.arrays import Array
-from calibgui.engine.kernels.cameras import UNIFIED, CameraTuple
+from calibgui.engine.kernels.cameras import QUOTIENT, UNIFIED, CameraTuple
 from calibgui.engine.kernels.common import compiled_part
 
 _TINY = 1e-200
@@ -76,12 +77,12 @@ def image_kannala_brandt(
         d: (2, N) receives their images.
         G: (6, N) receives the derivatives of d1 and d2 by the point.
         base: (4, N) receives what the derivatives by the coefficients are made of.
-        F: (11, 2N) receives in rows 4 to 9 the derivatives of u (first N), v by the coefficients.
+        F: (17, 2N) receives in rows 4 to 9 the derivatives of u (first N), v by the coefficients.
 
     Returns:
         Whether all points have an image.
     """
-    fx, fy, _, _, k1, k2, k3, k4, p1, p2, _ = camera
+    fx, fy, _, _, k1, k2, k3, k4, p1, p2 = camera[:10]
     N = P.shape[1]
     missing = 0.0
     for i in range(N):
@@ -136,7 +137,7 @@ def image_unified(camera: CameraTuple, P: Array, d: Array, G: Array, base: Array
         d: (2, N) receives their images.
         G: (6, N) receives the derivatives of d1 and d2 by the point.
         base: (4, N) receives what the derivatives by the coefficients are made of.
-        F: (11, 2N) receives in rows 4 to 6 the derivatives of u (first N), v by the coefficients.
+        F: (17, 2N) receives in rows 4 to 6 the derivatives of u (first N), v by the coefficients.
 
     Returns:
         Whether all points have an image.
@@ -172,12 +173,77 @@ def image_unified(camera: CameraTuple, P: Array, d: Array, G: Array, base: Array
 
 
 @compiled_part
+def image_quotient(
+    camera: CameraTuple, P: Array, d: Array, G: Array, base: Array, F: Array
+) -> bool:
+    """Fill in the images of points by OpenCV's rational model with the terms of a thin prism.
+
+    Args:
+        camera: fx, fy, cx, cy, k1, k2, p1, p2, k3, k4, k5, k6, s1, s2, s3, s4, skew, square of the
+            radius at the pole.
+        P: (3, N) points in the camera frame, mm.
+        d: (2, N) receives their images.
+        G: (6, N) receives the derivatives of d1 and d2 by the point.
+        base: (4, N) receives what the derivatives by the coefficients are made of.
+        F: (17, 2N) receives in rows 4 to 16 the derivatives of u (first N), v by the coefficients.
+
+    Returns:
+        Whether all points have an image.
+    """
+    fx, fy, _, _, k1, k2, p1, p2, k3, k4, k5, k6, s1, s2, s3, s4, skew, pole = camera
+    N = P.shape[1]
+    missing = 0.0
+    for i in range(N):
+        depth = P[2, i]
+        inverse = 1 / depth
+        x, y = P[0, i] * inverse, P[1, i] * inverse
+        xx, yy, xy = x * x, y * y, x * y
+        s = xx + yy
+        missing += 0.0 if (depth > 0) & (s < pole) else 1.0
+        below = 1 / (1 + s * (k4 + s * (k5 + s * k6)))
+        g = (1 + s * (k1 + s * (k2 + s * k3))) * below
+        slope = k1 + s * (2 * k2 + s * 3 * k3) - g * (k4 + s * (2 * k5 + s * 3 * k6))
+        slope *= 2 * below
+        across = g * y + p1 * (s + 2 * yy) + 2 * p2 * xy + s * (s3 + s4 * s)
+        d[0, i] = g * x + 2 * p1 * xy + p2 * (s + 2 * xx) + s * (s1 + s2 * s) + skew * across
+        d[1, i] = across
+        prism0, prism1 = 2 * (s1 + 2 * s2 * s), 2 * (s3 + 2 * s4 * s)
+        mixed = xy * slope + 2 * p1 * x + 2 * p2 * y
+        j10, j11 = mixed + prism1 * x, g + yy * slope + 6 * p1 * y + 2 * p2 * x + prism1 * y
+        j00 = g + xx * slope + 2 * p1 * y + 6 * p2 * x + prism0 * x + skew * j10
+        j01 = mixed + prism0 * y + skew * j11
+        G[0, i], G[1, i], G[2, i] = j00 * inverse, j01 * inverse, -(j00 * x + j01 * y) * inverse
+        G[3, i], G[4, i], G[5, i] = j10 * inverse, j11 * inverse, -(j10 * x + j11 * y) * inverse
+        base[0, i], base[1, i], base[2, i], base[3, i] = x, y, below, g
+    for row in range(2):
+        # What dxd and dyd count for in u, then in v.
+        c, e = (fx, fx * skew) if row == 0 else (0.0, fy)
+        for i in range(N):
+            x, y, j = base[0, i], base[1, i], i + row * N
+            s = x * x + y * y
+            F[4, j] = s * base[2, i] * (c * x + e * y)
+            F[5, j], F[8, j] = s * F[4, j], s * s * F[4, j]
+            F[12, j], F[13, j], F[14, j], F[15, j] = c * s, c * s * s, e * s, e * s * s
+        for i in range(N):
+            x, y, g, j = base[0, i], base[1, i], base[3, i], i + row * N
+            s = x * x + y * y
+            F[6, j] = 2 * c * x * y + e * (s + 2 * y * y)
+            F[7, j] = c * (s + 2 * x * x) + 2 * e * x * y
+            F[9, j], F[10, j], F[11, j] = -g * F[4, j], -g * F[5, j], -g * F[8, j]
+    for i in range(N):
+        F[16, i], F[16, N + i] = fx * d[1, i], 0.0
+    return missing == 0
+
+
+@compiled_part
 def image_points(
     kind: int, camera: CameraTuple, P: Array, d: Array, G: Array, base: Array, F: Array
 ) -> bool:
-    """Fill in the images of points by a lens of one of the two kinds, as the functions above."""
+    """Fill in the images of points by a lens of one of the kinds, as the functions above."""
     if kind == UNIFIED:
         return image_unified(camera, P, d, G, base, F)
+    if kind == QUOTIENT:
+        return image_quotient(camera, P, d, G, base, F)
     return image_kannala_brandt(camera, P, d, G, base, F)
 
 

@@ -1,4 +1,4 @@
-"""Saddle points of the weighted quadratic fit, compiled: see ``detection.checkerboard.saddle``."""
+"""Saddle points of the weighted quadratic fit, compiled: see ``features.saddle``."""
 
 from __future__ import annotations
 

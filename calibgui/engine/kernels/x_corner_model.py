@@ -1,4 +1,4 @@
-"""The normal equations of crossing edges, compiled: see ``detection.checkerboard.x_corner_model``.
+"""The normal equations of crossing edges, compiled: see ``corner_fit.x_corner_model``.
 
 The pixels of a corner's support are read when they are needed: kept for all the corners of a board
 they would take many times the memory of the image. They are taken in blocks that the processor's

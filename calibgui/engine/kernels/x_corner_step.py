@@ -1,4 +1,4 @@
-"""The step of a fit of crossing edges, compiled: see ``detection.checkerboard.x_corner_step``."""
+"""The step of a fit of crossing edges, compiled: see ``corner_fit.x_corner_step``."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""X-junctions, compiled: the loops of ``detection.checkerboard.x_junctions``.
+"""X-junctions, compiled: the loops of ``lattices.x_junctions``.
 
 The peaks are searched row by row in a window of five rows of R, so that nothing of the image's
 size is allocated, and only the strongest are kept on the way. Hence most blocks of a row hold no
@@ -133,7 +133,7 @@ def _scan_rows(
 
 
 def find_peaks(smooth: GreyImage, min_determinant: float, max_count: int) -> IntArray:
-    """Compute ``detection.checkerboard.x_junctions._find_peaks``."""
+    """Compute ``lattices.x_junctions._find_peaks``."""
     where, value = np.empty(0, dtype=np.int64), np.empty(0, dtype=_F)
     more = np.empty(max_count + smooth.shape[1], dtype=np.int64)
     more_values = np.empty(len(more), dtype=_F)
@@ -182,7 +182,7 @@ def _refine_stationary(
 def refine_stationary(
     smooth: GreyImage, pixels: IntArray, steps: int, max_shift: float
 ) -> tuple[Array, BoolArray]:
-    """Compute ``detection.checkerboard.x_junctions._refine_stationary``."""
+    """Compute ``lattices.x_junctions._refine_stationary``."""
     uv, is_near = np.empty((len(pixels), 2)), np.empty(len(pixels), dtype=np.bool_)
     _refine_stationary(smooth, pixels, steps, max_shift, uv, is_near)
     return uv, is_near
@@ -257,7 +257,7 @@ def check_circles(
     min_contrast: float,
     limits: tuple[float, float, float],
 ) -> tuple[BoolArray, Array]:
-    """Compute ``detection.checkerboard.x_junctions._check_circles``."""
+    """Compute ``lattices.x_junctions._check_circles``."""
     passed, rings = np.zeros(len(uv), dtype=np.bool_), np.zeros((len(uv), 3))
     _check_circles(smooth, uv, circles, min_contrast, limits, passed, rings)
     return passed, rings

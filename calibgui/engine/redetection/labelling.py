@@ -49,12 +49,11 @@ from calibgui.engine.calibration.problem import (
 )
 from calibgui.engine.calibration.refinement.residuals import linearise_residuals
 from calibgui.engine.calibration.result import Calibration, Cost
-from calibgui.engine.camera.models import find_model
-from calibgui.engine.detection.checkerboard.numbering import list_numberings, place_corners
-from calibgui.engine.detection.corners import Corners
-from calibgui.engine.detection.lattice import Lattice
+from calibgui.engine.features.corners import Corners
+from calibgui.engine.features.lattice import Lattice
 from calibgui.engine.geometry.pose import Pose
 from calibgui.engine.geometry.rotations import rotation_from_vector
+from calibgui.engine.lattices.numbering import list_numberings, place_corners
 
 _MIN_EVIDENCE = 25.0
 """Difference of E to the next best label, in powers of e, from which a label is certain."""
@@ -372,11 +371,11 @@ def _compute_scores(
     """Compute g (n, 3) and H (n, 3, 3) of each view's corners."""
     observations = prepare_observations(calibration, views)
     state = make_state(calibration.camera, calibration.poses)
-    lens = find_model(calibration.camera.model)
+    model = calibration.camera.model
     scores = []
     for k, view in enumerate(views):
         part = slice(k, k + 1)
-        r, _, by_pose = linearise_residuals(state, observations, part, lens, Cost.IMAGE, 1.0)
+        r, _, by_pose = linearise_residuals(state, observations, part, model, Cost.IMAGE, 1.0)
         n = len(view.uv)
         B = by_pose[0, :n, :, 3:] @ state.R[k]
         transposed = np.swapaxes(B, 1, 2)

@@ -32,8 +32,7 @@ from calibgui.engine.calibration.refinement.residuals import (
 from calibgui.engine.calibration.refinement.whitening import whiten_observations
 from calibgui.engine.calibration.resection import estimate_poses, refine_poses
 from calibgui.engine.calibration.result import Calibration, Cost
-from calibgui.engine.camera.models import find_model
-from calibgui.engine.detection.checkerboard.board_priors import compute_curvatures
+from calibgui.engine.corner_fit.board_priors import compute_curvatures
 
 _DIFFERENCE_STEP = 0.6**0.5 / 2
 """Step on the board with which derivatives by the place are formed, squares. Over arms of length L,
@@ -95,7 +94,7 @@ def differentiate_edges(
 
     Returns:
         (n, 2, 2) steps and (n, 2) curvatures, as the board priors of the detector have them
-        (``detection/checkerboard/board_priors.py``).
+        (``corner_fit.board_priors``).
     """
     around = _DIFFERENCE_STEP * square * np.array([(0, 0), (1, 0), (-1, 0), (0, 1), (0, -1)])
     at, right, left, down, up = np.moveaxis(locate(xy[:, None] + around), 1, 0)
@@ -140,4 +139,4 @@ def resect_view(calibration: Calibration, uv: Array, xy: Array, cov: Array) -> R
 def _linearise(calibration: Calibration, state: State, view: Observation) -> Linearised:
     """Linearise the residuals of one view about a state."""
     observations = Observations(view.uv[None], view.xy[None], np.ones((1, len(view.uv))))
-    return compute_image_residuals(state, observations, find_model(calibration.camera.model))
+    return compute_image_residuals(state, observations, calibration.camera.model)

@@ -27,27 +27,20 @@ from calibgui.engine.arrays import Array, BoolArray, GreyImage, GridSize
 from calibgui.engine.boards.board import Board
 from calibgui.engine.calibration.result import Calibration
 from calibgui.engine.camera.distortion import project_points
-from calibgui.engine.detection.checkerboard import board_ends, verification, x_corner_fit
+from calibgui.engine.corner_fit import verification, x_corner_fit
+from calibgui.engine.corner_fit.board_priors import MANY_CORNERS
+from calibgui.engine.corner_fit.x_corner_fit import XCornerFit
 from calibgui.engine.detection.checkerboard.board_refinement import RefinedBoard
-from calibgui.engine.detection.checkerboard.corner_template import (
+from calibgui.engine.detection.checkerboard.find_checkerboard import assemble_corners
+from calibgui.engine.detection.detector_io import check_grey_levels
+from calibgui.engine.errors import CalibrationError, NoBoardError
+from calibgui.engine.features.corner_template import (
     compare_sectors,
     estimate_template,
     orient_corners,
 )
-from calibgui.engine.detection.checkerboard.find_checkerboard import assemble_corners
-from calibgui.engine.detection.checkerboard.fit_thresholds import FIT_THRESHOLDS
-from calibgui.engine.detection.checkerboard.numbering import Numbering, Sides, list_numberings
-from calibgui.engine.detection.checkerboard.prefilter import is_plausible
-from calibgui.engine.detection.checkerboard.pyramid_search import find_candidates
-from calibgui.engine.detection.checkerboard.saddle import (
-    choose_weight_sigma,
-    refine_lattice,
-    refine_saddles,
-)
-from calibgui.engine.detection.checkerboard.x_corner_fit import XCornerFit
-from calibgui.engine.detection.corners import Corners
-from calibgui.engine.detection.detector_io import check_grey_levels
-from calibgui.engine.detection.lattice import (
+from calibgui.engine.features.corners import Corners
+from calibgui.engine.features.lattice import (
     Lattice,
     add_border,
     crop_lattice,
@@ -55,8 +48,12 @@ from calibgui.engine.detection.lattice import (
     estimate_steps,
     is_large_enough,
 )
-from calibgui.engine.errors import CalibrationError, NoBoardError
+from calibgui.engine.features.saddle import choose_weight_sigma, refine_lattice, refine_saddles
 from calibgui.engine.geometry.pose import Pose
+from calibgui.engine.lattices import board_ends
+from calibgui.engine.lattices.numbering import Numbering, Sides, list_numberings
+from calibgui.engine.lattices.prefilter import is_plausible
+from calibgui.engine.lattices.pyramid_search import find_candidates
 from calibgui.engine.redetection.prediction import (
     ResectedView,
     differentiate_edges,
@@ -139,7 +136,7 @@ def are_edges_bent(corners: Corners, calibration: Calibration, pose: Pose, board
         pose: the view's.
         board: the board.
     """
-    is_known = len(corners) >= FIT_THRESHOLDS.priors.many_corners
+    is_known = len(corners) >= MANY_CORNERS
     if is_known or corners.cov is None or corners.relative or _is_model_in_doubt(calibration):
         return False
 
@@ -311,7 +308,7 @@ def _fit_corners(
         places = _list_places(lattice)[lattice.found]
         geometry = None if is_doubted else view.predict_edges(places, 1.0)
         fit = x_corner_fit.fit_x_corners(grey, lattice, geometry=geometry)
-        good = verification.find_described_corners(fit, lattice, None if is_doubted else expected)
+        good = verification.find_described_corners(fit, lattice)
         part = _move_corners(lattice, fit, good)
         agreed = _drop_inconsistent(calibration, part, fit.covariance[good]).found
         agreed |= part.found & kept & (is_doubted | (_measure_misses(part, expected) < far))

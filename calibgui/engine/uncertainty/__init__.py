@@ -2,7 +2,8 @@
 
 `estimate_projection_uncertainty` maps how far the pixel of a point is uncertain over the image;
 `study_number_of_views` says how that falls with the number of views, `propose_views` where to hold
-the board next.
+the board next. `find_rays` and `find_board_points` lead from pixels to the world, with the
+uncertainty that they have there.
 """
 
 from __future__ import annotations
@@ -12,6 +13,12 @@ from typing import TYPE_CHECKING
 from calibgui.engine.faces import load_on_demand
 
 if TYPE_CHECKING:
+    from calibgui.engine.uncertainty.back_projection import (
+        BoardPoints as BoardPoints,
+        PixelRays as PixelRays,
+        find_board_points as find_board_points,
+        find_rays as find_rays,
+    )
     from calibgui.engine.uncertainty.next_view import (
         NextView as NextView,
         propose_views as propose_views,
@@ -29,6 +36,7 @@ if TYPE_CHECKING:
 load_on_demand(
     __name__,
     {
+        "back_projection": ["BoardPoints", "PixelRays", "find_board_points", "find_rays"],
         "next_view": ["NextView", "propose_views"],
         "number_of_views": ["QUANTITIES", "ViewCountStudy", "study_number_of_views"],
         "projection_uncertainty": ["ProjectionUncertainty", "estimate_projection_uncertainty"],

@@ -32,7 +32,6 @@ from calibgui.engine.calibration.problem import (
 )
 from calibgui.engine.calibration.refinement.residuals import State, linearise_residuals
 from calibgui.engine.calibration.result import Calibration, Cost
-from calibgui.engine.camera.models import find_model
 from calibgui.engine.geometry import rotations
 
 
@@ -86,9 +85,7 @@ def compute_view_information(
     """
     parts = []
     for views in slice_views(len(state.R)):
-        _, by_params, by_pose = linearise_residuals(
-            state, observations, views, find_model(model), cost, scale
-        )
+        _, by_params, by_pose = linearise_residuals(state, observations, views, model, cost, scale)
         Jc = by_params[..., free].reshape(len(by_params), -1, len(free))
         Jp = by_pose.reshape(len(by_pose), -1, 6)
         W = np.swapaxes(Jc, 1, 2) @ Jp

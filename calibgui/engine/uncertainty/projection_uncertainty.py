@@ -202,8 +202,11 @@ def compute_sensitivity(camera: Camera, uv: Array, distance: float) -> tuple[Arr
 
 
 def back_project_pixels(uv: Array, camera: Camera, distance: float) -> Array:
-    """Return points (..., 3) at a distance, mm, on the rays of pixels; directions at infinity."""
-    rays = rays_from_pixels(uv, camera)
+    """Return points (..., 3) at a distance, mm, on the rays of pixels; directions at infinity.
+
+    They are NaN where the lens lights no pixel.
+    """
+    rays = np.where(camera.lights(uv)[..., None], rays_from_pixels(uv, camera), np.nan)
     return rays * distance if np.isfinite(distance) else rays
 
 

@@ -7,8 +7,9 @@ imagined, gives
 
 where C_0 is a prior for any camera, far weaker than two good views, which keeps sets finite that
 determine nothing. D is the systematic part of the reported covariance, beyond the corners' noise:
-with a nominal board the uncertainty of its shape, which more views do not remove; otherwise an
-estimated shape's share and the views' disagreement, taken to fall as the number of views rises.
+with a nominal board that is seen to deviate, and with one whose shape is held, the uncertainty of
+its shape, which more views do not remove; otherwise an estimated shape's share and the views'
+disagreement, taken to fall as the number of views rises.
 
 A set is judged by the variance of projection of distant points (``projection_uncertainty.py``),
 averaged over the image: a V-optimal design (Fedorov, Theory of Optimal Experiments, 1972).
@@ -118,13 +119,15 @@ def build_design(calibration: Calibration, views: Sequence[Observation]) -> View
     uv = make_mesh(u, v).reshape(-1, 2)
     by_params, by_motion = compute_sensitivity(camera, uv, np.inf)
     good = np.isfinite(by_params).all(axis=(1, 2))
+    is_shape_given = bool(calibration.settings.is_board_shape_held)
+    has_common_error = calibration.board_shape_error > 0 or calibration.lens_error > 0
     noise_only = ViewDesign(
         camera=camera,
         free=free,
         noise=calibration.noise,
         views=found,
         systematic=np.zeros((len(free), len(free))),
-        is_systematic_averaged=calibration.board_shape_error == 0 and calibration.lens_error == 0,
+        is_systematic_averaged=not (is_shape_given or has_common_error),
         by_params=by_params[good][..., free],
         by_motion=by_motion[good],
     )

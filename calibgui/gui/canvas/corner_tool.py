@@ -10,7 +10,7 @@ from PySide6.QtGui import QKeyEvent, QMouseEvent, QPainter
 
 from calibgui.app.photographs.marking import find_missing_corners, refine_corner
 from calibgui.engine.arrays import Array, GreyImage
-from calibgui.engine.detection import Corners
+from calibgui.engine.features import Corners
 from calibgui.gui.canvas import layers
 from calibgui.gui.canvas.canvas import Canvas
 from calibgui.gui.canvas.loupe import paint_loupe

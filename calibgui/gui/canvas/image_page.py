@@ -41,6 +41,8 @@ class ImagePage(QWidget):
         super().__init__()
         self._session = session
         self._image: Image | None = None
+        self._failure = ""
+        """Why the selected image cannot be read; "" if it can."""
         self._job: Job | None = None
         self._is_over_board = False
         self.canvas = Canvas()
@@ -171,7 +173,7 @@ class ImagePage(QWidget):
         if self._job is not None:
             self._job.cancel()
             self._job = None
-        self._image = None
+        self._image, self._failure = None, ""
         if not path:
             self.canvas.show_image(())
             return
@@ -187,9 +189,12 @@ class ImagePage(QWidget):
             image = self._session.images.read(path)
             return image, stretch_levels(image)
 
-        self._job = self._session.jobs.start(
-            "", read, done, failed=lambda _: self.canvas.show_image(())
-        )
+        def fail(error: Exception) -> None:
+            self.canvas.show_image(())
+            self._failure = str(error)
+            self._show_marks()
+
+        self._job = self._session.jobs.start("", read, done, failed=fail)
 
     def _project_changed(self, before: Project, after: Project) -> None:
         if before.views is not after.views:
@@ -198,7 +203,7 @@ class ImagePage(QWidget):
     def _show_marks(self) -> None:
         session, view = self._session, self._session.view
         remark = "" if view is None or view.corners is None else view.corners.remark
-        self.reason.setText("" if view is None else view.why_unused or remark)
+        self.reason.setText("" if view is None else self._failure or view.why_unused or remark)
         self.reason.setVisible(bool(self.reason.text()))
         for action in self.tools:
             enable_action(

@@ -19,7 +19,7 @@ from PySide6.QtCore import QLineF, QPointF, QRectF, Qt
 from PySide6.QtGui import QColor, QPainter, QPen, QPixmap, QPixmapCache, QPolygonF
 
 from calibgui.engine.arrays import Array, Size
-from calibgui.engine.detection import Corners
+from calibgui.engine.features import Corners
 from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.stamps import draw_stamps
 

@@ -13,8 +13,8 @@ from calibgui.app.photographs import marking
 from calibgui.app.projects.project import change_views
 from calibgui.dataset import View, ViewStatus
 from calibgui.engine.arrays import Array, IntArray
-from calibgui.engine.detection import Corners
 from calibgui.engine.errors import CalibrationError
+from calibgui.engine.features import Corners
 from calibgui.gui.canvas.canvas import Canvas
 from calibgui.gui.canvas.corner_tool import CornerTool
 from calibgui.gui.canvas.marking_bar import CornerBar, RoiBar

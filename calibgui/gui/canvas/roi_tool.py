@@ -8,7 +8,7 @@ from PySide6.QtGui import QKeyEvent, QMouseEvent, QPainter
 
 from calibgui.app.photographs.marking import find_nearest_corner, project_marked_board
 from calibgui.engine.arrays import Array, GreyImage, GridSize
-from calibgui.engine.detection import Corners
+from calibgui.engine.features import Corners
 from calibgui.gui.canvas import layers
 from calibgui.gui.canvas.canvas import Canvas
 from calibgui.gui.canvas.loupe import paint_loupe

@@ -7,7 +7,7 @@ import os
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from PySide6.QtCore import QSettings, Signal
+from PySide6.QtCore import Signal
 from PySide6.QtGui import QGuiApplication
 from PySide6.QtWidgets import (
     QDialog,
@@ -28,6 +28,7 @@ from calibgui.gui.jobs.job import Job
 from calibgui.gui.jobs.jobs import Jobs
 from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.actions import add_close_button
+from calibgui.gui.widgets.kept_settings import keep, read_kept_text
 from calibgui.gui.widgets.save_names import ask_for_name
 from calibgui.gui.widgets.wrapped_label import WrappedLabel
 
@@ -102,7 +103,7 @@ class ExportDialog(QDialog):
         layout.addLayout(last)
         self.resize(880, 520)
         self.formats.currentRowChanged.connect(self._chosen)
-        last_saved = QSettings().value(_FORMAT)
+        last_saved = read_kept_text(_FORMAT)
         names = list(EXPORTERS)
         self.formats.setCurrentRow(names.index(last_saved) if last_saved in names else 0)
 
@@ -184,7 +185,7 @@ class ExportDialog(QDialog):
         )
         if path is None:
             return
-        QSettings().setValue(_FORMAT, exporter.name)
+        keep(_FORMAT, exporter.name)
         self._jobs.start(
             self.tr("Writing {0}").format(path),
             lambda _: export(self._result, exporter.name, path),

@@ -24,6 +24,7 @@ from calibgui.app.photographs.paths import (
 )
 from calibgui.app.projects.autosave import get_discarded_folder
 from calibgui.app.projects.document import Document
+from calibgui.app.projects.lengths import set_square
 from calibgui.app.projects.moved_images import find_moved_images, list_missing_images
 from calibgui.app.projects.project import (
     Project,
@@ -31,7 +32,6 @@ from calibgui.app.projects.project import (
     relocate_images,
     remove_result,
     rename_result,
-    set_square,
 )
 from calibgui.app.projects.project_file import is_project
 from calibgui.app.projects.recent import remember_project
@@ -94,6 +94,12 @@ class Files(QObject):
         projects = files if len(names) == 1 else list(filter(is_project, files))
         if projects:
             self.open_project(projects[0])
+            if len(names) > 1:
+                self._session.notified.emit(
+                    self.tr("Only the project {0} is opened, without the {1} other files.").format(
+                        projects[0].name, len(names) - 1
+                    )
+                )
         elif names:
             try:
                 self._add_images(names)

@@ -6,9 +6,9 @@ from html import escape
 
 from PySide6.QtWidgets import QDialog, QTextBrowser, QVBoxLayout, QWidget
 
-import calibgui
 from calibgui.gui.widgets.actions import add_close_button
 from calibgui.gui.widgets.glossary import list_terms
+from calibgui.version import __version__
 
 
 class HelpDialog(QDialog):
@@ -95,5 +95,5 @@ class HelpDialog(QDialog):
             f"<h2>{self.tr('From photographs to a camera')}</h2><ol>{listed}</ol>"
             f"<h3>{self.tr('Keys')}</h3><table>{rows}</table>"
             f"<h3>{self.tr('Words')}</h3><table>{words}</table>"
-            f"<p>{origin}</p><p>calibgui {calibgui.__version__}</p>"
+            f"<p>{origin}</p><p>calibgui {__version__}</p>"
         )

@@ -65,7 +65,7 @@ class _Preview(QWidget):
 
 
 class PrintDialog(QDialog):
-    """Makes a PDF or SVG of a board in true size."""
+    """Makes a PDF, SVG or PNG of a board in true size."""
 
     def __init__(self, board: Board | None, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -103,9 +103,7 @@ class PrintDialog(QDialog):
         )
         form.addRow(self.odd_and_even)
         buttons = add_close_button(self)
-        self.save = buttons.addButton(
-            self.tr("&Save as PDF or SVG…"), QDialogButtonBox.ButtonRole.ActionRole
-        )
+        self.save = buttons.addButton(self.tr("&Save…"), QDialogButtonBox.ButtonRole.ActionRole)
         self.save.setDefault(True)
         self.save.clicked.connect(self._ask_and_save)
         middle = QHBoxLayout()
@@ -160,7 +158,7 @@ class PrintDialog(QDialog):
             self,
             self.tr("Save board"),
             "board.pdf",
-            self.tr("PDF (*.pdf);;SVG drawing (*.svg)"),
+            self.tr("PDF (*.pdf);;SVG drawing (*.svg);;PNG image (*.png)"),
         )
         if path is None:
             return

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from enum import IntEnum
-from typing import Any
+from typing import Any, assert_never
 
 from PySide6.QtCore import (
     QAbstractListModel,
@@ -183,11 +183,15 @@ class ImageModel(QAbstractListModel):
     def sort_key(self, row: int, criterion: Criterion) -> tuple[object, ...]:
         """Key of an image among the others; equal ones stand in the order of their names."""
         view, place = self._views[row], self._places[row]
-        if criterion is Criterion.STATUS:
-            return (self._status(view), place)
-        if criterion is Criterion.ERROR:
-            return (-self._rms.get(view.image, -1.0), place)
-        return (place,)
+        match criterion:
+            case Criterion.STATUS:
+                return (self._status(view), place)
+            case Criterion.ERROR:
+                return (-self._rms.get(view.image, -1.0), place)
+            case Criterion.NAME:
+                return (place,)
+            case _:
+                assert_never(criterion)
 
     def _project_changed(self, _: Project, after: Project) -> None:
         before, self._views = self._views, after.views

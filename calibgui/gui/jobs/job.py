@@ -46,6 +46,10 @@ class Job:
     """Callback that takes what the work or `done` raised; `Cancelled` is no failure."""
     ended: Callable[[], None] = nothing
     """Callback at the end of the job, however it ended."""
+    is_about_document: bool = True
+    """False if it is wanted whichever document is open."""
+    keeps_best: bool = False
+    """True if the work returns the best so far when it is asked to stop."""
     owner: QObject | None = None
     """Object whose deletion makes the job unwanted: no callback is called after it."""
     inputs: Callable[[Any], Hashable] = nothing
@@ -119,6 +123,11 @@ class Job:
     def check(self) -> None:
         """Raise `Cancelled` in the worker if the user wants none of it."""
         if self.cancelled:
+            raise Cancelled
+
+    def check_stop(self) -> None:
+        """Raise `Cancelled` in the worker if the user wants no more than what is done."""
+        if self.stopping:
             raise Cancelled
 
     def outcome(self, item: Any) -> Outcome:

@@ -56,6 +56,8 @@ class Callbacks(TypedDict, total=False):
     received: Callable[[Any], None]
     failed: Callable[[Exception], None]
     ended: Callable[[], None]
+    is_about_document: bool
+    keeps_best: bool
     owner: QObject
 
 
@@ -102,7 +104,8 @@ class Jobs(QObject):
             done: takes the result, if `inputs()` still is what it was at the start.
             delay: time after which the work begins, ms: `PICTURE` where something changes on the
                 screen.
-            callbacks: `received`, `failed`, `ended`, `owner` of `Job`.
+            callbacks: `received`, `failed`, `ended`, `is_about_document`, `keeps_best`, `owner` of
+                `Job`.
         """
         job = Job(
             label=label,
@@ -137,6 +140,14 @@ class Jobs(QObject):
             **self._complete(callbacks),
         )
         return self._run(job, self._pool, delay)
+
+    def end(self, job: Job) -> None:
+        """End a job as the user wants it: with the best so far, where it keeps that."""
+        if job.keeps_best:
+            job.stop()
+        else:
+            job.cancel()
+        self.changed.emit()
 
     def close(self) -> None:
         """Cancel everything and wait for the threads to end."""

@@ -120,6 +120,7 @@ class Analysis(QWidget):
         layout.addWidget(self.stack, 1)
         session.changed.connect(self._project_changed)
         session.result_changed.connect(self._show_result)
+        session.judged.connect(self._note_verdict)
         session.selected.connect(self._select)
         session.hovered.connect(self._hover)
         self._show_result(session.result)
@@ -282,6 +283,10 @@ class Analysis(QWidget):
         for panel in self._built.values():
             panel.show_result(result)
         self._select(self._session.image, self._session.corner)
+
+    def _note_verdict(self) -> None:
+        for panel in self._built.values():
+            panel.note_verdict()
 
     def _select(self, image: str, corner: int) -> None:
         if self._shown is not None:

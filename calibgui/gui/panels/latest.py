@@ -32,13 +32,14 @@ class Latest:
         done: Callable[[T], None],
         failed: Callable[[Exception], None],
         cancelled: Callable[[], None] = nothing,
+        keeps_best: bool = False,
     ) -> None:
         """Run `work` in a thread, once what the panel shows by now is on the screen.
 
         What it returns or raises is handed on unless it is outdated.
 
         Args:
-            label, work, done, failed: as for ``Jobs.start``.
+            label, work, done, failed, keeps_best: as for ``Jobs.start``.
             cancelled: called if the user wants none of it.
         """
         self.cancel()
@@ -48,7 +49,14 @@ class Latest:
                 cancelled()
 
         job = self._job = self._jobs.start(
-            label, work, done, delay=PICTURE, failed=failed, ended=ended, owner=self._owner
+            label,
+            work,
+            done,
+            delay=PICTURE,
+            failed=failed,
+            ended=ended,
+            keeps_best=keeps_best,
+            owner=self._owner,
         )
 
     def cancel(self) -> None:

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from typing import Generic, TypeVar
+from typing import ClassVar, Generic, TypeVar
 
 from PySide6.QtWidgets import QApplication, QHBoxLayout, QPushButton, QVBoxLayout, QWidget
 
 from calibgui.dataset import Result
-from calibgui.engine.errors import Progress
+from calibgui.gui.jobs.job import Job
 from calibgui.gui.panels.latest import Latest
 from calibgui.gui.panels.panel import Panel
 from calibgui.gui.panels.services import Services
@@ -33,6 +33,9 @@ class OnDemandPanel(Panel, Generic[Found]):
         label: name of the work for the progress bar.
         working: sentence that is shown while the work goes on.
     """
+
+    keeps_best: ClassVar[bool] = False
+    """True if the work returns what it has found so far when it is asked to stop."""
 
     def __init__(
         self, services: Services, *, button: str, tip: str, label: str, working: str
@@ -82,10 +85,11 @@ class OnDemandPanel(Panel, Generic[Found]):
         self._asked, self._is_working = result, True
         self._work.start(
             self._label,
-            lambda job: self._find(result, job.advance),
+            lambda job: self._find(result, job),
             self._done,
             self._fail,
             cancelled=self._end,
+            keeps_best=self.keeps_best,
         )
         self._refresh_now()
 
@@ -135,8 +139,8 @@ class OnDemandPanel(Panel, Generic[Found]):
         """Say what the button is for."""
         raise NotImplementedError
 
-    def _find(self, result: Result, progress: Progress) -> Found:
-        """Do the work; runs in a thread, and must not touch a widget.
+    def _find(self, result: Result, job: Job) -> Found:
+        """Do the work; runs in a thread, tells the job how far it is, and must not touch a widget.
 
         Raises:
             CalibrationError: if the result does not allow it; its text is shown.

@@ -76,6 +76,9 @@ class Panel(QWidget):
         self._stale = True
         self._update()
 
+    def note_verdict(self) -> None:
+        """Say what the verdict on the shown result says, which is known now; nothing by default."""
+
     def select(self, view: int, corner: int = -1) -> None:
         """Highlight a view, and one of its corners, without announcing it."""
         k = self._indices.index(view) if view in self._indices else -1

@@ -10,10 +10,9 @@ from PySide6.QtCore import QObject, Signal
 
 from calibgui.app.photographs.detection import Detection, find_views, infer_grid_size, infer_pattern
 from calibgui.app.projects.project import Project, change_views, remove_digests
-from calibgui.app.system.kernel_preparation import estimate_preparation
 from calibgui.dataset import View, ViewStatus, find_orientation
 from calibgui.engine.arrays import Array
-from calibgui.engine.detection import Corners
+from calibgui.engine.features import Corners
 from calibgui.gui.jobs.job import Job
 from calibgui.gui.session.session import Session
 
@@ -49,10 +48,6 @@ class Detector(QObject):
         """Return whether a search is under way."""
         return self._job is not None
 
-    def is_search(self, job: Job) -> bool:
-        """Return whether a job is the search that is under way."""
-        return job is self._job
-
     def search(self) -> None:
         """Search every image that waits, if that is not being done already.
 
@@ -81,14 +76,8 @@ class Detector(QObject):
         pattern = infer_pattern(project.views, project.pattern)
         rois = {Path(image): roi for image, roi in self._batch.items() if roi is not None}
 
-        searching = self.tr("Finding corners")
-        preparing = self.tr("Preparing the search (once, about {0} s)…").format(
-            estimate_preparation(pattern)
-        )
-
         def work(job: Job) -> Detection:
             def progress(done: int, total: int, view: View) -> None:
-                job.rename(searching)
                 job.advance(done, total)
                 job.send([view])
 
@@ -103,11 +92,10 @@ class Detector(QObject):
                 orientation=find_orientation(project.views),
                 method=project.method,
                 pattern=pattern,
-                preparing=lambda: job.rename(preparing),
             )
 
         self._job = self._session.jobs.start(
-            searching,
+            self.tr("Finding corners"),
             work,
             self._done,
             received=self._learn,

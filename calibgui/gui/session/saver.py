@@ -90,6 +90,9 @@ class Saver(QObject):
     def open(self, path: Path) -> None:
         """Open a project file; announces unsaved work on it."""
 
+        opening = self.tr("Opening {0}").format(path.name)
+        self._session.notified.emit(f"{opening}…")  # no progress is in sight without images
+
         def done(found: tuple[Project, FileState | None]) -> None:
             project, self._known = found
             self._lock.release()  # the window that held it may have been closed
@@ -110,7 +113,10 @@ class Saver(QObject):
                 )
 
         self._session.jobs.start(
-            self.tr("Opening {0}").format(path.name), lambda _: _read(path), done
+            opening,
+            lambda _: _read(path),
+            done,
+            ended=lambda: self._session.withdrawn.emit(f"{opening}…"),
         )
 
     def recover(self, path: Path, kept: Path | None = None) -> None:

@@ -4,14 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Hashable
 
-from PySide6.QtCore import QObject, QSettings, Signal
+from PySide6.QtCore import QObject, Signal
 
-from calibgui.app.calibrating.settings import NEW_PROJECT_SETTINGS
+from calibgui.app.calibrating.settings import BEST_SETTINGS
 from calibgui.app.photographs.image_store import ImageStore
 from calibgui.app.photographs.sensor_frame import choose_orientation
 from calibgui.app.projects.document import Change, Document
 from calibgui.app.projects.project import Project
 from calibgui.dataset import Result, View, find_orientation
+from calibgui.engine.boards import BoardShape
 from calibgui.engine.images import read_image_header
 from calibgui.gui.jobs.jobs import Jobs
 
@@ -29,6 +30,8 @@ class Session(QObject):
     """The file of an image holds another picture than before."""
     result_changed = Signal(object)
     """The result that is shown, or None."""
+    judged = Signal()
+    """The verdict on the result that is shown is known now."""
     failed = Signal(Exception)
     """An operation could not be done (a CalibrationError), or met a bug (anything else)."""
     notified = Signal(str)
@@ -136,7 +139,8 @@ class Session(QObject):
         """Work on another document."""
         before = self.project
         for job in self.jobs.running:
-            job.cancel()
+            if job.is_about_document:
+                job.cancel()
         self.document.listeners.remove(self._document_changed)
         self.document = document
         document.listeners.append(self._document_changed)
@@ -144,9 +148,16 @@ class Session(QObject):
         self._document_changed(before, document.project)
 
     def question(self) -> Hashable:
-        """Return what a calibration depends on: a result holds as long as this stays the same."""
+        """Return what a calibration depends on: a camera holds as long as this stays the same.
+
+        How long the squares are is a part of it only where other lengths were stated as well.
+        """
         project = self.project
-        return (project.usable, project.board, project.size, project.settings)
+        board, settings = project.board, project.settings
+        drawn = None if board is None else (board.grid_size, board.pattern.kind)
+        has_lengths = settings.prior is not None or isinstance(settings.board_shape, BoardShape)
+        square = project.square if has_lengths else None
+        return (project.usable, drawn, square, project.size, settings)
 
     def _document_changed(self, before: Project, after: Project) -> None:
         if after.find(self.image) < 0:
@@ -163,16 +174,6 @@ class Session(QObject):
             self.result_changed.emit(self.result)
 
 
-_BY_HAND = "by hand"
-"""Name of the setting whether boards of new projects are marked by hand."""
-
-
 def make_empty_document() -> Document:
-    """Return a document to begin with; its boards are marked by hand if the last ones were."""
-    by_hand = bool(QSettings().value(_BY_HAND, False, bool))
-    return Document(Project(settings=NEW_PROJECT_SETTINGS, by_hand=by_hand))
-
-
-def remember_by_hand(by_hand: bool) -> None:
-    """Keep for new projects whether boards are marked by hand."""
-    QSettings().setValue(_BY_HAND, by_hand)
+    """Return a document to begin with."""
+    return Document(Project(settings=BEST_SETTINGS))

@@ -18,6 +18,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from calibgui.app.projects.lengths import set_square
 from calibgui.app.projects.project import (
     GRID_LINES,
     Project,
@@ -25,11 +26,10 @@ from calibgui.app.projects.project import (
     set_grid_size,
     set_method,
     set_pattern,
-    set_square,
 )
 from calibgui.engine.arrays import GridSize
 from calibgui.engine.boards import AprilGrid
-from calibgui.gui.session.session import Session, remember_by_hand
+from calibgui.gui.session.session import Session
 from calibgui.gui.settings.pattern_choice import PatternChoice
 from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.narrow_combo import NarrowCombo
@@ -146,8 +146,6 @@ class BoardPanel(QWidget):
         self._refresh()
 
     def _project_changed(self, before: Project, after: Project) -> None:
-        if self._session.document is self._document and before.by_hand != after.by_hand:
-            remember_by_hand(after.by_hand)
         if self._session.document is not self._document or before.grid_size != after.grid_size:
             self._document, self._typing = self._session.document, False
         self._refresh()

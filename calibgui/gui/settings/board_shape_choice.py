@@ -20,11 +20,13 @@ from calibgui.gui.widgets.narrow_combo import NarrowCombo
 _OFFICE_PRIOR = BoardShapePrior(in_plane=0.1, out_of_plane=0.3)
 """Standard deviations of a board from an office printer that is glued to something stiff, mm."""
 
+_KNOWN = (BoardShapeModel.NOMINAL, BoardShapeModel.FREE)
+"""Choices beside which it can be stated how far corners may be from where they should be."""
 _FROM_FILE = "file"
 
 
 class BoardShapeChoice(QWidget):
-    """A model to estimate or a known shape to hold, and what is known of a free shape."""
+    """A model to estimate or a known shape to hold, and what is known of the corners' places."""
 
     changed = Signal()
     slid = Signal()
@@ -82,7 +84,7 @@ class BoardShapeChoice(QWidget):
         self.known.setToolTip(
             self.tr(
                 "State how far corners may be from where they should be: in the plane, and out "
-                "of it. Few views can then carry a free board."
+                "of it. Every ± counts it, and few views can then carry a free board."
             )
         )
         row = QHBoxLayout()
@@ -97,8 +99,9 @@ class BoardShapeChoice(QWidget):
 
     @property
     def prior(self) -> BoardShapePrior | None:
-        """The standard deviations that are stated for a free shape; None for other choices."""
-        if self.board_shape is not BoardShapeModel.FREE or not self.known.isChecked():
+        """The standard deviations that are stated for a board as drawn or of free shape; None for
+        other choices."""
+        if self.board_shape not in _KNOWN or not self.known.isChecked():
             return None
         return BoardShapePrior(self.in_plane.value(), self.out_of_plane.value())
 
@@ -142,10 +145,10 @@ class BoardShapeChoice(QWidget):
         return box
 
     def _enable(self) -> None:
-        free = self.board_shape is BoardShapeModel.FREE
-        self.known.setEnabled(free)
+        takes_prior = self.board_shape in _KNOWN
+        self.known.setEnabled(takes_prior)
         for box in (self.in_plane, self.out_of_plane):
-            box.setEnabled(free and self.known.isChecked())
+            box.setEnabled(takes_prior and self.known.isChecked())
 
     def _edit_known(self) -> None:
         self._enable()

@@ -100,6 +100,10 @@ class PatternChoice(QWidget):
             (self.tr("between the tags"), True),
             (self.tr("none"), False),
         )
+        self.first_tag = QSpinBox(minimum=-1, maximum=9999)
+        self.first_tag.setToolTip(self.tr("The lowest number of a tag on the board: 0 on most."))
+        self.first_tag.setSpecialValueText(undecided)
+        self.first_tag.setKeyboardTracking(False)
         self.step = QSpinBox(minimum=0, maximum=64, singleStep=2)
         self.step.setToolTip(self.tr("The number of squares from one tag to the next in its row."))
         self.step.setSpecialValueText(undecided)
@@ -137,6 +141,7 @@ class PatternChoice(QWidget):
         self.form.addRow(self.tr("Tag step"), self.step)
         self.form.addRow(self.tr("Numbered"), self.order)
         self.form.addRow(self.tr("Small squares"), self.corner_squares)
+        self.form.addRow(self.tr("First tag"), self.first_tag)
         self.form.addRow(self.tr("First corner"), self.origin)
         self._pattern: Pattern = KINDS["checkerboard"]
         self._side = 1.0
@@ -155,7 +160,7 @@ class PatternChoice(QWidget):
             combo.activated.connect(self._edit)
         for length in (self.marker, self.diameter, self.spacing):
             length.valueChanged.connect(self._edit)
-        for count in (self.step, self.first_row, self.first_col):
+        for count in (self.step, self.first_tag, self.first_row, self.first_col):
             count.valueChanged.connect(self._edit)
         self.show_pattern(self._pattern, 1.0)
 
@@ -180,6 +185,7 @@ class PatternChoice(QWidget):
             (self.step, tagged),
             (self.order, grid or tagged),
             (self.corner_squares, grid),
+            (self.first_tag, grid),
             (self.origin, isinstance(pattern, PuzzleBoard)),
         ):
             self.form.setRowVisible(field, shown)
@@ -199,6 +205,8 @@ class PatternChoice(QWidget):
             self.corner_squares.setCurrentIndex(
                 self.corner_squares.findData(pattern.corner_squares)
             )
+            with QSignalBlocker(self.first_tag):
+                self.first_tag.setValue(-1 if pattern.first_tag is None else pattern.first_tag)
         if isinstance(pattern, TaggedCheckerboard):
             with QSignalBlocker(self.step):
                 self.step.setValue(pattern.step or 0)
@@ -224,6 +232,7 @@ class PatternChoice(QWidget):
                     self.border.currentData(),
                     self.order.currentData(),
                     self.corner_squares.currentData(),
+                    None if self.first_tag.value() < 0 else self.first_tag.value(),
                 )
             if isinstance(pattern, TaggedCheckerboard) and pattern.kind == self._pattern.kind:
                 pattern = TaggedCheckerboard(

@@ -18,9 +18,9 @@ from PySide6.QtWidgets import (
 )
 
 from calibgui.app.calibrating.settings import (
+    BEST_SETTINGS,
     DEFAULT_MODEL,
     MODEL_CHOICES,
-    NEW_PROJECT_SETTINGS,
     Settings,
     list_parameters,
     parse_fixed,
@@ -73,6 +73,14 @@ class SettingsPanel(QWidget):
             )
         )
         self.weigh = QCheckBox(self.tr("&Weigh views by their noise"))
+        self.improve = QCheckBox(self.tr("Make the camera bette&r"))
+        self.improve.setToolTip(
+            self.tr(
+                "Carry out what needs no new photograph and makes errors smaller by a fifth or "
+                "more: another lens model or board shape where these are automatic, and leaving "
+                "out corners and views that do not fit. Undo goes back through it."
+            )
+        )
         self.again = QCheckBox(self.tr("Search a&gain with the camera"))
         self.again.setToolTip(
             self.tr(
@@ -86,7 +94,7 @@ class SettingsPanel(QWidget):
         """Names of the parameters whose boxes are shown, in their order."""
         self.values = self._make_values()
         self._lay_out()
-        choices = (self.robust, self.weigh, self.again, *self.boxes.values())
+        choices = (self.robust, self.weigh, self.improve, self.again, *self.boxes.values())
         clicks = (box.clicked for box in choices)
         for edited in (
             self.cost.activated,
@@ -155,7 +163,10 @@ class SettingsPanel(QWidget):
         layout.addLayout(first)
         layout.addWidget(self.board_shape)
         layout.addLayout(views)
-        layout.addWidget(self.again)
+        rounds = QHBoxLayout()
+        rounds.addWidget(self.improve)
+        rounds.addWidget(self.again, 1)
+        layout.addLayout(rounds)
         layout.addLayout(self._grid)
         layout.addLayout(last)
 
@@ -175,6 +186,7 @@ class SettingsPanel(QWidget):
         self.board_shape.show_choice(settings.board_shape, settings.prior)
         self.robust.setChecked(settings.robust)
         self.weigh.setChecked(settings.weigh_views)
+        self.improve.setChecked(settings.improve)
         self.again.setChecked(not settings.once)
         stated = {name: value for name, value in settings.fixed.items() if value is not None}
         self.values.setText(", ".join(f"{name}={value:.12g}" for name, value in stated.items()))
@@ -258,7 +270,7 @@ class SettingsPanel(QWidget):
             return
         settings = change_method(before, name)
         if name == DEFAULT_METHOD:
-            settings = replace(settings, model=NEW_PROJECT_SETTINGS.model)
+            settings = replace(settings, model=BEST_SETTINGS.model)
         self._edit_method(settings)
 
     def _edit_method(self, settings: Settings) -> None:
@@ -329,6 +341,7 @@ class SettingsPanel(QWidget):
             robust=self.robust.isChecked(),
             weigh_views=self.weigh.isChecked() and weighted,
             once=not self.again.isChecked(),
+            improve=self.improve.isChecked(),
         )
         if settings != before:
             self._session.edit(

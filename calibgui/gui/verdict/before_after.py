@@ -17,7 +17,7 @@ from calibgui.gui.panels.parts.difference_map import DifferenceMap
 from calibgui.gui.panels.parts.estimates import estimate_columns
 from calibgui.gui.session.session import Session
 from calibgui.gui.verdict.drop_down import DropDown
-from calibgui.gui.verdict.remedier import Remedied
+from calibgui.gui.verdict.remedy_runner import CarriedOut
 from calibgui.gui.verdict.texts import describe_grade
 from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.tables import Column, Table, with_decimals
@@ -39,13 +39,13 @@ class BeforeAndAfter(DropDown):
     """Shows errors of pixels and parameters of two results, and a map of their difference."""
 
     kept = Signal(object)
-    """The `Remedied` that the user keeps."""
+    """The `CarriedOut` that the user keeps."""
     taken_back = Signal(object)
-    """The `Remedied` that the user does not want."""
+    """The `CarriedOut` that the user does not want."""
 
     def __init__(self, bar: QWidget, session: Session) -> None:
         super().__init__(bar)  # all of a small window's height
-        self._remedied: Remedied | None = None
+        self._carried_out: CarriedOut | None = None
         self._natural = 0
         """Width of the tables with all their columns, as measured once for each content: the room
         for them, in which headings are shortened, must not change it."""
@@ -86,21 +86,21 @@ class BeforeAndAfter(DropDown):
         # Work that goes on keeps what was done.
         session.changed.connect(lambda _, after: self._close_for_other(after))
 
-    def show_remedied(self, remedied: Remedied) -> None:
+    def show_carried_out(self, carried_out: CarriedOut) -> None:
         """Show what an action has done."""
-        self._remedied = remedied
-        before, after = remedied.before.calibration, remedied.after.calibration
-        gain = remedied.verdict_before.error.covered / remedied.verdict_after.error.covered
+        self._carried_out = carried_out
+        before, after = carried_out.before.calibration, carried_out.after.calibration
+        gain = carried_out.verdict_before.error.covered / carried_out.verdict_after.error.covered
         self.title.setText(
             self.tr("{0}: the error where there are corners is {1} times smaller").format(
-                remedied.label, format_times(gain)
+                carried_out.label, format_times(gain)
             )
             if gain > 1
             else self.tr("{0}: the error where there are corners is not smaller").format(
-                remedied.label
+                carried_out.label
             )
         )
-        self._show_errors(remedied.verdict_before, remedied.verdict_after)
+        self._show_errors(carried_out.verdict_before, carried_out.verdict_after)
         rows = compare_parameters(before, after)
         self.parameters.show_columns(
             [
@@ -120,7 +120,7 @@ class BeforeAndAfter(DropDown):
                 ),
             ]
         )
-        views = remedied.after.observations()
+        views = carried_out.after.observations()
 
         def show(difference: CameraDifference) -> None:
             corners = np.concatenate([view.uv for view in views])
@@ -140,9 +140,9 @@ class BeforeAndAfter(DropDown):
 
     def heightForWidth(self, width: int) -> int:  # noqa: N802 - Qt's
         """Return the height at which the map fills the width that the tables leave."""
-        if self._remedied is None:
+        if self._carried_out is None:
             return _LEAST
-        columns, rows = self._remedied.after.calibration.camera.size
+        columns, rows = self._carried_out.after.calibration.camera.size
         map_width = width - self._choose_tables_width(width) - 3 * theme.SPACING - _AXES.width()
         head = self.keep.sizeHint().height() + 3 * theme.SPACING
         return max(_LEAST, round(map_width * rows / columns) + _AXES.height() + head)
@@ -190,14 +190,14 @@ class BeforeAndAfter(DropDown):
         self.errors.setFixedHeight(rows + 2 * self.errors.frameWidth() + theme.SPACING)
 
     def _answer(self, signal: SignalInstance) -> None:
-        remedied, self._remedied = self._remedied, None
+        carried_out, self._carried_out = self._carried_out, None
         self.hide()
-        if remedied is not None:
-            signal.emit(remedied)
+        if carried_out is not None:
+            signal.emit(carried_out)
 
     def _close_for_other(self, project: object) -> None:
-        if self._remedied is not None and project is not self._remedied.project:
-            self._remedied = None
+        if self._carried_out is not None and project is not self._carried_out.project:
+            self._carried_out = None
             self.hide()
 
 

@@ -1,14 +1,16 @@
-"""What is wrong with the shown result: a row for each finding, with the button that does it."""
+"""What is wrong with the shown result, a row for each finding with the button that does it, and
+what would be worth being stated."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import (
     QFrame,
     QGridLayout,
+    QHBoxLayout,
     QLabel,
     QPushButton,
     QScrollArea,
@@ -17,6 +19,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from calibgui.app.calibrating.true_board import GLASS, list_gains
 from calibgui.engine.assessment import Finding, Verdict
 from calibgui.engine.numbers import format_two_digits
 from calibgui.gui.verdict.drop_down import DropDown
@@ -41,10 +44,13 @@ class FindingsList(DropDown):
     """The finding whose action the user wants."""
     proof_wanted = Signal(object)
     """The finding whose evidence the user wants to see."""
+    glass_wanted = Signal()
+    """The user states that the board is of glass."""
 
     def __init__(self, bar: QWidget) -> None:
         super().__init__(bar, _SHARE)
         self.rows: list[FindingRow] = []
+        self.glass: GlassRow | None = None
         self._body = QWidget()
         self._column = QVBoxLayout(self._body)
         self._column.setContentsMargins(theme.SPACING, 0, theme.SPACING, theme.SPACING)
@@ -59,24 +65,35 @@ class FindingsList(DropDown):
         layout.setContentsMargins(1, 0, 1, 2)
         layout.addWidget(area)
 
-    def show_verdict(self, verdict: Verdict, names: Sequence[str], condition: str) -> None:
-        """List the findings of a verdict.
+    def show_verdict(
+        self,
+        verdict: Verdict,
+        names: Sequence[str],
+        condition: str,
+        glass: Mapping[str, float],
+    ) -> None:
+        """List the findings of a verdict, and what a board of glass would bring.
 
         Args:
             verdict: on the shown result.
             names: of its views.
             condition: a sentence on what lengths rest on; empty if they are confirmed.
+            glass: the ± by name that come with a board of glass; none if that is not offered.
         """
-        for row in self.rows:
-            self._column.removeWidget(row)
-            row.deleteLater()
+        for old in [*self.rows, *([] if self.glass is None else [self.glass])]:
+            self._column.removeWidget(old)
+            old.deleteLater()
         self.rows = [FindingRow(finding, names, condition) for finding in verdict.findings]
         for row in self.rows:
             row.button.clicked.connect(lambda _=False, f=row.finding: self.action_wanted.emit(f))
             row.proof.clicked.connect(lambda _=False, f=row.finding: self.proof_wanted.emit(f))
             row.unfold.toggled.connect(self._fit)
             self._column.addWidget(row)
-        if not self.rows:
+        self.glass = GlassRow(glass) if glass else None
+        if self.glass is not None:
+            self.glass.button.clicked.connect(self.glass_wanted)
+            self._column.addWidget(self.glass)
+        if not self._column.count():
             self.hide()
         elif self.isVisible():
             self._fit()
@@ -85,6 +102,8 @@ class FindingsList(DropDown):
         """Disable the buttons while an action is being carried out."""
         for row in self.rows:
             row.button.setEnabled(not busy)
+        if self.glass is not None:
+            self.glass.button.setEnabled(not busy)
 
     def _fit(self) -> None:
         """Take the height that the rows need now."""
@@ -148,3 +167,21 @@ class FindingRow(QWidget):
         self.unfold.setArrowType(down if shown else right)
         self.details.setVisible(shown)
         self.proof.setVisible(shown)
+
+
+class GlassRow(QWidget):
+    """The row that offers to state that the board is of glass, with the button that does it."""
+
+    def __init__(self, narrower: Mapping[str, float]) -> None:
+        super().__init__()
+        self.what = WrappedLabel(
+            self.tr(
+                "If the board is of glass, printed true to {0:g} mm and flat to {1:g} mm: {2} px."
+            ).format(GLASS.in_plane, GLASS.out_of_plane, list_gains(narrower))
+        )
+        self.button = QPushButton(self.tr("It is of glass"))
+        row = QHBoxLayout(self)
+        row.setContentsMargins(0, theme.SPACING // 2, 0, theme.SPACING // 2)
+        row.setSpacing(theme.SPACING)
+        row.addWidget(self.what, 1)
+        row.addWidget(self.button)

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import Signal
 from PySide6.QtWidgets import QDoubleSpinBox, QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWidget
 
-from calibgui.app.projects.project import Project, confirm_lengths, set_square
+from calibgui.app.projects.lengths import confirm_lengths, set_square
+from calibgui.app.projects.project import Project
 from calibgui.dataset import ViewStatus
 from calibgui.engine.boards import AprilGrid, Pattern
 from calibgui.gui.session.session import Session
@@ -20,9 +20,6 @@ class SquareRow(QWidget):
 
     Then it stands in the same place, as nothing may move under the button that was pressed.
     """
-
-    changed = Signal()
-    """The user has stated another length: results are out of date."""
 
     def __init__(self, session: Session) -> None:
         super().__init__()
@@ -69,7 +66,6 @@ class SquareRow(QWidget):
         mm = self.square.value() * self._session.project.unit.mm
         if abs(mm - self._session.project.square) > 1e-9:
             self._session.edit(self.tr("Size of squares"), lambda p: set_square(p, mm))
-            self.changed.emit()
         else:
             self._session.edit(self.tr("Confirm the size of squares"), confirm_lengths)
 

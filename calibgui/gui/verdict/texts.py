@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import assert_never
 
 import numpy as np
 from PySide6.QtCore import QCoreApplication
@@ -38,6 +39,8 @@ def describe_grade(grade: Grade, times_better: float) -> str:
             return text.format(format_times(times_better))
         case Grade.NOT_USABLE:
             return translate("VerdictTexts", "NOT USABLE")
+        case _:
+            assert_never(grade)
 
 
 def describe_pixel_error(error: PixelError) -> str:
@@ -109,3 +112,5 @@ def describe_button(action: Action, names: Sequence[str]) -> str:
             return translate("VerdictTexts", "Look at {0}").format(views)
         case ActionKind.PHOTOGRAPH_MORE:
             return translate("VerdictTexts", "Show where to hold the board")
+        case _:
+            assert_never(action.kind)

@@ -2,7 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from dataclasses import replace
+from functools import partial
 from pathlib import PurePath
+from typing import assert_never
 
 from PySide6.QtCore import QCoreApplication, QEvent, Signal
 from PySide6.QtGui import QColor, QPainter, QPaintEvent, QResizeEvent
@@ -17,22 +21,27 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from calibgui.app.calibrating.true_board import measure_gain_of_glass
+from calibgui.app.projects.project import Project
+from calibgui.app.projects.remedies import apply_action, state_glass
 from calibgui.dataset import Result, ViewStatus
-from calibgui.dataset.judging import judge_result
+from calibgui.dataset.judging import judge_result, recall_verdict
 from calibgui.engine.assessment import (
     Action,
     ActionKind,
     Cause,
     Finding,
+    Grade,
     Verdict,
 )
-from calibgui.engine.calibration import Status
+from calibgui.engine.calibration import METHODS, Status
+from calibgui.gui.jobs.job import Job
 from calibgui.gui.panels.latest import Latest
 from calibgui.gui.session.session import Session
 from calibgui.gui.verdict.findings_list import FindingsList
-from calibgui.gui.verdict.mark import Mark, get_colour
+from calibgui.gui.verdict.grade_icon import GradeIcon, get_colour
 from calibgui.gui.verdict.reason_and_figures import ReasonAndFigures
-from calibgui.gui.verdict.remedier import Remedied, Remedier
+from calibgui.gui.verdict.remedy_runner import CarriedOut, RemedyRunner
 from calibgui.gui.verdict.square_row import SquareRow
 from calibgui.gui.verdict.texts import (
     describe_button,
@@ -47,15 +56,6 @@ from calibgui.gui.widgets.pattern_texts import list_pattern_texts
 from calibgui.report.summary import describe_lost_images
 from calibgui.report.verdict import describe_reason, join_names
 
-_PROOFS = {
-    Cause.BOARD_SHAPE: "BoardShapePanel",
-    Cause.LENS: "LensModelsPanel",
-    Cause.FEW_VIEWS: "UncertaintyPanel",
-    Cause.UNDETERMINED: "UncertaintyPanel",
-    Cause.HELD_VALUE: "ResultPanel",
-}
-"""Panels that prove findings, by their classes' names; of all others the residuals do."""
-_OTHER_PROOF = "ResidualsPanel"
 _PLACES = "CoveragePanel"
 """The panel that shows where to hold the board."""
 _WIDE = 640
@@ -82,21 +82,26 @@ class VerdictBar(QFrame):
     panel_wanted = Signal(str)
     """The class name of a panel that the user wants to see."""
 
-    calibration_wanted = Signal()
-    """Something that all results depend on was stated in the bar."""
-
     def __init__(self, session: Session) -> None:
         super().__init__()
         self.setObjectName("verdict")
         self._session = session
         self._result: Result | None = None
+        self._judged: Result | None = None
+        """The result whose verdict is shown: the last one that has any, in the same project."""
+        self._document = session.document
         self._age = ""
         """The sentence that says that the shown result is out of date; "" if it is not."""
         self._is_running = False
         self.verdict: Verdict | None = None
+        self._glass: Mapping[str, float] | None = None
+        """The ± that would come with a board of glass, where they are worth being told.
+
+        None until the shown result is judged.
+        """
         self._work = Latest(session.jobs, self)
-        self.remedier = Remedier(session)
-        self.mark = Mark()
+        self.remedy_runner = RemedyRunner(session)
+        self.icon = GradeIcon()
         self.headline = QLabel()
         font = self.headline.font()
         font.setBold(True)
@@ -118,16 +123,16 @@ class VerdictBar(QFrame):
         policy.setRetainSizeWhenHidden(True)  # nothing moves when a new result is judged
         self.unfold.setSizePolicy(policy)
         self.square = SquareRow(session)
-        self.square.changed.connect(self.calibration_wanted)
         self.findings = FindingsList(self)
         self.findings.action_wanted.connect(lambda finding: self._act(finding.action))
         self.findings.proof_wanted.connect(self._show_proof)
+        self.findings.glass_wanted.connect(self._state_glass)
         self.findings.closed.connect(lambda: self.unfold.setChecked(False))
         self.comparison: QWidget | None = None
         self._lay_out()
-        self.remedier.began.connect(self._show_buttons)
-        self.remedier.ended.connect(self._show_buttons)
-        self.remedier.done.connect(self._compare)
+        self.remedy_runner.began.connect(self._show_buttons)
+        self.remedy_runner.ended.connect(self._show_buttons)
+        self.remedy_runner.done.connect(self._compare)
         session.result_changed.connect(self._judge)
         session.changed.connect(lambda *_: self._show_age())
         self._judge(session.result)
@@ -135,7 +140,7 @@ class VerdictBar(QFrame):
     def _lay_out(self) -> None:
         top = QHBoxLayout()
         top.setSpacing(theme.SPACING)
-        top.addWidget(self.mark)
+        top.addWidget(self.icon)
         top.addWidget(self.headline, 1)
         words = QVBoxLayout()
         words.setSpacing(theme.SPACING // 2)
@@ -172,11 +177,11 @@ class VerdictBar(QFrame):
         self._show_figures()
 
     def show_running(self, running: bool) -> None:
-        """Say that a first result is on its way, or that there is none."""
+        """Say that a better result is on its way, or judge the one that there is."""
         if running is not self._is_running:
             self._is_running = running
-            if self._result is None:
-                self._show()
+            if self._glass is None:
+                self._judge(self._result)
 
     def fit_height(self, of_window: int) -> None:
         """Leave room to what is below in a window that is not high."""
@@ -200,30 +205,37 @@ class VerdictBar(QFrame):
         self.figures.explain("\n".join([*self._figures, meaning]))
 
     def _judge(self, result: Result | None) -> None:
-        """Find out what the shown result is worth, beside the window."""
-        known = self.verdict if self._is_alike(result) else None
-        self._result, self.verdict = result, known
-        self._work.cancel()
-        if known is None:
+        """Find out what the shown result is worth, beside the window, once nothing better comes.
+
+        Until then the last verdict stays.
+        """
+        if result is None or self._session.document is not self._document:
+            self._judged, self._document = None, self._session.document
+        last, self._result = self._result, result
+        self.verdict = None if result is None else recall_verdict(result)
+        is_alike = result and last and last.calibration is result.calibration
+        if not is_alike:
             self._fit = "" if result is None else describe_fit(result)
-        if known is None:
+            self._glass = None
+        if self.verdict is None:
             self.unfold.setChecked(False)
-        if result is not None and known is None:
+        else:
+            self._judged = result
+        self._work.cancel()
+        # What makes the camera better may have judged it already; the panels wait to be told.
+        if result is not None and self._glass is None and not self._is_running:
             self._work.start(
-                self.tr("Judging the calibration"),
-                lambda job: judge_result(result, job.check),
+                "" if self.verdict else self.tr("Judging the calibration"),
+                partial(_judge_with_glass, result),
                 self._receive,
                 self._session.failed.emit,
             )
         self._show()
 
-    def _is_alike(self, result: Result | None) -> bool:
-        """Return whether a result differs from the last one in what does not touch the verdict."""
-        last = self._result
-        return last is not None and result is not None and last.calibration is result.calibration
-
-    def _receive(self, verdict: Verdict) -> None:
-        self.verdict = verdict
+    def _receive(self, answer: tuple[Verdict, Mapping[str, float]]) -> None:
+        self.verdict, self._glass = answer
+        self._judged = self._result
+        self._session.judged.emit()
         self._show()
 
     def _show_age(self) -> None:
@@ -237,34 +249,67 @@ class VerdictBar(QFrame):
             self._show_reason()
 
     def _show(self) -> None:
-        verdict, result = self.verdict, self._result
+        verdict, result = self._shown, self._judged
         self._show_reason()
-        self.mark.show_grade(None if verdict is None else verdict.grade)
+        self.icon.show_grade(None if verdict is None else verdict.grade, dimmed=self._is_dimmed)
         if verdict is None or result is None:
-            first = self.tr("CALIBRATING…") if self._is_running else self.tr("NOT CALIBRATED")
-            self.headline.setText(first if result is None else self.tr("JUDGING…"))
-            self._figures = [] if result is None else [self._fit]
+            self.headline.setText(self._describe_state())
+            self._figures = [] if self._result is None else [self._fit]
         else:
             self.headline.setText(describe_grade(verdict.grade, verdict.times_better))
-            self._figures = [*describe_figures(verdict, result), self._fit]
-            self.findings.show_verdict(verdict, self._list_names(), state_condition(result))
+            fit = self.tr("Now: {0}").format(self._fit) if self._is_dimmed else self._fit
+            self._figures = [*describe_figures(verdict, result), fit]
+        if self.verdict is not None and self._result is not None:
+            self.findings.show_verdict(
+                self.verdict,
+                self._list_names(),
+                state_condition(self._result),
+                self._offered_glass,
+            )
         self._show_figures()
         self._show_buttons()
         self._restyle()
+
+    @property
+    def _shown(self) -> Verdict | None:
+        """The verdict that is shown: that on the shown result, or the last one."""
+        return None if self._judged is None else recall_verdict(self._judged)
+
+    @property
+    def _is_dimmed(self) -> bool:
+        """Return whether the verdict that is shown is on another result than the one shown."""
+        return self.verdict is None and self._judged is not None
+
+    def _describe_state(self) -> str:
+        """Say in capitals what goes on while there is no verdict at all."""
+        if self._result is None:
+            return self.tr("CALIBRATING…") if self._is_running else self.tr("NOT CALIBRATED")
+        return self.tr("FIRST FIT") if self._is_running else self.tr("JUDGING…")
 
     def _show_reason(self) -> None:
         """Show why the verdict is as it is, and whether it is out of date."""
         verdict, result = self.verdict, self._result
         self._age = self._session.describe_age(result)
         if result is None:
-            self._words.give_reason(self._describe_start())
+            reason = self._describe_start()
+        elif self._is_dimmed and self._judged is not None:
+            reason = self.tr("Of {0} photographs. {1}").format(
+                len(self._judged.used), self._describe_work()
+            )
         elif verdict is None:
-            self._words.give_reason(self.tr("What makes it better is being tried."))
+            reason = self._describe_work()
         else:
-            self._words.give_reason(f"{self._age} {_describe_reason(verdict, result)}".lstrip())
-        theme.set_text_colour(
-            self.reason, theme.current().warning if self._age else theme.current().text
-        )
+            reason = f"{self._age} {_describe_reason(verdict, result)}".lstrip()
+        self._words.give_reason(reason)
+        colours = theme.current()
+        plain = colours.muted if self._is_dimmed else colours.text
+        theme.set_text_colour(self.reason, colours.warning if self._age else plain)
+
+    def _describe_work(self) -> str:
+        """Say what goes on until there is a verdict on the shown result."""
+        if self._is_running:
+            return self.tr("The new calibration is being made better, and judged.")
+        return self.tr("The new calibration is being judged: what makes it better is tried.")
 
     def _describe_start(self) -> str:
         """Say what is missing for a first result."""
@@ -284,7 +329,7 @@ class VerdictBar(QFrame):
         return self.tr("How far the camera can be trusted is said here once it is calibrated.")
 
     def _show_buttons(self) -> None:
-        busy = self.remedier.running
+        busy = self.remedy_runner.running
         action = self._action
         self.button.setVisible(action is not None)
         if action is not None:
@@ -292,11 +337,21 @@ class VerdictBar(QFrame):
         self.button.setEnabled(not busy)
         self.findings.set_busy(busy)
         count = 0 if self.verdict is None else len(self.verdict.findings)
-        self.unfold.setVisible(count > 0)
-        self.unfold.setText(
-            self.tr("&1 finding") if count == 1 else self.tr("{0} &findings").format(count)
-        )
-        self.unfold.setToolTip(self.tr("List what is wrong, with the figures that show it"))
+        self.unfold.setVisible(count > 0 or bool(self._offered_glass))
+        if count:
+            text = self.tr("&1 finding") if count == 1 else self.tr("{0} &findings").format(count)
+            tip = self.tr("List what is wrong, with the figures that show it")
+        else:
+            text = self.tr("Is it &glass?")
+            tip = self.tr("Say what it brings to state that the board is of glass")
+        self.unfold.setText(text)
+        self.unfold.setToolTip(tip)
+
+    @property
+    def _offered_glass(self) -> Mapping[str, float]:
+        """The gain of a board of glass, once lengths are confirmed: it is stated in mm."""
+        is_stated = self._result is None or self._result.condition
+        return {} if is_stated or self._glass is None else self._glass
 
     @property
     def _action(self) -> Action | None:
@@ -328,32 +383,42 @@ class VerdictBar(QFrame):
         result = self._result
         if action is None or result is None:
             return
-        if action.is_of_camera:
+        if action.change is not None:
             self.unfold.setChecked(False)
-            self.remedier.run(describe_button(action, self._list_names()), action, result)
-        elif action.kind is ActionKind.LOOK_AT_VIEW:
+
+            def change(project: Project) -> Project:
+                return apply_action(project, result, action)
+
+            self.remedy_runner.run(describe_button(action, self._list_names()), change, result)
+        elif action.views:
             self._session.select(result.used[action.views[0]].image)
         else:
             self._show_panel(_PLACES)
+
+    def _state_glass(self) -> None:
+        """Calibrate with the board stated to be of glass."""
+        if self._result is not None:
+            self.unfold.setChecked(False)
+            self.remedy_runner.run(self.tr("State a board of glass"), state_glass, self._result)
 
     def _show_proof(self, finding: Finding) -> None:
         """Show the panel that proves a finding, and the first view that it is found in."""
         if self._result is not None and finding.views:
             self._session.select(self._result.used[finding.views[0]].image)
-        self._show_panel(_PROOFS.get(finding.cause, _OTHER_PROOF))
+        self._show_panel(_choose_proof(finding.cause))
 
     def _show_panel(self, name: str) -> None:
         self.unfold.setChecked(False)
         self.panel_wanted.emit(name)
 
-    def _compare(self, remedied: Remedied) -> None:
+    def _compare(self, carried_out: CarriedOut) -> None:
         """Show what an action has done; plots are imported when there is something to plot."""
         from calibgui.gui.verdict.before_after import BeforeAndAfter
 
         if not isinstance(self.comparison, BeforeAndAfter):
             self.comparison = BeforeAndAfter(self, self._session)
-            self.comparison.taken_back.connect(self.remedier.take_back)
-        self.comparison.show_remedied(remedied)
+            self.comparison.taken_back.connect(self.remedy_runner.take_back)
+        self.comparison.show_carried_out(carried_out)
 
     def changeEvent(self, event: QEvent) -> None:  # noqa: N802 - Qt's name
         super().changeEvent(event)
@@ -363,21 +428,29 @@ class VerdictBar(QFrame):
     def _restyle(self) -> None:
         """Colour the words, by palettes: a style sheet would style all that is in the bar."""
         colours = theme.current()
-        colour = get_colour(None if self.verdict is None else self.verdict.grade)
-        for label, text in (
-            (self.headline, colour),
-            (self.figures, colours.muted),
-        ):
-            theme.set_text_colour(label, text)
+        theme.set_text_colour(self.headline, get_colour(self._grade))
+        theme.set_text_colour(self.figures, colours.muted)
         self.update()
+
+    @property
+    def _grade(self) -> Grade | None:
+        """The grade of the shown result, if it is known."""
+        return None if self.verdict is None else self.verdict.grade
 
     def paintEvent(self, event: QPaintEvent) -> None:  # noqa: N802, ARG002 - Qt's name
         """Paint the ground, the grade's colour along the left, and the line below."""
         colours, painter = theme.current(), QPainter(self)
         painter.fillRect(self.rect(), QColor(colours.base))
-        grade = None if self.verdict is None else self.verdict.grade
-        painter.fillRect(0, 0, _STRIPE, self.height(), QColor(get_colour(grade)))
+        painter.fillRect(0, 0, _STRIPE, self.height(), QColor(get_colour(self._grade)))
         painter.fillRect(_STRIPE, self.height() - 1, self.width(), 1, QColor(colours.line))
+
+
+def _judge_with_glass(result: Result, job: Job) -> tuple[Verdict, Mapping[str, float]]:
+    """Judge a result, and measure what a board of glass would bring if lengths hold."""
+    verdict = judge_result(result, job.check)
+    if not METHODS[result.calibration.settings.method].is_weighted:
+        return verdict, {}  # the panel of settings states no prior beside such a method
+    return verdict, measure_gain_of_glass(replace(result, lengths_confirmed=True))
 
 
 def _describe_reason(verdict: Verdict, result: Result) -> str:
@@ -397,3 +470,34 @@ def _describe_reason(verdict: Verdict, result: Result) -> str:
         "VerdictBar", "{0} of {1} ({2}) could not be used: click one to see why."
     )
     return f"{reason} {text.format(len(lost), len(result.views), join_names(lost, most=1))}"
+
+
+def _choose_proof(cause: Cause) -> str:
+    """Choose the panel that proves a finding, by its class's name."""
+    match cause:
+        case Cause.BOARD_SHAPE:
+            return "BoardShapePanel"
+        case Cause.LENS:
+            return "LensModelsPanel"
+        case Cause.FEW_VIEWS | Cause.UNDETERMINED:
+            return "UncertaintyPanel"
+        case Cause.HELD_VALUE:
+            return "ResultPanel"
+        case (
+            Cause.WRONG_FRAME
+            | Cause.MISPLACED_CORNERS
+            | Cause.FOCUS
+            | Cause.MOVING_CENTRE
+            | Cause.BENDING_BOARD
+            | Cause.ROLLING_SHUTTER
+            | Cause.LINE_JITTER
+            | Cause.SHEARED_IMAGES
+            | Cause.ROLLED_IMAGES
+            | Cause.SCALED_IMAGES
+            | Cause.MIXED_VIEWS
+            | Cause.DISAGREEMENT
+            | Cause.BLUR
+        ):
+            return "ResidualsPanel"
+        case _:
+            assert_never(cause)

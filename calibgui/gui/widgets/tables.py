@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import csv
-import io
 import math
 from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass
@@ -41,6 +39,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from calibgui.formats.csv_table import format_csv
 from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.actions import COPY_TABLE
 from calibgui.gui.widgets.glossary import explain, list_terms
@@ -360,13 +359,12 @@ class Table(QTableView):
 
     def as_csv(self, separator: str = ",") -> str:
         """The table in the order shown: titles with units, then values with every digit."""
-        out = io.StringIO()
-        writer = csv.writer(out, delimiter=separator, lineterminator="\n")
-        writer.writerow([column.full_title for column in self._model.columns])
-        for shown in range(self._order.rowCount()):
-            row = self._order.mapToSource(self._order.index(shown, 0)).row()
-            writer.writerow([column.values[row] for column in self._model.columns])
-        return out.getvalue()
+        order = self._order
+        shown = [order.mapToSource(order.index(k, 0)).row() for k in range(order.rowCount())]
+        columns = self._model.columns
+        titles = [column.full_title for column in columns]
+        rows = ([column.values[row] for column in columns] for row in shown)
+        return format_csv([titles, *rows], separator)
 
     def copy(self) -> None:
         """Put the whole table on the clipboard, as a spreadsheet takes it."""

@@ -9,10 +9,13 @@ from __future__ import annotations
 from dataclasses import dataclass
 from enum import StrEnum
 from types import SimpleNamespace
+from typing import assert_never
 
-from PySide6.QtCore import QSettings, Qt
+from PySide6.QtCore import Qt
 from PySide6.QtGui import QColor, QFont, QFontDatabase, QGuiApplication, QPalette, QPen
 from PySide6.QtWidgets import QApplication, QWidget
+
+from calibgui.gui.widgets.kept_settings import keep, read_kept_text
 
 SPACING = 8
 """Between widgets, and around a panel's content, device-independent px."""
@@ -148,14 +151,14 @@ def current() -> Theme:
 def chosen() -> Scheme:
     """The scheme that the user chose, now or in an earlier session."""
     try:
-        return Scheme(str(QSettings().value("scheme", Scheme.SYSTEM)))
+        return Scheme(read_kept_text("scheme") or Scheme.SYSTEM)
     except ValueError:
         return Scheme.SYSTEM
 
 
 def choose(scheme: Scheme) -> None:
     """Show `scheme`, and remember it."""
-    QSettings().setValue("scheme", str(scheme))
+    keep("scheme", str(scheme))
     app = QApplication.instance()
     if isinstance(app, QApplication):
         apply(app, scheme)
@@ -163,10 +166,13 @@ def choose(scheme: Scheme) -> None:
 
 def apply(app: QApplication, scheme: Scheme) -> None:
     """Give the application the look of `scheme`."""
-    if scheme is Scheme.SYSTEM:
-        dark = app.styleHints().colorScheme() is Qt.ColorScheme.Dark
-    else:
-        dark = scheme is Scheme.DARK
+    match scheme:
+        case Scheme.SYSTEM:
+            dark = app.styleHints().colorScheme() is Qt.ColorScheme.Dark
+        case Scheme.LIGHT | Scheme.DARK:
+            dark = scheme is Scheme.DARK
+        case _:
+            assert_never(scheme)
     theme = _shown.theme = DARK if dark else LIGHT
     if app.style().objectName() != "fusion":
         app.setStyle("Fusion")

@@ -14,7 +14,6 @@ from calibgui.app.projects.recent import list_recent
 from calibgui.gui.canvas.image_page import ImagePage
 from calibgui.gui.dialogs.files import Files
 from calibgui.gui.dialogs.many_cameras import ManyCameras
-from calibgui.gui.dialogs.print_results import ResultPrinter
 from calibgui.gui.images.film_strip import FilmStrip
 from calibgui.gui.panels.groups import Page
 from calibgui.gui.session.session import Session
@@ -39,12 +38,12 @@ class Commands(QObject):
         super().__init__(parent)
         self._parent, self._session, self._files = parent, session, files
         self._images, self._page = images, page
-        self._printer = ResultPrinter(session, parent)
         self._many = ManyCameras(session, files, parent)
 
     def list_menus(
         self,
         calibrate: Callable[[], object],
+        stop: Callable[[], object],
         leave: Callable[[], object],
         change_room: Callable[[], object],
         leave_alone: Callable[[], object],
@@ -55,7 +54,8 @@ class Commands(QObject):
         """Return the menus from left to right.
 
         Args:
-            calibrate: starts a calibration, or stops the one that runs.
+            calibrate: starts a calibration.
+            stop: ends the work that the progress bar tells of.
             leave: closes the window.
             change_room: gives the inspector more room, or the photograph.
             leave_alone: leaves the photograph alone in the window, or not.
@@ -67,7 +67,7 @@ class Commands(QObject):
             self._describe_file(leave),
             self._describe_edit(),
             Menu(self.tr("&Images"), (*self._images.actions_for_menu, None, *self._page.tools)),
-            self._describe_calibration(calibrate),
+            self._describe_calibration(calibrate, stop),
             self._describe_view(change_room, leave_alone, docks, list_pages),
             self._describe_help(find_action),
         )
@@ -125,17 +125,6 @@ class Commands(QObject):
                     shortcut="Ctrl+Shift+I",
                     tip=self.tr("Take all images of a folder"),
                     run=files.ask_for_folder,
-                ),
-                None,
-                Command(
-                    text=self.tr("&Print results…"),
-                    shortcut="Ctrl+P",
-                    tip=self.tr(
-                        "A report of sentences, tables and plots of the result, on paper or as PDF"
-                    ),
-                    run=self._printer.preview,
-                    is_enabled=lambda: self._session.result is not None,
-                    why_disabled=self.tr("Nothing is calibrated yet: press Calibrate first."),
                 ),
                 None,
                 Command(
@@ -226,18 +215,26 @@ class Commands(QObject):
 
         show_dialog(HelpDialog(self._parent))
 
-    def _describe_calibration(self, calibrate: Callable[[], object]) -> Menu:
+    def _describe_calibration(
+        self, calibrate: Callable[[], object], stop: Callable[[], object]
+    ) -> Menu:
         session, files = self._session, self._files
         return Menu(
             self.tr("Cali&bration"),
             (
                 Command(
-                    text=self.tr("&Calibrate or stop"),
+                    text=self.tr("&Calibrate"),
                     shortcut="F9",
                     tip=self.tr("Do everything that is still to do"),
                     run=calibrate,
                     is_enabled=lambda: bool(session.project.views),
                     why_disabled=self.tr("There are no images yet: add some first."),
+                ),
+                Command(
+                    text=self.tr("S&top"),
+                    shortcut="Shift+F9",
+                    tip=self.tr("End what the progress bar tells of; what is finished stays"),
+                    run=stop,
                 ),
                 Command(
                     text=self.tr("&Export…"),

@@ -9,7 +9,7 @@ from itertools import pairwise
 from traceback import extract_tb
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import QEvent, QSettings, QSize, Qt, QTimer
+from PySide6.QtCore import QEvent, QSize, Qt, QTimer
 from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent, QResizeEvent
 from PySide6.QtWidgets import (
     QApplication,
@@ -22,18 +22,20 @@ from PySide6.QtWidgets import (
 )
 
 from calibgui.app.projects.recent import list_recent
+from calibgui.app.system.kernel_preparation import compile_kernels, prepare_solver
 from calibgui.dataset import Result
 from calibgui.engine.calibration import Cost
 from calibgui.engine.errors import CalibrationError
-from calibgui.engine.kernels import COMPILED
+from calibgui.engine.kernels import are_all_kept
 from calibgui.gui.canvas.image_page import ImagePage
 from calibgui.gui.dialogs.files import Files
 from calibgui.gui.images.film_strip import FilmStrip
 from calibgui.gui.jobs import qt_names
+from calibgui.gui.jobs.job import nothing
 from calibgui.gui.panels.groups import Group, Page
 from calibgui.gui.session.calibrator import Calibrator
 from calibgui.gui.session.detector import Detector
-from calibgui.gui.session.follower import Follower
+from calibgui.gui.session.refitter import Refitter
 from calibgui.gui.session.session import Session
 from calibgui.gui.settings.board_panel import BoardPanel
 from calibgui.gui.settings.settings_panel import SettingsPanel
@@ -41,6 +43,7 @@ from calibgui.gui.verdict.drop_down import PICTURE
 from calibgui.gui.verdict.verdict_bar import VerdictBar
 from calibgui.gui.widgets.actions import show_dialog
 from calibgui.gui.widgets.focus_ring import FocusRing
+from calibgui.gui.widgets.kept_settings import keep, read_kept_bytes
 from calibgui.gui.widgets.overlay import Overlay
 from calibgui.gui.window.banner import Banner
 from calibgui.gui.window.commands import Commands
@@ -85,7 +88,10 @@ class MainWindow(QMainWindow):
         self.welcome = Welcome(self.session.jobs)
         self.banner = Banner()
         self.verdict = VerdictBar(self.session)
-        self.calibrate = QPushButton()
+        self.calibrate = QPushButton(self.tr("C&alibrate"))
+        self.calibrate.setToolTip(
+            self.tr("Find the corners still missing, then estimate the camera")
+        )
         self.calibrate.setMinimumSize(_CALIBRATE)
         self.calibrate.setDefault(True)
         FocusRing(self.calibrate)  # the style marks it as default, focused or not
@@ -98,9 +104,8 @@ class MainWindow(QMainWindow):
 
     def open_up(self) -> None:
         """Show the window as it was left; at first on most of the screen."""
-        if geometry := QSettings().value("geometry"):
-            self.restoreGeometry(geometry)
-        else:
+        geometry = read_kept_bytes("geometry")
+        if geometry is None or not self.restoreGeometry(geometry):
             room = self.screen().availableSize()
             self.resize(room * _SHARE_OF_SCREEN)
             if room.width() < _SMALL_SCREEN:
@@ -124,8 +129,10 @@ class MainWindow(QMainWindow):
         self.setCentralWidget(centre)
         # Over the picture: what one points at must not move when a message comes.
         Overlay(self.banner, self.pages)
-        progress = Progress(self.session.jobs, self.calibrator.is_cancelled_by_stop)
-        self.inspector = Inspector(self.page, self.board, self.settings, progress, self.calibrate)
+        self.progress = Progress(self.session.jobs)
+        self.inspector = Inspector(
+            self.page, self.board, self.settings, self.progress, self.calibrate
+        )
         self.inspector_dock = Dock(self.tr("Inspector"), "inspector", self.inspector, self)
         self.addDockWidget(Qt.DockWidgetArea.RightDockWidgetArea, self.inspector_dock)
         self.setCorner(Qt.Corner.BottomRightCorner, Qt.DockWidgetArea.RightDockWidgetArea)
@@ -159,6 +166,7 @@ class MainWindow(QMainWindow):
             self.menuBar(),
             commands.list_menus(
                 self.calibrate.click,
+                self.progress.end_shown,
                 self.close,
                 self.change_room,
                 self.leave_photograph_alone,
@@ -179,18 +187,17 @@ class MainWindow(QMainWindow):
             self.session, self.detector, self.calibrator, self.files, self.images, self.banner
         )
         self.verdict.panel_wanted.connect(self._show_panel_named)
-        self.verdict.calibration_wanted.connect(self._calibrate_anew)
         self.images.list.addActions(self.page.tools)
         self.page.canvas.addAction(self.images.actions_for_menu[0])
         self.page.tool_changed.connect(self._follow_tool)
         self.inspector.group_wanted.connect(lambda group: self.need_analysis().show_group(group))
         self.inspector.room_wanted.connect(self.change_room)
-        follower = Follower(self.session, self.detector, self.calibrator)
+        refitter = Refitter(self.session, self.detector, self.calibrator)
         self.images.excluded.connect(
-            lambda label: follower.follow(label) if self.images.follows.isChecked() else None
+            lambda label: refitter.refit(label) if self.images.follows.isChecked() else None
         )
         self.board.search_wanted.connect(self.detector.search)
-        self.calibrate.clicked.connect(self._calibrate_or_stop)
+        self.calibrate.clicked.connect(self._calibrate)
         self.calibrator.began.connect(self._show_beginning)
         self.calibrator.advanced.connect(lambda step: self.need_analysis().show_iteration(step))
         self.calibrator.ended.connect(lambda: self.need_analysis().show_end())
@@ -249,7 +256,8 @@ class MainWindow(QMainWindow):
         )
 
     def prepare(self) -> None:
-        """Import beside the main thread what will be needed: detectors, SciPy, panels, solver.
+        """Import beside the main thread what will be needed: detectors, SciPy, panels, solver; then
+        compile kernels, once after an installation.
 
         Once there is a result, the panels on it are built before they are asked for.
 
@@ -259,8 +267,16 @@ class MainWindow(QMainWindow):
 
         def load() -> None:
             if self.isVisible():  # it may have been closed meanwhile
+                self.session.jobs.start("", lambda _: _load_ahead(), loaded)
+
+        def loaded(are_kernels_kept: bool) -> None:
+            gc.freeze()
+            if not are_kernels_kept and self.isVisible():
                 self.session.jobs.start(
-                    "", lambda _: list(map(import_module, _NEEDED_SOON)), lambda _: gc.freeze()
+                    self.tr("Compiling for speed, once"),
+                    lambda job: compile_kernels(job.advance, job.cancelling),
+                    failed=nothing,  # the readable functions go on
+                    is_about_document=False,
                 )
 
         qt_names.make_classes(self, load)
@@ -276,7 +292,8 @@ class MainWindow(QMainWindow):
 
     def _build_ahead(self) -> None:
         """Build one panel that was not shown yet, unless somebody works."""
-        busy = self.session.jobs.running or QApplication.mouseButtons()
+        working = any(job.is_about_document for job in self.session.jobs.running)
+        busy = working or QApplication.mouseButtons()
         if self.analysis is not None and not busy:
             self._building.stop()  # so that a panel that cannot be built is not tried for ever
             if self.analysis.build_next():
@@ -343,13 +360,13 @@ class MainWindow(QMainWindow):
             part.setVisible(not empty)
         if empty:
             return
-        state = QSettings().value("layout")
+        state = read_kept_bytes("layout")
         if state is None or not self.restoreState(state, _LAYOUT):
             self._widen_inspector(_INSPECTOR_SHARE)
 
     def _keep_layout(self) -> None:
         if not self._empty:
-            QSettings().setValue("layout", self.saveState(_LAYOUT))
+            keep("layout", self.saveState(_LAYOUT))
 
     def change_room(self) -> None:
         """Give the inspector most of the width, or the photograph if the inspector has it."""
@@ -374,45 +391,23 @@ class MainWindow(QMainWindow):
             self.banner.hide_failure()  # it would cover corners
 
     def _show_calibrate(self) -> None:
-        running, stopping = self.calibrator.running, self.calibrator.stopping
+        running = self.calibrator.running
         self.verdict.show_running(running)
-        self.calibrate.setText(
-            self.tr("Stopping…")
-            if stopping
-            else self.tr("&Stop")
-            if running
-            else self.tr("C&alibrate")
-        )
-        self.calibrate.setToolTip(
-            self.tr("End the search; what has been found stays")
-            if running and self.detector.running
-            else self.tr("End with the best camera so far")
-            if running
-            else self.tr("Find the corners still missing, then estimate the camera")
-        )
-        self.calibrate.setEnabled(bool(self.session.project.views) and not stopping)
+        self.calibrate.setEnabled(bool(self.session.project.views) and not running)
 
-    def _calibrate_or_stop(self) -> None:
-        if self.calibrator.running:
-            self.calibrator.stop()
-            self._show_calibrate()
-        else:
-            self.board.finish_typing()  # a shortcut does not take the focus from a box
-            self.calibrator.calibrate()
+    def _calibrate(self) -> None:
+        self.board.finish_typing()  # a shortcut does not take the focus from a box
+        self.calibrator.calibrate()
 
     def _calibrate_with_lens(self, model: str, held: tuple[str, ...]) -> None:
         """Calibrate with another lens model, some of its coefficients held."""
         self.settings.choose_model(model, held)
-        self._calibrate_anew()
+        self.calibrator.calibrate()
 
     def _calibrate_with_method(self, method: str, cost: Cost) -> None:
         """Calibrate with another method, which minimises a cost."""
         self.settings.choose_method(method, cost)
-        self._calibrate_anew()
-
-    def _calibrate_anew(self) -> None:
-        if not self.calibrator.running:
-            self.calibrator.calibrate()
+        self.calibrator.calibrate()
 
     def dragEnterEvent(self, event: QDragEnterEvent) -> None:  # noqa: N802 - Qt's name
         if event.mimeData().hasUrls():
@@ -436,11 +431,20 @@ class MainWindow(QMainWindow):
         if not self.files.may_leave():
             event.ignore()
             return
-        QSettings().setValue("geometry", self.saveGeometry())
+        keep("geometry", self.saveGeometry())
         self._keep_layout()
         self.session.jobs.close()
         self.files.saver.close()
         event.accept()
+
+
+def _load_ahead() -> bool:
+    """Import what is needed soon; return whether all kernels are compiled, and load them then."""
+    for name in _NEEDED_SOON:
+        import_module(name)
+    if is_kept := are_all_kept():
+        prepare_solver()
+    return is_kept
 
 
 def _accept_copy(event: QDropEvent) -> None:
@@ -449,14 +453,11 @@ def _accept_copy(event: QDropEvent) -> None:
     event.accept()
 
 
-_SOLVER_KERNELS = ("board_shape", "homography", "normal_equations", "schur", "stage_one")
-"""Modules of ``engine.kernels`` that a calibration uses."""
 _NEEDED_SOON = (
     "calibgui.engine.detection.find_corners",
     "calibgui.engine.redetection.redetect_corners",
     "scipy.stats",
     "calibgui.gui.panels.analysis",
-    *(f"calibgui.engine.kernels.{name}" for name in _SOLVER_KERNELS if COMPILED),
 )
 """Modules that are imported beside the main thread once the window is open."""
 _FRAME = 16

@@ -19,7 +19,12 @@ from calibgui.app.photographs.board_recognition import (
 from calibgui.app.photographs.paths import NoImagesError, is_remote
 from calibgui.app.projects.autosave import find_unsaved_work
 from calibgui.app.projects.document import Document
-from calibgui.app.projects.project import Project, set_grid_size, set_pattern
+from calibgui.app.projects.project import (
+    Project,
+    remove_result,
+    set_grid_size,
+    set_pattern,
+)
 from calibgui.dataset import View, ViewStatus
 from calibgui.engine.arrays import GridSize
 from calibgui.engine.boards import CHECKERBOARD, Pattern
@@ -34,6 +39,8 @@ from calibgui.gui.widgets.pattern_texts import list_pattern_texts
 from calibgui.gui.window.banner import Banner
 from calibgui.report.names import shorten_name
 
+_AFTER_FIRST_FIT = 400
+"""Time after which marks are looked for, ms: the first calibration needs the processor before."""
 _MAX_FOLDERS = 3
 """Number of folders that have a button of their own, at most: a message has one line of them."""
 
@@ -51,7 +58,11 @@ class _OtherBoard(NamedTuple):
 
 class Offers(QObject):
     """To recover unsaved work, to search changed images again, to locate missing ones, to open
-    folders below one without images, and to search for another pattern that images show."""
+    folders below one without images, and to search for another pattern that images show.
+
+    The latter is done without asking where nobody has stated the pattern: once in a project, as
+    whoever takes it back wants it otherwise.
+    """
 
     def __init__(
         self,
@@ -88,6 +99,11 @@ class Offers(QObject):
         self._marks_asked: tuple[Document, Hashable] | None = None
         """What was looked at for marks last: every fit ends a search, if of nothing new."""
         session.changed.connect(self._drop_look)
+        self._looked_early: Document | None = None
+        """The document in whose first photograph with a board marks were looked for."""
+        self._taken: Document | None = None
+        """The document whose pattern was found out and not stated."""
+        session.changed.connect(self._look_early)
 
     def put_off(self, failure: BaseException) -> bool:
         """Keep a failure back while another board is looked for in photographs that show none of
@@ -140,11 +156,16 @@ class Offers(QObject):
         work = find_unsaved_work(path)
         if work is None:
             return
-        text = self.tr("The program ended without saving. Its state of {0} has been kept.").format(
-            _describe_time(work)
-        )
         if path.is_file():
-            text += self.tr(" The project was saved {0}.").format(_describe_time(path))
+            text = self.tr(
+                "The program ended without saving {0}. Its state of {1} has been kept. The "
+                "project was saved {2}."
+            ).format(path, _describe_time(work), _describe_time(path))
+        else:
+            text = self.tr(
+                "The program ended without saving a project that had no name yet. Its state of {0} "
+                "has been kept."
+            ).format(_describe_time(work))
         self._banner.show_text(
             text,
             {
@@ -220,7 +241,26 @@ class Offers(QObject):
             inputs=self._get_question,
             ended=self._end_look,
             owner=self,
+            delay=_AFTER_FIRST_FIT,
         )
+
+    def _look_early(self) -> None:
+        """Look for marks on the first board that is found: who stated no pattern need not wait for
+        a plain one to be searched in all photographs."""
+        session, project = self._session, self._session.project
+        is_open = self._detector.running and project.pattern == CHECKERBOARD and not project.by_hand
+        if not is_open or self._looked_early is session.document or project.results:
+            return
+        found = next((view for view in project.views if view.usable), None)
+        if found is not None:
+            self._looked_early = session.document
+            session.jobs.start(
+                "",
+                partial(_read_marks, [found]),
+                self._offer_another,
+                inputs=self._get_sought,
+                owner=self,
+            )
 
     def _get_question(self) -> Hashable:
         """Return what a look for another board depends on: not on where the corners are, which a
@@ -240,8 +280,7 @@ class Offers(QObject):
 
         def search() -> None:
             edit()
-            self._detector.search()  # also while the calibrator is at work
-            self._calibrator.calibrate()
+            self._search_for_other()
 
         self._offer(text, choice, search)
         self._others_offered[text] = self._get_sought()
@@ -286,12 +325,24 @@ class Offers(QObject):
         )
 
     def _offer_pattern(self, pattern: Pattern) -> None:
-        texts = list_pattern_texts()[pattern.kind]
-        self._offer_other(
-            texts.recognised,
-            texts.search,
-            lambda: self._session.edit(self.tr("Pattern"), lambda p: set_pattern(p, pattern)),
-        )
+        """Search for another pattern, or offer to where one is stated or this was taken back."""
+        session, texts = self._session, list_pattern_texts()[pattern.kind]
+
+        def edit() -> None:
+            session.edit(self.tr("Pattern"), partial(_take_pattern, pattern=pattern))
+
+        if session.project.pattern != CHECKERBOARD or self._taken is session.document:
+            self._offer_other(texts.recognised, texts.search, edit)
+            return
+        self._taken = session.document
+        edit()
+        session.notified.emit(f"{texts.recognised} {self.tr('Undo goes back.')}")
+        self._search_for_other()
+
+    def _search_for_other(self) -> None:
+        """Search for another board than before, and calibrate."""
+        self._detector.search()  # also while the calibrator is at work
+        self._calibrator.calibrate()
 
 
 def _find_other_board(project: Project, job: Job) -> _OtherBoard:
@@ -304,6 +355,15 @@ def _find_other_board(project: Project, job: Job) -> _OtherBoard:
     if (mirrored := find_mirrored_pattern(samples, job.cancelling)) is not None:
         return _OtherBoard(mirrored, is_mirrored=True)
     return _OtherBoard(find_other_pattern(samples, pattern, job.cancelling))
+
+
+def _take_pattern(project: Project, pattern: Pattern) -> Project:
+    """Return the project with another pattern, without results from corners that were taken for
+    the one before."""
+    for name, result in project.results.items():
+        if project.has_views_of(result):
+            project = remove_result(project, name)
+    return set_pattern(project, pattern)
 
 
 def _read_marks(views: Sequence[View], _: Job) -> _OtherBoard:

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 from PySide6.QtCore import QEvent, QSize
 from PySide6.QtWidgets import (
     QHBoxLayout,
@@ -28,12 +26,11 @@ class Progress(QWidget):
 
     Args:
         jobs: the jobs.
-        has_button: says whether a button beside this cancels a job, which needs no second one.
     """
 
-    def __init__(self, jobs: Jobs, has_button: Callable[[Job], bool] = lambda _: False) -> None:
+    def __init__(self, jobs: Jobs) -> None:
         super().__init__()
-        self._jobs, self._has_button = jobs, has_button
+        self._jobs = jobs
         self.label = ElidedLabel()
         self.bar = QProgressBar()
         self.bar.setFixedHeight(_BAR_HEIGHT)
@@ -43,9 +40,9 @@ class Progress(QWidget):
         self.cancel.setIconSize(QSize(_ICON_SIDE, _ICON_SIDE))
         self.cancel.setAutoRaise(True)
         self.cancel.setFixedHeight(_BUTTON_HEIGHT)
-        self.cancel.setToolTip(self.tr("Cancel: end this and drop what is not finished"))
-        self.cancel.setAccessibleName(self.tr("Cancel"))
-        self.cancel.clicked.connect(self._cancel)
+        self.cancel.setToolTip(self.tr("Stop this; what is finished stays (Shift+F9)"))
+        self.cancel.setAccessibleName(self.tr("Stop"))
+        self.cancel.clicked.connect(self.end_shown)
         column = QVBoxLayout(self)
         column.setContentsMargins(0, 0, 0, 0)
         column.setSpacing(0)
@@ -69,15 +66,17 @@ class Progress(QWidget):
             self.cancel.setIcon(draw_icon(Icon.CROSS))
 
     def _shown(self) -> Job | None:
-        return next((job for job in self._jobs.running if job.label), None)
+        """Return the oldest job to tell of, one that works on the document if there is any."""
+        named = [job for job in self._jobs.running if job.label and not job.cancelled]
+        return min(named, key=lambda job: not job.is_about_document, default=None)
 
     def _refresh(self) -> None:
         job = self._shown()
         self.setVisible(job is not None)
         if job is None:
             return
-        self.cancel.setVisible(not self._has_button(job))
-        text = job.label
+        self.cancel.setEnabled(not job.stopping)
+        text = self.tr("Stopping…") if job.stopping else job.label
         if job.total > 1:
             text += self.tr(": {0} of {1}").format(job.finished, job.total)
         left = job.seconds_left
@@ -93,10 +92,10 @@ class Progress(QWidget):
         self.bar.setValue(job.finished)
         self.bar.setUpdatesEnabled(True)
 
-    def _cancel(self) -> None:
-        job = self._shown()
-        if job is not None:
-            job.cancel()
+    def end_shown(self) -> None:
+        """End the job that is told of, if there is one."""
+        if (job := self._shown()) is not None:
+            self._jobs.end(job)
 
 
 def _format_duration(seconds: float) -> str:

@@ -20,8 +20,8 @@ from calibgui.engine.boards.board import Board
 from calibgui.engine.boards.shape import BoardShapeModel
 from calibgui.engine.calibration.calibrate import calibrate
 from calibgui.engine.calibration.result import Cost
-from calibgui.engine.detection.corners import Corners
 from calibgui.engine.detection.find_corners import find_corners
+from calibgui.engine.features.corners import Corners
 from calibgui.engine.images.reading import read_image, write_image
 from calibgui.engine.images.rendering import render_view
 from tests import photographs
@@ -168,7 +168,8 @@ def test_boards_numbered_from_the_wrong_end_are_named() -> None:
         assert (view.note != "") == (k in turned)
     clean = calibrate(scenes.uneven(camera, grid_size, 10, 0.3), camera.size, board_shape="free")
     apart = np.abs(found.calibration.camera.params - clean.camera.params)
-    assert (apart <= 1e-6 * np.maximum(clean.sigma, 1.0)).all()
+    # The variances of the board's deviations are learnt from another first solution.
+    assert (apart <= 1e-3 * np.maximum(clean.sigma, 1.0)).all()
 
     for board_shape in (BoardShapeModel.NOMINAL, BoardShapeModel.FREE):
         named = [
@@ -202,4 +203,4 @@ def test_a_lens_model_is_chosen_anew_where_corners_were_gained_only(
     assert asked == [10]
     for result in (gained, turned):
         assert result.calibration.warnings[0] == "It is wanted."
-        assert result.calibration.settings["model_reason"] == "It is wanted."
+        assert result.calibration.settings.model_reason == "It is wanted."

@@ -16,7 +16,7 @@ from PIL import Image as Pillow
 
 from calibgui.app.calibrating.redetection import calibrate_twice
 from calibgui.app.calibrating.settings import Settings
-from calibgui.app.fleet import camera_task
+from calibgui.app.fleet import camera_task, photographs
 from calibgui.app.fleet.batch import BatchSummary
 from calibgui.app.fleet.limits import Limits
 from calibgui.app.fleet.manifest import BoardSought, CameraTask, read_manifest
@@ -410,8 +410,10 @@ def test_photographs_may_be_where_fsspec_reaches(
     calibrated: Path,
     tmp_path: Path,
     searched: list[str],
+    monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     fsspec = pytest.importorskip("fsspec", reason="fsspec is not installed")
+    monkeypatch.setattr(photographs, "PROTOCOLS", (*photographs.PROTOCOLS, "memory"))
     memory = fsspec.filesystem("memory")
     memory.put(str(fleet / "c0"), "/bucket/", recursive=True)
     ledger = tmp_path / "f.db"
@@ -439,7 +441,7 @@ def test_photographs_may_be_where_fsspec_reaches(
         (failed,) = run([replace(far, paths=("memory://bucket/none",))], ledger, Here()).failed
         assert "memory://bucket/none" in failed.problem
         (failed,) = run([replace(far, paths=("what://bucket",))], ledger, Here()).failed
-        assert "what://bucket cannot be read" in failed.problem
+        assert "what://bucket is of the protocol 'what'" in failed.problem
     finally:
         memory.rm("/bucket", recursive=True)
 

@@ -28,10 +28,13 @@ def test_limits_are_read(tmp_path: Path) -> None:
     ("text", "problem"),
     [
         ("largest_edge_px = 0.5", "no limit 'largest_edge_px'"),
-        ("fewest_views = '8'", "fewest_views is not a number"),
-        ("fewest_views = true", "fewest_views is not a number"),
-        ("least_coverage = -0.1", "least_coverage is not a number"),
-        ("least_coverage = nan", "least_coverage is not a number"),
+        ("fewest_views = '8'", "fewest_views is not a finite number"),
+        ("fewest_views = true", "fewest_views is not a finite number"),
+        ("least_coverage = -0.1", "least_coverage is not a number from 0 on"),
+        ("least_coverage = nan", "least_coverage is not a finite number"),
+        (f"fewest_views = 1{'0' * 400}", "fewest_views is not a finite number"),
+        (f"fewest_views = {'[' * 3000}{']' * 3000}", "nests too deeply"),
+        (f"{'a.' * 3000}b = 1", "nests too deeply"),
         ("fewest_views: 8", "not a TOML file"),
     ],
 )

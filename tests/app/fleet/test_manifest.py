@@ -10,11 +10,12 @@ from pyarrow import parquet
 
 from calibgui.app.calibrating.settings import Settings
 from calibgui.app.fleet.manifest import BoardSought, read_board_words, read_manifest
-from calibgui.dataset.fleet import FleetEntry
+from calibgui.dataset.fleet import FleetCamera, FleetEntry, FleetStatus
 from calibgui.engine.boards.charuco import Charuco
 from calibgui.engine.boards.checkerboard import CHECKERBOARD
 from calibgui.engine.boards.kinds import KINDS
 from calibgui.engine.errors import CalibrationError
+from calibgui.formats.fleet_table import write_fleet_table
 
 BOARD = BoardSought(30.0)
 SETTINGS = Settings(robust=True)
@@ -81,7 +82,9 @@ def test_words_of_a_board_replace_what_is_known() -> None:
         (["id,paths", "a,b", "c,d,e"], "line 3: it has more cells"),
         (["id,paths,board", "a,b,6x7 30"], "line 2: '30' says nothing of a board"),
         (["id,paths,board", "a,b,1x7"], "line 2: a board of 1x7"),
+        (["id,paths,board", f"a,b,{'9' * 5000}x7"], "line 2: .* says nothing of a board"),
         (["id,paths,board", "a,b,0mm"], "line 2: 0mm"),
+        (["id,paths,board", f"a,b,{'9' * 400}mm"], "is not the side of a square"),
         (["id,paths,model", "a,b,pinhol"], "line 2: .*pinhol"),
         (["id,paths,date", "a,b,1 March"], "line 2: '1 March' is not a date"),
         (["id,paths,temperature", "a,b,warm"], "line 2: 'warm' is not a temperature"),
@@ -122,3 +125,19 @@ def test_parquet_is_read_or_the_library_is_named(
     file.write_bytes(b"no table")
     with pytest.raises(CalibrationError, match="not a table in Parquet"):
         read_manifest(file, BOARD, SETTINGS)
+
+
+def test_names_come_back_from_a_table_of_a_fleet(tmp_path: Path) -> None:
+    """A spreadsheet computes none of them, and a manifest that is made of it has them again."""
+    names = ["=1+1", "-a", "+49", "@home", "'=x", "plain"]
+    rows = [FleetCamera(FleetEntry(name, name), FleetStatus.REFUSED, name) for name in names]
+    write_fleet_table(rows, tmp_path / "fleet.csv")
+    text = (tmp_path / "fleet.csv").read_text()
+    assert [line.partition(",")[0] for line in text.splitlines()[1:]] == [
+        "'=1+1", "'-a", "+49", "'@home", "''=x", "plain",
+    ]  # fmt: skip
+    with (tmp_path / "manifest.csv").open("w") as file:
+        file.write("id,serial,paths\n")
+        file.writelines(",".join(line.split(",")[:2]) + ",a\n" for line in text.splitlines()[1:])
+    tasks = read_manifest(tmp_path / "manifest.csv", BOARD, Settings())
+    assert [(task.entry.id, task.entry.serial) for task in tasks] == [(n, n) for n in names]

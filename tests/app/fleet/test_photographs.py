@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import contextlib
+import gzip
 import os
 import shutil
 import sys
 import threading
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
 from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
@@ -16,11 +18,13 @@ import pytest
 from fsspec.config import conf
 from fsspec.registry import _registry
 
-from calibgui.app.fleet.manifest import CameraTask
-from calibgui.app.fleet.photographs import list_photographs
+from calibgui.app.calibrating.settings import Settings
+from calibgui.app.fleet import photographs
+from calibgui.app.fleet.manifest import CameraTask, read_manifest
+from calibgui.app.fleet.photographs import Photograph, fetch_photographs, list_photographs
 from calibgui.engine.errors import CalibrationError
 from calibgui.formats.result_json import read_result
-from tests.app.fleet.conftest import Here, read_results, read_rows, run
+from tests.app.fleet.conftest import BOARD, Here, read_results, read_rows, run
 
 
 class Server:
@@ -45,6 +49,17 @@ class Server:
         self._thread.join()
 
 
+_MANY_ZEROS = [bytes(1 << 20)] * 128
+_TROUBLES: Mapping[str, tuple[Mapping[str, str], Sequence[bytes]]] = {
+    "stated.png": ({"Content-Length": str(1 << 40)}, _MANY_ZEROS),
+    "unstated.png": ({}, _MANY_ZEROS),
+    "packed.png": ({"Content-Encoding": "gzip"}, [gzip.compress(b"".join(_MANY_ZEROS))]),
+    "links": ({"Content-Type": "text/html"}, [b'<a href="simplecache::view1.png">1</a>']),
+    "simplecache::view1.png": ({}, []),
+}
+"""Headers and contents of what a server that means no good answers."""
+
+
 class _Handler(SimpleHTTPRequestHandler):
     """It answers as a plain web server does, with a page of links for a folder."""
 
@@ -52,10 +67,30 @@ class _Handler(SimpleHTTPRequestHandler):
         self._fetched = fetched
         super().__init__(*args, **options)  # type: ignore[arg-type]
 
+    def do_HEAD(self) -> None:
+        if Path(self.path).name in _TROUBLES:
+            self._answer({"ETag": "1"})
+        else:
+            super().do_HEAD()
+
     def do_GET(self) -> None:
+        if (name := Path(self.path).name) in _TROUBLES:
+            headers, pieces = _TROUBLES[name]
+            self._answer(headers)
+            with contextlib.suppress(ConnectionError):  # it is not heard to the end
+                for piece in pieces:
+                    self.wfile.write(piece)
+                self._fetched.append(f"{name} to its end")
+            return
         if self.path.endswith(".png"):
             self._fetched.append(Path(self.path).name)
         super().do_GET()
+
+    def _answer(self, headers: Mapping[str, str]) -> None:
+        self.send_response(200)
+        for name, value in headers.items():
+            self.send_header(name, value)
+        self.end_headers()
 
     def log_message(self, *_: object) -> None:
         pass
@@ -137,3 +172,51 @@ def test_the_package_that_an_address_needs_is_named(monkeypatch: pytest.MonkeyPa
     with pytest.raises(CalibrationError, match="fsspec") as caught:
         list_photographs(["http://127.0.0.1:9/shots"])
     assert "pip install '.[batch]'" in caught.value.hint
+
+
+@pytest.mark.parametrize("name", ["stated.png", "unstated.png", "packed.png"])
+def test_no_more_is_fetched_than_a_photograph_has(
+    server: Server, name: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Whatever the server says of the size: too much, nothing, or that of what it has packed."""
+    monkeypatch.setattr(photographs, "_MAX_BYTES", 1 << 20)
+    address = f"{server.address}/{name}"
+    with (
+        pytest.raises(CalibrationError, match=rf"{address} is larger than 1 MB") as caught,
+        fetch_photographs([Photograph(address, "")]),
+    ):
+        pass
+    assert caught.value.hint
+    assert name == "packed.png" or not server.fetched, "it was read to its end"
+
+
+def test_an_address_that_a_server_names_leads_nowhere_else(server: Server) -> None:
+    found = list_photographs([f"{server.address}/links/"])
+    assert [one.name for one in found] == [f"{server.address}/links/simplecache::view1.png"]
+    with pytest.raises(CalibrationError, match="several in one"), fetch_photographs(found):
+        pass
+
+
+@pytest.mark.parametrize(
+    ("address", "reason"),
+    [
+        ("simplecache::http://127.0.0.1:9/a.png", "several in one"),
+        ("zip://a.png::http://127.0.0.1:9/a.zip", "several in one"),
+        ("http://127.0.0.1:9/a.png::file:///etc/passwd", "several in one"),
+        ("file:///etc/a.png", "protocol 'file'"),
+        ("ftp://127.0.0.1/a.png", "protocol 'ftp'"),
+        ("memory://a.png", "protocol 'memory'"),
+        ("github://owner:name@/a.png", "protocol 'github'"),
+        ("HTTP://127.0.0.1/a.png", "protocol 'HTTP'"),
+        ("://a.png", "protocol ''"),
+    ],
+)
+def test_other_protocols_are_refused_by_name(address: str, reason: str, tmp_path: Path) -> None:
+    with pytest.raises(CalibrationError, match=reason) as caught:
+        list_photographs([address])
+    assert address in caught.value.message
+    assert "://" in caught.value.hint
+    manifest = tmp_path / "manifest.csv"
+    manifest.write_text(f"id,paths\nc0,shots;{address}\n")
+    with pytest.raises(CalibrationError, match=rf"manifest\.csv, line 2: .*{reason}"):
+        read_manifest(manifest, BOARD, Settings())

@@ -8,16 +8,19 @@ from xml.etree import ElementTree
 
 import numpy as np
 import pytest
+from PIL import Image
 from scipy.ndimage import gaussian_filter
 
 from calibgui.app.outputs.printable_board import (
     PAPER_SIZES_MM,
     Page,
     choose_paper,
+    choose_square,
     complete_pattern,
     lay_out_page,
     write_page,
 )
+from calibgui.engine import opencv
 from calibgui.engine.arrays import Array
 from calibgui.engine.boards.board import Board
 from calibgui.engine.boards.kinds import KINDS
@@ -71,8 +74,38 @@ def test_pdf_and_svg_hold_the_same_rectangles(tmp_path: Path) -> None:
     assert pdf[start : start + 4] == "xref"
     for place in re.findall(r"^(\d{10}) 00000 n", pdf, re.M):
         assert re.match(r"\d+ 0 obj", pdf[int(place) :])
-    with pytest.raises(CalibrationError, match="neither"):
-        write_page(content, tmp_path / "board.png")
+    with pytest.raises(CalibrationError, match="is not named as PDF, SVG or PNG"):
+        write_page(content, tmp_path / "board.gif")
+
+
+def test_a_png_has_its_true_size_and_edges_to_a_tenth_of_a_dot(tmp_path: Path) -> None:
+    content = lay_out_page(Board(5, 8, 20.3), "A4")
+    write_page(content, tmp_path / "board.png")
+    with Image.open(tmp_path / "board.png") as image:
+        np.testing.assert_allclose(image.info["dpi"], 600, atol=0.1)
+        pixels = np.array(image)
+    small = opencv.halve_image(opencv.halve_image(pixels))
+    found = find_corners(gaussian_filter(small, 1.5), (5, 8))
+    ends = (found.uv[found.grid[:, 1] == column] for column in (0, 7))
+    length = np.linalg.norm(np.subtract(*ends), axis=1) * 4 * 25.4 / 600
+    np.testing.assert_allclose(length, 7 * 20.3, rtol=2e-4)
+    # The edges of the first square, by how far its dots are covered.
+    x, y, w, _ = content.rectangles[0]
+    row = 1 - pixels[round((y + 5) * 600 / 25.4), : round((x + w + 5) * 600 / 25.4)] / 255
+    np.testing.assert_allclose(row.sum() * 25.4 / 600, w, atol=0.004)
+
+
+def test_every_line_of_text_is_on_the_paper() -> None:
+    pattern = complete_pattern(KINDS["aprilgrid"], (12, 12))
+    page = lay_out_page(Board(12, 12, 15.0, pattern), "A4")
+    assert page.text_at[0] >= 8.0 and max(map(len, page.lines)) * 1.6 < 210 - 16
+
+
+def test_the_largest_square_of_whole_mm_is_chosen() -> None:
+    pattern = KINDS["checkerboard"]
+    assert choose_square(pattern, (6, 9), "A4") == 22.0
+    lay_out_page(Board(6, 9, 22.0), "A4")
+    assert 0.4 < choose_square(pattern, (199, 199), "A4") < 1
 
 
 @pytest.mark.parametrize("paper", PAPER_SIZES_MM)

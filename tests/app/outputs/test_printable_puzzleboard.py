@@ -47,7 +47,7 @@ def test_found_on_its_sheet() -> None:
     size = np.linalg.norm(np.ptp(corners.uv, axis=0))
     true = _PER_MM * np.linalg.norm(np.ptp(_BOARD.points(), axis=0))
     np.testing.assert_allclose(size, true, rtol=0.002)
-    assert "PuzzleBoard of 6 × 8 inner corners from corner 50 × 100 on" in page.text
+    assert "PuzzleBoard of 6 × 8 inner corners from corner 50 × 100 on" in page.lines[1]
 
 
 def test_white_dots_are_painted_over_the_squares(tmp_path: Path) -> None:

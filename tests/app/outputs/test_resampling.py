@@ -23,9 +23,9 @@ from calibgui.app.photographs.paths import find_images
 from calibgui.dataset import CornerSet, Result, View, ViewStatus
 from calibgui.engine.camera.camera import Camera
 from calibgui.engine.camera.distortion import distort_points
-from calibgui.engine.detection.corners import Corners
 from calibgui.engine.detection.find_corners import find_corners
 from calibgui.engine.errors import CalibrationError, Cancelled
+from calibgui.engine.features.corners import Corners
 from calibgui.engine.files import describe_write_error
 from calibgui.engine.images.projections import Projection
 from calibgui.engine.images.reading import read_image, write_image

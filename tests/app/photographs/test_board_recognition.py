@@ -31,7 +31,7 @@ from calibgui.engine.boards.tagged_checkerboard import TaggedCheckerboard
 from calibgui.engine.camera.camera import Camera
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.images.reading import write_image
-from tests.engine.detection.conftest import Scene
+from tests.engine.conftest import Scene
 
 pytestmark = pytest.mark.usefixtures("search_here")
 
@@ -67,21 +67,20 @@ def test_a_plain_checkerboard_is_told_by_a_look(
     assert recognise_pattern(views) is None
 
 
-def test_other_detectors_are_prepared_once_and_said(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_other_detectors_are_prepared_before_the_work_is_shared(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
     asked = []
 
     def search(*arguments: object) -> list[tuple[int, object]]:
-        asked.append(arguments[-2:])
+        asked.append(arguments[-1])
         return []
-
-    def tell() -> None:
-        pass
 
     monkeypatch.setattr(board_recognition, "map_in_processes", search)
     blank = View("blank.png", ViewStatus.NO_BOARD)
     plain = Detection((blank,), (640, 480), None, CHECKERBOARD, "")
-    find_any_board(lambda *_: plain, None, tell)
-    assert set(asked) == {(tell, prepare_every_finder)}
+    find_any_board(lambda *_: plain, None)
+    assert set(asked) == {prepare_every_finder}
 
 
 @pytest.mark.parametrize(

@@ -16,14 +16,17 @@ from calibgui.app.photographs.paths import find_images
 from calibgui.app.system import workers
 from calibgui.dataset import View, ViewStatus
 from calibgui.engine.arrays import GridSize, freeze_array
+from calibgui.engine.boards.april_grid import AprilGrid
 from calibgui.engine.boards.board import Board
 from calibgui.engine.boards.checkerboard import CHECKERBOARD
 from calibgui.engine.boards.circle_grid import Circles
 from calibgui.engine.boards.pattern import Pattern, Symmetry
 from calibgui.engine.camera.distortion import project_points
-from calibgui.engine.detection.corners import Corners
 from calibgui.engine.errors import CalibrationError, Cancelled
+from calibgui.engine.features.corners import Corners
 from calibgui.engine.images.reading import read_image, write_image
+from calibgui.engine.images.rendering import render_view
+from tests.engine import scenes
 from tests.photographs import BOARD, CAMERA, COUNT, draw_poses
 from tests.scenes.troubles import TROUBLES
 
@@ -334,3 +337,28 @@ def test_a_grid_of_circles_that_its_picture_may_cut_does_not_tell_the_size(
     assert not any(view.note or (view.corners and view.corners.relative) for view in found.views)
     assert found.corner_set(30.0).board is not None
     assert bool(found.remark) == ("whole" not in kinds)
+
+
+@pytest.mark.parametrize("stated", [None, (6, 8)])
+def test_the_first_tag_that_most_photographs_tell_is_that_of_all(
+    stated: GridSize | None, tmp_path: Path
+) -> None:
+    """One photograph shows the upper two rows of tags only, which do not tell it."""
+    board = Board(6, 8, 25.0, AprilGrid("t36h11", 0.3, 2, False, True, 24))
+    rng = np.random.default_rng(5)
+    poses = [scenes.looking(CAMERA, rng, fill=(0.5, 0.6), board=board) for _ in range(3)]
+    for k, pose in enumerate(poses):
+        image = render_view(CAMERA, pose, board, blur=0.6, noise=1.0, seed=k)
+        if k == 2:
+            uv = project_points(board.points(), CAMERA, pose)
+            image = image[: int(uv[4 * 8 :, 1].min())]
+            image = np.pad(image, ((0, CAMERA.size[1] - len(image)), (0, 0)), mode="edge")
+        write_image(tmp_path / f"view{k}.png", image)
+    found = find_views(find_images([str(tmp_path)]), stated, pattern=AprilGrid())
+    assert found.grid_size == (6, 8)
+    assert isinstance(found.pattern, AprilGrid)
+    assert found.pattern.first_tag == 24
+    for k, view in enumerate(found.views):
+        assert view.corners is not None
+        uv = project_points(board.points(view.corners.grid), CAMERA, poses[k])
+        assert np.abs(view.corners.uv - uv).max() < 0.5

@@ -12,9 +12,9 @@ from calibgui.engine.arrays import Array
 from calibgui.engine.boards.board import Board
 from calibgui.engine.boards.circle_grid import Circles
 from calibgui.engine.camera.camera import Camera
-from calibgui.engine.detection.corners import Corners
 from calibgui.engine.detection.find_corners import find_corners
 from calibgui.engine.errors import CalibrationError, NoBoardError
+from calibgui.engine.features.corners import Corners
 from calibgui.engine.images.rendering import render_view
 from tests.engine import scenes
 

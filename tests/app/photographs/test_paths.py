@@ -19,6 +19,7 @@ from calibgui.app.photographs.paths import (
     make_natural_key,
 )
 from calibgui.engine.errors import CalibrationError
+from calibgui.engine.images import photo_libraries
 from calibgui.engine.images.reading import write_image
 
 
@@ -126,6 +127,13 @@ class TestSpecialFiles:
             find_images(["x" * 5000])
 
 
+@pytest.fixture
+def no_photo_libraries(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Let the libraries that read HEIC and raw images seem not to be installed."""
+    monkeypatch.setattr(photo_libraries, "find_spec", lambda _: None)
+
+
+@pytest.mark.usefixtures("no_photo_libraries")
 def test_a_folder_of_other_formats_is_described(tmp_path: Path) -> None:
     for name in ("IMG_1.HEIC", "IMG_2.heic", "film.mov"):
         (tmp_path / name).touch()
@@ -211,6 +219,7 @@ def test_folders_that_are_not_read_with_a_named_one_are_said(tmp_path: Path) -> 
     assert describe_unread_folders([f"{whole}/*.png"]) == ""
 
 
+@pytest.mark.usefixtures("no_photo_libraries")
 def test_photographs_of_formats_that_are_not_read_are_said(tmp_path: Path) -> None:
     """A phone writes HEIC; a camera writes a raw image beside each JPEG, which is the same."""
     for name in ("1.jpg", "1.DNG", "2.HEIC", "3.heic", "4.nef", ".5.heic", "notes.txt"):

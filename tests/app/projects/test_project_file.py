@@ -21,9 +21,13 @@ from calibgui.app.projects.project import (
     rename_result,
 )
 from calibgui.app.projects.project_file import VERSION, encode_project, read_project, write_project
+from calibgui.dataset import judging
+from calibgui.dataset.judging import judge_result, keep_verdict
+from calibgui.engine.assessment import Action, ActionKind, Cause, Finding, PixelError
 from calibgui.engine.boards.shape import BoardShape, BoardShapeModel, BoardShapePrior
 from calibgui.engine.errors import CalibrationError
-from calibgui.formats.json_document import Node, dumps
+from calibgui.formats.json_document import dumps
+from calibgui.formats.node import Node
 from tests.app import examples
 
 
@@ -48,6 +52,33 @@ def test_numbers_read_back_to_the_last_bit(tmp_path: Path) -> None:
         project.board,
     )
     assert again.digests == project.digests
+
+
+def test_verdicts_are_read_and_not_found_out_again(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    project = examples.calibrated(tmp_path)
+    result = project.results["k3 held"]
+    actions = (
+        Action(ActionKind.LEAVE_OUT_VIEWS, (1, 3)),
+        Action(ActionKind.CHOOSE_LENS_MODEL, model="lucchese", parameters=("k3",)),
+        None,
+    )
+    findings = tuple(
+        Finding(Cause.BLUR, "Blurred.", "0.3 px", "Take it again.", 0.2, (2,), action, 1.7)
+        for action in actions
+    )
+    stated = replace(judge_result(result), findings=findings)
+    keep_verdict(result, stated)
+    unknown = replace(project.results["Calibration 1"].calibration, warnings=())
+    undetermined = replace(stated, error=PixelError(*[np.inf] * 6))
+    project = record_result(project, "partial", project.views, replace(result, calibration=unknown))
+    keep_verdict(project.results["partial"], undetermined)
+    write_project(project, tmp_path / "project.json")
+    monkeypatch.setattr(judging, "judge_calibration", lambda *_: pytest.fail("judged anew"))
+    again = read_project(tmp_path / "project.json")
+    assert judge_result(again.results["k3 held"]) == stated
+    assert judge_result(again.results["partial"]) == undetermined
 
 
 def test_folder_and_project_move_together(tmp_path: Path) -> None:
@@ -291,7 +322,7 @@ def test_a_project_of_the_version_before_the_lens_model_could_be_chosen(tmp_path
     assert project.is_current(project.results["Forward model"])
     # The result calls its lens model by the name that it had then.
     forward = project.results["Forward model"].calibration
-    assert forward.camera.model == forward.settings["model"] == "brown-conrady"
+    assert forward.camera.model == forward.settings.model == "brown-conrady"
 
 
 def test_images_on_another_drive_keep_their_whole_path(

@@ -56,3 +56,29 @@ def test_notes_of_earlier_versions_are_read(tmp_path: Path) -> None:
     project.touch()
     (find_state_folder() / "recent.json").write_text(json.dumps([str(project)]), "utf-8")
     assert list_recent() == [Recent(project, "")]
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "[" * 5000,
+        '[{"path": 1, "image": ""}]',
+        '["\\u0000"]',
+        '["' + "x" * 5000 + '"]',
+        '[["a"]]',
+        '{"a": 1}',
+        "3",
+        "",
+        "\x00" * 100,
+        " " * (2 << 20),
+    ],
+)
+def test_notes_of_any_kind_leave_the_window_without_recent_projects(text: str) -> None:
+    (find_state_folder() / "recent.json").write_text(text, encoding="utf-8")
+    assert list_recent() == []
+
+
+def test_a_folder_in_place_of_the_notes_is_no_obstacle(tmp_path: Path) -> None:
+    (find_state_folder() / "recent.json").mkdir()
+    assert list_recent() == []
+    remember_project(tmp_path)

@@ -9,14 +9,16 @@ import pytest
 
 from calibgui.app.calibrating.calibration import calibrate_views
 from calibgui.app.calibrating.settings import Settings, check_settings
-from calibgui.app.projects.project import Project, confirm_lengths, record_result, set_square
-from calibgui.app.projects.remedies import apply_action
+from calibgui.app.projects.lengths import confirm_lengths, set_square
+from calibgui.app.projects.project import Project, record_result
+from calibgui.app.projects.remedies import apply_action, change_settings
 from calibgui.dataset import CornerSet, Result
 from calibgui.dataset.judging import judge_result
 from calibgui.engine.assessment import Action, ActionKind, Grade
-from calibgui.engine.boards import BoardShapeModel
+from calibgui.engine.boards import BoardShapeModel, BoardShapePrior
 from calibgui.engine.calibration import DEFAULT_METHOD, Cost
 from calibgui.report.summary import describe_calibration
+from calibgui.report.verdict import describe_options
 from tests.app import examples
 
 
@@ -65,6 +67,42 @@ def test_an_action_changes_its_settings(
     assert after.views is project.views
 
 
+@pytest.mark.parametrize(
+    ("settings", "model"),
+    [
+        (Settings(freed=("k3", "skew"), model="rational"), "rational"),
+        (Settings(freed=("k3", "skew"), model=None), "rational"),
+        (Settings(freed=("k3", "skew"), cost=Cost.PAPER), "lucchese"),
+    ],
+)
+def test_a_coefficient_that_is_held_is_no_longer_free_and_the_model_has_it(
+    settings: Settings, model: str
+) -> None:
+    """A lens model that is to be chosen becomes the one that the calibration has chosen."""
+    action = Action(ActionKind.HOLD_AT_ZERO, parameters=("k3",))
+    assert action.change is not None
+    after = change_settings(settings, "rational", action.change)
+    assert (after.fixed, after.freed, after.model) == ({"k3": 0.0}, ("skew",), model)
+
+
+@pytest.mark.parametrize("kind", ActionKind)
+def test_what_changes_the_calibration_has_an_option_of_the_command(
+    project: Project, kind: ActionKind
+) -> None:
+    result = project.results["Calibration 1"]
+    action = Action(kind, views=(0,), parameters=("k3",), model="free")
+    if kind in (ActionKind.CHOOSE_LENS_MODEL, ActionKind.ESTIMATE_SKEW):
+        action = replace(action, model="rational")
+    options = describe_options(action, result)
+    if action.change is None:
+        assert options == ""
+        return
+    settings = Settings(model="rational", fixed={"k3": 1.0} if action.change.releases else {})
+    assert apply_action(replace(project, settings=settings), result, action) != project
+    assert options.startswith(("add --", "leave k3 out of --fix"))
+    assert "--cost" not in options  # it is minimised already
+
+
 @pytest.mark.parametrize("settings", [Settings(cost=Cost.PAPER), Settings(method="tsai")])
 @pytest.mark.parametrize(
     "kind",
@@ -77,6 +115,14 @@ def test_an_action_takes_the_cost_and_the_method_that_it_needs(
     after = apply_action(replace(project, settings=settings), result, Action(kind)).settings
     assert (after.cost, after.method) == (Cost.IMAGE, DEFAULT_METHOD)
     check_settings(after)
+
+
+def test_an_action_keeps_what_is_asked_besides_and_forgets_what_goes_with_the_old_model() -> None:
+    settings = Settings(robust=True, weigh_views=True, prior=BoardShapePrior(0.1, 0.1))
+    shape = Action(ActionKind.ESTIMATE_BOARD_SHAPE, model="bow").change
+    assert shape is not None
+    after = change_settings(settings, "lucchese", shape)
+    assert (after.robust, after.weigh_views, after.prior) == (True, True, None)
 
 
 def test_views_are_left_out(project: Project) -> None:
@@ -115,7 +161,7 @@ def test_lengths_are_conditional_until_they_are_confirmed(project: Project) -> N
     assert "All lengths hold if squares are 30 mm" in told
     assert confirm_lengths(recorded).results["new"].condition == ""
     assert set_square(open_project, 25.0).lengths_confirmed
-    kept = confirm_lengths(set_square(recorded, 25.0)).results["new"]
+    kept = confirm_lengths(replace(recorded, square=25.0)).results["new"]
     assert kept.condition == "if squares are 30 mm"  # it is of other squares
     assert judge_result(confirm_lengths(recorded).results["new"]) is judge_result(
         recorded.results["new"]

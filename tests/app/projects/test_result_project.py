@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from calibgui.app.calibrating.calibration import calibrate_views
-from calibgui.app.calibrating.settings import NEW_PROJECT_SETTINGS, Settings, get_own_model
+from calibgui.app.calibrating.settings import BEST_SETTINGS, Settings, get_own_model
 from calibgui.app.projects.project import record_result
 from calibgui.app.projects.result_project import make_project
 from calibgui.dataset import CornerSet, Result
@@ -67,7 +67,7 @@ def test_a_shape_that_was_held_is_held_again(tmp_path: Path) -> None:
 @pytest.mark.slow
 def test_a_lens_model_that_was_chosen_is_named(tmp_path: Path) -> None:
     """With it the same camera is found again, whatever another choice would be."""
-    result = calibrate(tmp_path, NEW_PROJECT_SETTINGS)
+    result = calibrate(tmp_path, BEST_SETTINGS)
     write_result(result, tmp_path / "result.json")
     project = make_project(tmp_path / "result.json", "far")
     assert project.settings.model == result.calibration.camera.model

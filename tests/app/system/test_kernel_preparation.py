@@ -1,12 +1,17 @@
-"""What is prepared is all that the corner finder needs for a photograph."""
+"""What is prepared is all that the corner finder needs, and what is compiled is every kernel."""
 
 from __future__ import annotations
 
 import subprocess
 import sys
 from pathlib import Path
+from threading import Event
 
 import pytest
+
+from calibgui.app.system.kernel_preparation import compile_kernels
+from calibgui.engine import kernels
+from calibgui.engine.errors import Cancelled
 
 SCRIPT = """
 import sys
@@ -17,6 +22,7 @@ from calibgui.engine.boards import KINDS, AprilGrid, Board, Circles
 from calibgui.engine.camera import Camera
 from calibgui.engine.detection import find_corners
 from calibgui.engine.images import read_image, render_view
+from calibgui.engine.kernels import compile_missing
 from tests.engine import scenes
 
 def list_kernels():
@@ -50,6 +56,8 @@ views = [
     )
     for board in boards
 ]
+waiting = compile_missing()
+waiting.__enter__()
 for depth in (np.uint8, np.uint16):
     prepare_finder(depth)
     prepared = list_kernels()
@@ -77,3 +85,19 @@ def test_a_photograph_needs_no_kernel_that_is_not_prepared() -> None:
         count, *missing = line.split(maxsplit=1)
         assert int(count) > 0
         assert not missing
+
+
+@pytest.mark.slow
+def test_every_kernel_is_compiled_and_kept() -> None:
+    pytest.importorskip("numba", reason="numba is not installed")
+    parts: list[tuple[int, int]] = []
+    compile_kernels(lambda done, total: parts.append((done, total)))
+    assert parts == [(k + 1, len(parts)) for k in range(len(parts))]
+    assert kernels.are_all_kept()
+
+
+def test_compiling_ends_at_once_when_it_is_asked_to() -> None:
+    stop = Event()
+    stop.set()
+    with pytest.raises(Cancelled):
+        compile_kernels(stop=stop)

@@ -11,10 +11,13 @@ import pytest
 
 from calibgui.engine.assessment import action_trials
 from calibgui.engine.assessment import verdict as verdict_module
+from calibgui.engine.assessment.action import Action, ActionKind
 from calibgui.engine.assessment.action_trials import try_action
-from calibgui.engine.assessment.causes.finding import Action, ActionKind, Cause
+from calibgui.engine.assessment.causes.findings import list_findings
 from calibgui.engine.assessment.changes.comparison import compare_cameras
+from calibgui.engine.assessment.finding import Cause, Finding
 from calibgui.engine.assessment.verdict import (
+    MAX_GOOD_PX,
     Grade,
     PixelError,
     Verdict,
@@ -26,6 +29,7 @@ from calibgui.engine.calibration.calibrate import calibrate
 from calibgui.engine.calibration.observations import Observation
 from calibgui.engine.calibration.result import Calibration, DegenerateError, Status
 from calibgui.engine.camera.camera import Camera
+from calibgui.engine.camera.image_circle import ImageCircle
 from calibgui.engine.errors import CalibrationError, Cancelled
 from tests.engine.scenes import BOARD, VGA, barrel, scene, scene_in_the_middle
 from tests.faults import sets
@@ -69,7 +73,7 @@ def test_a_clean_set_is_good_and_its_error_is_that_of_the_truth() -> None:
 
 
 @pytest.mark.parametrize(
-    ("sigma", "grade", "causes"), [(0.1, Grade.GOOD, []), (0.2, Grade.USABLE, [Cause.BLUR])]
+    ("sigma", "grade", "causes"), [(0.1, Grade.GOOD, []), (0.2, Grade.GOOD, [Cause.BLUR])]
 )
 def test_unequal_noise_is_told_where_sharper_photographs_would_help(
     sigma: float, grade: Grade, causes: list[Cause]
@@ -119,7 +123,7 @@ def test_a_recommended_lens_that_is_not_followed_takes_photographs(
     found = calibrate(views, VGA, model="pinhole")
     (offered,) = judge_calibration(found, views).findings
     assert offered.action is not None and offered.action.kind is ActionKind.CHOOSE_LENS_MODEL
-    recommended = replace(found, settings={**found.settings, "model_reason": "It is the best."})
+    recommended = replace(found, settings=replace(found.settings, model_reason="It is the best."))
     (finding,) = judge_calibration(recommended, views).findings
     assert finding.message == message
     assert finding.remedy.startswith("No lens model that these views determine")
@@ -196,11 +200,14 @@ def test_a_clean_set_is_good_with_every_cost(cost: str) -> None:
     assert (verdict.grade, verdict.findings) == (Grade.GOOD, ())
 
 
-def test_a_finding_without_a_remedy_is_never_good() -> None:
+def test_a_finding_lowers_the_grade_only_if_it_costs_more_than_its_limit() -> None:
     fault = inject("bending-board", 1)
-    _, verdict = judge(fault.views)
+    calibration, verdict = judge(fault.views)
     assert [finding.cause for finding in verdict.findings] == [Cause.BENDING_BOARD]
-    assert verdict.grade in (Grade.USABLE, Grade.NOT_USABLE)
+    assert verdict.error.worst_covered < MAX_GOOD_PX and verdict.grade is Grade.GOOD
+    assert "bends from view to view" in verdict.reason and "It does little" in verdict.reason
+    poor = replace(verdict.error, worst_covered=1.1 * MAX_GOOD_PX)
+    assert _grade(calibration, poor, verdict.findings)[0] is Grade.USABLE
     assert verdict.findings[0].action == Action(ActionKind.PHOTOGRAPH_MORE)
 
 
@@ -216,7 +223,7 @@ def test_a_board_whose_shape_cannot_be_estimated_asks_for_photographs(
     assert verdict.findings[0].action == Action(ActionKind.PHOTOGRAPH_MORE)
     assert "stiff" in verdict.findings[0].remedy
     assert "estimate" not in verdict.findings[0].remedy
-    assert verdict.grade is Grade.USABLE
+    assert verdict.grade in (Grade.GOOD, Grade.USABLE)
 
 
 @pytest.fixture
@@ -244,20 +251,39 @@ def test_a_board_whose_shape_brings_nothing_is_no_finding() -> None:
     assert "add views" in verdict.reason  # the standard deviations include the doubt
 
 
-def test_what_a_remedy_leaves_is_told_with_it(monkeypatch: pytest.MonkeyPatch) -> None:
-    """A camera that can be made much better, and is too poorly known beyond its corners then."""
-    monkeypatch.setattr(verdict_module, "MAX_USABLE_PX", 0.2)
+def bow_views() -> list[Observation]:
+    """Views of a bowed board in the middle of the image."""
     drawn, xy = scene_in_the_middle(barrel(), 12, seed=1, spread=0.15), BOARD.points()
     bow = np.column_stack([xy, 1e-4 * (xy[:, 0] - 165) ** 2])
     rng = np.random.default_rng(0)
-    views = [
+    return [
         Observation(sets.project_corners(barrel(), pose, bow) + rng.normal(0, 0.05, xy.shape), xy)
         for pose in drawn.poses
     ]
-    _, verdict = judge(views)
+
+
+def test_what_a_remedy_leaves_is_told_with_it(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A camera that can be made much better, and is too poorly known beyond its corners then."""
+    monkeypatch.setattr(verdict_module, "MAX_USABLE_PX", 0.2)
+    _, verdict = judge(bow_views())
     assert verdict.grade is Grade.CAN_BE_BETTER
     assert [finding.cause for finding in verdict.findings] == [Cause.BOARD_SHAPE, Cause.FEW_VIEWS]
     assert "Once the rest is mended, a pixel is known to 0.1" in verdict.findings[1].evidence
+
+
+def test_a_remedy_of_what_is_less_harmful_leaves_the_calibration_as_it_is(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """The board could be mended, but something without a remedy does more harm."""
+    monkeypatch.setattr(verdict_module, "MAX_USABLE_PX", 0.2)
+    views = bow_views()
+    found = calibrate(views, VGA)
+    (board,) = list_findings(found, views)
+    blur = Finding(Cause.BLUR, "Blurred.", "Seen.", "Take them again.", 9.0)
+    monkeypatch.setattr(verdict_module, "list_findings", lambda *_: (blur, board))
+    verdict = judge_calibration(found, views)
+    assert [finding.cause for finding in verdict.findings] == [Cause.BLUR, Cause.BOARD_SHAPE]
+    assert verdict.findings[1].times_better > 1.5 and verdict.times_better == 1.0
 
 
 def test_an_edge_that_no_photograph_shows_is_told_but_leaves_a_calibration_good() -> None:
@@ -270,6 +296,21 @@ def test_an_edge_that_no_photograph_shows_is_told_but_leaves_a_calibration_good(
     assert verdict.error.worst_covered < 0.5 < verdict.error.worst
     assert (verdict.grade, verdict.findings) == (Grade.GOOD, ())
     assert f"{verdict.error.worst:.2g} px" in verdict.reason
+
+
+def test_pixels_that_the_lens_does_not_light_have_no_error() -> None:
+    circle = ImageCircle(320, 240, 210)
+    lit = [
+        Observation(view.uv[near], view.xy[near])
+        for view in CLEAN
+        if (near := circle.contains(view.uv)).sum() > 20
+    ]
+    calibration, over_image = judge(lit)
+    camera = replace(calibration.camera, circle=circle)
+    within = judge_calibration(replace(calibration, camera=camera), lit).error
+    assert within.worst < over_image.error.worst / 3
+    assert within.edge < over_image.error.edge / 3
+    assert within.covered == over_image.error.covered
 
 
 @pytest.mark.parametrize("beyond_px", [3.0, 1e4])
@@ -313,8 +354,29 @@ def test_the_lens_model_is_chosen_anew_for_the_views_that_are_left() -> None:
     found = calibrate(CLEAN, VGA, model="pinhole")
     action = Action(ActionKind.LEAVE_OUT_VIEWS, (0,))
     named = try_action(action, found, CLEAN)
-    chosen = replace(found, settings={**found.settings, "model_reason": "It was chosen."})
+    chosen = replace(found, settings=replace(found.settings, model_reason="It was chosen."))
     anew = try_action(action, chosen, CLEAN)
     assert named is not None and named.calibration.camera.model == "pinhole"
     assert anew is not None and anew.calibration.camera.model == "lucchese"
     assert len(anew.views) == len(CLEAN) - 1
+
+
+def get_skew(calibration: Calibration) -> float:
+    camera = calibration.camera
+    return float(camera.params[camera.names.index("skew")])
+
+
+def test_a_coefficient_that_was_freed_is_held_at_zero() -> None:
+    found = calibrate(CLEAN, VGA, model="brown-conrady", free=("skew",))
+    trial = try_action(Action(ActionKind.HOLD_AT_ZERO, parameters=("skew",)), found, CLEAN)
+    assert get_skew(found) != 0
+    assert trial is not None and get_skew(trial.calibration) == 0
+
+
+@pytest.mark.parametrize("kind", [ActionKind.CHOOSE_LENS_MODEL, ActionKind.ESTIMATE_BOARD_SHAPE])
+def test_a_model_that_an_action_names_is_taken_as_it_is(kind: ActionKind) -> None:
+    model = "rational" if kind is ActionKind.CHOOSE_LENS_MODEL else "bow"
+    trial = try_action(Action(kind, model=model), calibrate(CLEAN, VGA), CLEAN)
+    assert trial is not None and trial.action.model == model
+    shape = trial.calibration.board_shape
+    assert model in (trial.calibration.camera.model, shape and shape.model)

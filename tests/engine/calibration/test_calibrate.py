@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pickle
 from collections.abc import Callable, Sequence
+from typing import Any
 
 import cv2
 import numpy as np
@@ -333,6 +334,13 @@ def test_the_table_of_stage_one_is_computed_once_and_when_it_is_read(
     assert len(asked) == 1
     copied = pickle.loads(pickle.dumps(expected)).stage_one  # other processes get it as well
     assert [row.xp for row in copied] == [row.xp for row in rows]
+
+
+@pytest.mark.parametrize("count", [-1, 1.5, float("nan"), True, "3"])
+def test_iterations_are_counted_in_whole_numbers(count: Any) -> None:
+    views = scene(barrel(), 4).noisy(0.1, np.random.default_rng(2))
+    with pytest.raises(CalibrationError, match=f"A solve cannot have {count} iterations"):
+        calibrate(views, VGA, max_iterations=count)
 
 
 def test_many_views_are_started_from_some_of_them(monkeypatch: pytest.MonkeyPatch) -> None:

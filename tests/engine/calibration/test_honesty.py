@@ -14,10 +14,10 @@ from calibgui.engine.calibration.observations import pack_observations
 from calibgui.engine.calibration.overdispersion import add_overdispersion
 from calibgui.engine.calibration.problem import make_state
 from calibgui.engine.calibration.refinement import covariances
+from calibgui.engine.calibration.refinement.covariances import make_estimate
 from calibgui.engine.calibration.refinement.levenberg_marquardt import minimise
 from calibgui.engine.calibration.refinement.residuals import build_stage_two
 from calibgui.engine.calibration.result import Cost
-from calibgui.engine.calibration.result_assembly import make_estimate
 from calibgui.engine.camera.models import list_parameter_names
 from calibgui.engine.kernels import COMPILED_LENSES
 from tests.engine.scenes import VALLEYS, example, scene

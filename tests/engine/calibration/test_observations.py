@@ -30,9 +30,17 @@ def test_views_are_padded_with_weightless_corners() -> None:
     assert packed.select_views(slice(1, 2)).count == 40
 
 
+def test_opencvs_shapes_are_taken() -> None:
+    flat = np.column_stack([XY, 0 * XY[:, 0]])
+    packed = pack_observations([(UV[:, None].astype(np.float32), flat[:, None])])
+    np.testing.assert_allclose(packed.uv[0], UV, rtol=1e-6)
+    np.testing.assert_array_equal(packed.xy[0], XY)
+
+
 BAD = {
     "none of the same length": (UV[:9], XY, "do not match"),
-    "three columns": (np.ones((9, 3)), np.ones((9, 3)), "do not match"),
+    "three columns": (np.ones((9, 3)), np.zeros((9, 3)), "do not match"),
+    "a board that is not flat": (UV, np.column_stack([XY, XY[:, 0]]), "not in one plane"),
     "NaN in the image": (changed(UV, (3, 0), np.nan), XY, "not a finite number"),
     "infinite in the image": (changed(UV, (3, 1), np.inf), XY, "not a finite number"),
     "NaN on the board": (UV, changed(XY, (3, 0), np.nan), "not a finite number"),
@@ -68,6 +76,7 @@ def test_a_view_that_cannot_be_used_is_named(uv: Array, xy: Array, says: str) ->
         (np.tile(np.diag([1.0, 0.0]), (108, 1, 1)), "not positive definite"),
         (np.tile(np.diag([1.0, -1.0]), (108, 1, 1)), "not positive definite"),
         (np.tile(np.diag([1.0, 1e-320]), (108, 1, 1)), "not positive definite"),
+        (np.tile([[1.0, 0.5], [0.4, 1.0]], (108, 1, 1)), "not symmetric"),
     ],
 )
 def test_covariances_must_be_covariances(cov: Array, says: str) -> None:

@@ -79,8 +79,9 @@ def test_widened_deviations_are_those_of_leaving_views_out(board_shape: str) -> 
     jackknife = np.sqrt(15 * without.var(axis=0))[:9]
     if board_shape == "nominal":  # the bends' mean is doubted as well, which only adds
         assert (whole.sigma[:9] > 0.9 * jackknife).all()
-    else:  # nine tenths are left out, and what noise alone makes larger is kept
-        assert whole.sigma[:9] == pytest.approx(jackknife, rel=0.25)
+    else:  # nine tenths are left out, what noise alone makes larger is kept, and without a view the
+        # variances of the board's deviations are others
+        assert whole.sigma[:9] == pytest.approx(jackknife, rel=0.3)
     assert np.linalg.eigvalsh(whole.covariance[:9, :9]).min() > 0
 
 

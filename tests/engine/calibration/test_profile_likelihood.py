@@ -3,12 +3,11 @@ and that nothing ever becomes better known."""
 
 from __future__ import annotations
 
-import sys
-
 import numpy as np
 import pytest
 
 from calibgui.engine.arrays import Array
+from calibgui.engine.calibration import standard_deviations
 from calibgui.engine.calibration.calibrate import calibrate
 from calibgui.engine.calibration.observations import Observation
 from calibgui.engine.calibration.result import Calibration
@@ -51,8 +50,7 @@ def photograph_parts(camera: Camera, count: int, noise: float, seed: int) -> lis
 
 def leave_profiles_out(monkeypatch: pytest.MonkeyPatch) -> None:
     """Leave uncertainties as they are before profiles are followed."""
-    module = sys.modules[calibrate.__module__]
-    monkeypatch.setattr(module, "add_profile_width", lambda estimate, *_: (estimate, ()))
+    monkeypatch.setattr(standard_deviations, "add_profile_width", lambda estimate, *_: estimate)
 
 
 def find_least_eigenvalue(matrix: Array, unit: Array) -> float:

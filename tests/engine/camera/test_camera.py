@@ -55,6 +55,10 @@ def test_its_parameters_are_its_own() -> None:
         ((640, 480), 8, "brown-conrady", "8 numbers do not make a camera"),
         ((640, 480), 5, "pinhole", "5 numbers do not make a camera"),
         ((0, 480), 9, "brown-conrady", "no image of 0 x 480"),
+        ((640.5, 480), 9, "brown-conrady", r"no image of 640\.5 x 480"),
+        ((640, float("nan")), 9, "brown-conrady", "no image of 640 x nan"),
+        ((640, 10**400), 9, "brown-conrady", "no image of 640 x 1000"),
+        ((640, 480, 3), 9, "brown-conrady", "no image of 640 x 480 x 3"),
     ],
 )
 def test_what_makes_no_camera_is_named(

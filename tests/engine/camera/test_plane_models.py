@@ -233,3 +233,53 @@ def test_the_inverse_of_a_quotient_returns_up_to_the_fold(k: Array) -> None:
     n = n[(np.linalg.det(path) > 0.05).all(axis=0)]
     back = Rational().correct(Rational().distort(n, k).points, k).points
     np.testing.assert_allclose(back, n, atol=1e-12)
+
+
+NEAR_ZERO = np.array(
+    [-13.238113, -98.012135, 0, 0, 1357.782415, -13.050801, -102.363353, 1383.055291, 0.0]
+)
+"""A published calibration: numerator and denominator both come down to 3e-4 at r = 0.293, while
+their quotient grows everywhere."""
+
+
+def test_a_quotient_of_what_is_nearly_zero_has_its_rays() -> None:
+    numerator, denominator = ([1.0, *NEAR_ZERO[places]] for places in ([0, 1, 4], [5, 6, 7]))
+    r = np.linspace(0.0, 0.45, 4001)
+    shares = [np.polynomial.polynomial.polyval(r**2, c) for c in (numerator, denominator)]
+    measured = r * shares[0] / shares[1]
+    assert (np.diff(measured) > 0).all()
+    ideal = Rational().correct(np.column_stack([measured, 0 * r]), NEAR_ZERO).points
+    np.testing.assert_allclose(ideal[:, 0], r, atol=1e-10)
+
+
+@given(
+    s=st.floats(0.02, 1.0),
+    least=st.floats(-7.0, 0.0).map(lambda power: 10**power),
+    slope=st.floats(-0.1, 0.5),
+    shifts=st.tuples(*[st.floats(-0.2, 0.2)] * 3),
+    tangential=st.tuples(*[st.floats(-2e-3, 2e-3)] * 2),
+)
+def test_a_quotient_that_grows_has_rays_everywhere(
+    s: float, least: float, slope: float, shifts: Array, tangential: Array
+) -> None:
+    """The denominator comes down to `least` at r^2 = s, and the numerator near there."""
+
+    def make_cubic(s: float, least: float, slope: float) -> Array:
+        quadratic = np.array([s * s * (1 + least), -2 * s, 1.0])
+        return np.convolve(quadratic / quadratic[0], [1.0, slope])
+
+    D = make_cubic(s, least, slope / s)
+    N = make_cubic(
+        s * (1 + shifts[0] * least**0.75), least * (1 + shifts[1]), slope / s + shifts[2]
+    )
+    r = np.linspace(0.0, 1.5 * np.sqrt(s), 20001)
+    values = [np.polynomial.polynomial.polyval(r**2, c) for c in (N, D)]
+    assume((values[1] > 0).all())
+    assume((np.diff(r * values[0] / values[1]) > 0).all())
+    k = np.array([N[1], N[2], *tangential, N[3], *D[1:], 0.0])
+    n = r[::40, None] * np.array([0.6, -0.8])
+    mapped = Rational().distort(n, k)
+    n = n[np.minimum.accumulate(np.linalg.det(mapped.by_point)) > 0]  # as far as the fold
+    back = Rational().correct(mapped.points[: len(n)], k).points
+    # Rounding of the denominator, 1e-15, is enlarged by 1 / least, and little by the slope.
+    np.testing.assert_allclose(back, n, atol=1e-14 / least + 1e-11)

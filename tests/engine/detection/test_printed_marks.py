@@ -11,10 +11,10 @@ from calibgui.engine.boards.pattern import Pattern
 from calibgui.engine.boards.puzzleboard import PuzzleBoard
 from calibgui.engine.boards.tagged_checkerboard import TaggedCheckerboard
 from calibgui.engine.camera.camera import Camera
-from calibgui.engine.detection.corners import Corners
 from calibgui.engine.detection.find_corners import find_corners
 from calibgui.engine.detection.printed_marks import look_for_marks
-from tests.engine.detection.conftest import Scene
+from calibgui.engine.features.corners import Corners
+from tests.engine.conftest import Scene
 
 _CAMERA = Camera((480, 400), [480.0, 482.0, 240.0, 200.0, 0.1, 0.02, 0.0, 1e-4, 0.0, 0.0])
 

@@ -10,8 +10,11 @@ from calibgui.engine.arrays import Array
 from calibgui.engine.boards.board import Board
 from calibgui.engine.camera.camera import Camera
 from calibgui.engine.camera.distortion import distort_points, undistort_points
+from calibgui.engine.camera.image_circle import ImageCircle
+from calibgui.engine.camera.projection import pixels_from_rays
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.geometry.pose import Pose
+from calibgui.engine.images.hidden_angles import describe_hidden_angles
 from calibgui.engine.images.rectification import rectify_image
 from calibgui.engine.images.rendering import compute_irradiance
 from calibgui.engine.images.undistortion import (
@@ -144,3 +147,46 @@ def test_an_image_of_another_size_is_refused() -> None:
 def test_an_unknown_view_is_named() -> None:
     with pytest.raises(CalibrationError, match="everything"):
         ideal_matrix(barrel(), "everything")
+
+
+def test_what_the_lens_does_not_light_is_not_shown() -> None:
+    """The fitted image ends at the circle, and one without a border lies within it."""
+    params = [520.0, 522.0, 318.0, 242.0, -0.35, 0.12, 0.0, 0.0]
+    camera = Camera((640, 480), params, "brown-conrady-4", ImageCircle(320.0, 240.0, 215.0))
+    lit = camera.lights(np.stack(np.meshgrid(np.arange(640), np.arange(480)), axis=-1))
+    photograph = np.where(lit, 200, 0).astype(np.uint8)
+    ideals = choose_ideal_cameras(camera)
+    assert describe_hidden_angles(camera, ideals).endswith(
+        "everything that the lens sees is shown."
+    )
+    fitted = undistort_image(photograph, camera).image > 100
+    assert 420 <= fitted.any(axis=1).sum() <= 480
+    assert undistort_image(photograph, camera, "no-border").image.min() > 100
+
+
+def test_a_lens_that_folds_within_its_circle_is_refused() -> None:
+    params = [300.0, 300.0, 320.0, 240.0, -0.6, 0.0, 0.0, 0.0]
+    camera = Camera((640, 480), params, "brown-conrady-4", ImageCircle(320.0, 240.0, 235.0))
+    with pytest.raises(CalibrationError, match="folds over"):
+        choose_ideal_cameras(camera)
+
+
+@pytest.mark.parametrize("view", ["all", "no-border", "same-scale"])
+@pytest.mark.parametrize("aspect", [1.33, 0.75, 1.0])
+def test_square_pixels(view: str, aspect: float) -> None:
+    """The output is stretched, and every pixel of it has the light of its own ray."""
+    camera = brown(aspect)
+    u, v = np.meshgrid(*(np.arange(side, dtype=np.float32) for side in camera.size))
+    made = undistort_image(np.stack([u, v], -1), camera, view, square_pixels=True)
+    height, width = made.image.shape[:2]
+    assert made.matrix[0, 0] == pytest.approx(made.matrix[1, 1])
+    assert (width, height) == (
+        round(640 * max(aspect, 1.0)),
+        round(480 * max(1 / aspect, 1.0)),
+    )
+    rows, columns = np.nonzero(made.valid)
+    rays = np.column_stack([columns, rows, np.ones(len(rows))]) @ np.linalg.inv(made.matrix).T
+    seen = pixels_from_rays(rays, camera)
+    inside = ((seen > 1) & (seen < np.array(camera.size) - 2)).all(axis=1)
+    assert inside.mean() > 0.9
+    np.testing.assert_allclose(made.image[rows, columns][inside], seen[inside], atol=0.1)

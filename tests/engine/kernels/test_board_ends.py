@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from calibgui.engine.detection.checkerboard import board_ends
+from calibgui.engine.lattices import board_ends
 
 
 @pytest.mark.parametrize("dtype", [np.uint8, np.uint16, np.float32])

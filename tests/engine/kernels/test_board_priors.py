@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from calibgui.engine.detection.checkerboard import board_priors
+from calibgui.engine.corner_fit import board_priors
 
 
 @pytest.mark.parametrize("noise", [0.0, 0.1, 10.0])

@@ -1,4 +1,4 @@
-"""A notice of compilation comes if a kernel has to be compiled, and only then."""
+"""Kernels are compiled in little time, and kept for the next start."""
 
 from __future__ import annotations
 
@@ -14,29 +14,8 @@ import pytest
 
 import calibgui
 from calibgui.engine import kernels
-from calibgui.engine.kernels import when_compiling
 
 numba = pytest.importorskip("numba", reason="numba is not installed")
-
-
-def test_only_a_kernel_that_is_not_kept_yet_is_announced() -> None:
-    notices: list[str] = []
-    one, other = numba.njit(lambda x: x + 1), numba.njit(lambda x: x + 2)
-    with when_compiling(lambda: notices.append("first")):
-        assert (one(1), other(1)) == (2, 3)
-    assert notices == ["first"]
-    with when_compiling(lambda: notices.append("second")):
-        assert (one(1), other(1)) == (2, 3)
-    assert numba.njit(lambda x: x + 3)(1) == 4
-    assert notices == ["first"]
-
-
-def test_without_numba_there_is_nothing_to_tell(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(kernels, "COMPILED", False)
-    notices: list[None] = []
-    with when_compiling(lambda: notices.append(None)):
-        numba.njit(lambda x: x + 1)(1)
-    assert notices == []
 
 
 def test_a_change_to_what_a_kernel_calls_in_another_file_is_noticed(tmp_path: Path) -> None:

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from calibgui.engine import kernels, opencv
-from calibgui.engine.detection.checkerboard import corner_template
+from calibgui.engine.features import corner_template
 
 
 @pytest.mark.parametrize("dtype", [np.uint8, np.int16, np.uint16, np.float32])

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from calibgui.engine import kernels
-from calibgui.engine.detection.checkerboard import edge_profiles
+from calibgui.engine.features import edge_profiles
 from tests.scenes.checkerboards import draw
 from tests.scenes.conditions import Conditions
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from calibgui.engine.detection.checkerboard import flat_squares
+from calibgui.engine.corner_fit import light_gradients
 from tests.scenes.checkerboards import draw
 from tests.scenes.conditions import Conditions
 
@@ -24,7 +24,7 @@ def test_the_same_sums(deep: bool) -> None:
     bands = np.concatenate([tangent, normal, lengths], axis=2)
     sign, side = rng.choice([-1.0, 1.0], n), rng.integers(1, 4, n)
     arguments = scene.photograph(0), uv, bands, sign, rng.normal(0, 1, (n, 6)), side
-    sum_cells = flat_squares._sum_cells
+    sum_cells = light_gradients._sum_cells
     (mine, count), (its, other) = sum_cells.kernel(*arguments), sum_cells.reference(*arguments)
     np.testing.assert_array_equal(count, other)
     assert 0 < np.count_nonzero(count == 0) < n

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from calibgui.engine.detection import grid_map
-from calibgui.engine.detection.grid_map import RadialHomography
+from calibgui.engine.lattices import grid_map
+from calibgui.engine.lattices.grid_map import RadialHomography
 
 CELLS = np.argwhere(np.ones((6, 9)))[:, ::-1].astype(np.float64)
 H = np.array([[52.0, 3.0, -210.0], [-4.0, 50.0, -130.0], [0.002, -0.012, 1.0]])

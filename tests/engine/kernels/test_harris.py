@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from calibgui.engine import kernels
-from calibgui.engine.detection.checkerboard import harris
+from calibgui.engine.features import harris
 
 
 @pytest.mark.parametrize("dtype", [np.uint8, np.uint16, np.float32])

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from calibgui.engine import kernels
-from calibgui.engine.detection.lattice import estimate_steps, predict_places
+from calibgui.engine.features.lattice import estimate_steps, predict_places
 
 
 @pytest.mark.parametrize("share", [1.0, 0.7, 0.3, 0.1])

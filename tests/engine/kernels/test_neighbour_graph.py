@@ -9,9 +9,9 @@ import pytest
 
 from calibgui.engine import kernels, opencv
 from calibgui.engine.arrays import GreyImage, Int32Array
-from calibgui.engine.detection.checkerboard import neighbour_graph, x_junctions
-from calibgui.engine.detection.checkerboard.thresholds import THRESHOLDS
 from calibgui.engine.kernels import neighbour_graph as kernel
+from calibgui.engine.lattices import neighbour_graph, x_junctions
+from calibgui.engine.lattices.x_junctions import CROSSING_TOLERANCE
 from tests.engine.kernels.conftest import make_callable
 from tests.scenes.checkerboards import draw
 from tests.scenes.conditions import Conditions
@@ -59,7 +59,7 @@ def test_the_same_neighbours_in_noise() -> None:
 
 
 def test_only_edges_that_are_seen_from_both_ends_link() -> None:
-    crossing, places = THRESHOLDS.junctions.crossing, np.array([0.3, 0.5, 0.7])
+    crossing, places = CROSSING_TOLERANCE, np.array([0.3, 0.5, 0.7])
     ends = neighbour_graph._link_neighbours(*draw_noise(), crossing, places).ravel()
     linked = np.flatnonzero(ends >= 0)
     assert 20 < len(linked) < np.count_nonzero(choose(neighbour_graph._choose_neighbours) >= 0)

@@ -41,7 +41,17 @@ RAY_CAMERAS = {
     }.items()
 }
 """Cameras that see boards in all directions."""
-COMPILED_CAMERAS = CAMERAS | RAY_CAMERAS
+QUOTIENT_CAMERAS = {
+    model: Camera((640, 480), [450, 420, 310, 250, *k], model)
+    for model, k in {
+        "rational": (0.4, -0.1, 1e-3, -2e-3, 0.02, 0.6, 0.1, 0.01, 0.03),
+        "thin-prism": (
+            *(0.4, -0.1, 1e-3, -2e-3, 0.02, 0.6, 0.1, -0.03),
+            *(2e-3, -1e-3, -3e-3, 4e-4, -0.02),
+        ),
+    }.items()
+}
+COMPILED_CAMERAS = CAMERAS | RAY_CAMERAS | QUOTIENT_CAMERAS
 
 
 def scene(model: str, weighted: bool) -> tuple[State, list[Observation]]:
@@ -68,6 +78,7 @@ def scene(model: str, weighted: bool) -> tuple[State, list[Observation]]:
 def test_the_kernels_know_these_models() -> None:
     assert kernels.POLYNOMIAL_LENSES.keys() == CAMERAS.keys()
     assert kernels.RAY_LENSES.keys() == RAY_CAMERAS.keys()
+    assert kernels.QUOTIENT_LENSES.keys() == QUOTIENT_CAMERAS.keys()
     for model, places in kernels.COMPILED_LENSES.items():
         assert len(places) == len(list_parameter_names(model))
 
@@ -87,6 +98,32 @@ def test_the_compiled_sums_are_the_readable_ones(
         ours, truth = getattr(compiled, name), getattr(readable, name)
         # Newton's last step leaves the derivatives 1e-8 from the solution, the sums less.
         np.testing.assert_allclose(ours, truth, rtol=1e-7, atol=1e-9 * np.abs(truth).max())
+
+
+@pytest.mark.parametrize("model", COMPILED_CAMERAS)
+def test_the_compiled_derivatives_are_the_readable_ones(
+    model: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    state, views = scene(model, weighted=True)
+    observations = pack_observations(views)
+    compiled = residuals.compute_image_residuals(state, observations, model)
+    monkeypatch.setattr(kernels, "COMPILED", False)
+    readable = residuals.compute_image_residuals(state, observations, model)
+    for ours, truth in zip(compiled, readable, strict=True):
+        np.testing.assert_allclose(ours, truth, rtol=1e-7, atol=1e-9 * np.abs(truth).max())
+
+
+@pytest.mark.parametrize("model", QUOTIENT_CAMERAS)
+def test_there_is_no_image_beyond_the_pole(model: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    state, views = scene(model, weighted=False)
+    params = np.array(state.params)
+    params[9:12] = -100.0, 0.0, 0.0  # D is 0 at 0.1 from the axis
+    given = state._replace(params=params), pack_observations(views), model, Cost.IMAGE
+    compiled = residuals.compute_misses(*given)
+    monkeypatch.setattr(kernels, "COMPILED", False)
+    readable = residuals.compute_misses(*given)
+    assert np.isnan(readable).any() and np.isfinite(readable).any()
+    np.testing.assert_allclose(compiled, readable)
 
 
 @pytest.mark.parametrize("model", COMPILED_CAMERAS)

@@ -51,7 +51,7 @@ def test_images_and_derivatives_are_the_readable_ones(model: str) -> None:
     image = image_kannala_brandt if model.startswith("kannala-brandt") else image_unified
     points, params = make_points(), RAY_CAMERAS[model].params
     N = points.shape[1]
-    d, G, F = np.empty((2, N)), np.empty((6, N)), np.zeros((11, 2 * N))
+    d, G, F = np.empty((2, N)), np.empty((6, N)), np.zeros((17, 2 * N))
     assert image(pack_camera(model, params).camera, points, d, G, np.empty((4, N)), F)
 
     expected = MODELS[model].project(points.T, params[4:])

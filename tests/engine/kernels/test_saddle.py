@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from calibgui.engine import kernels
-from calibgui.engine.detection.checkerboard import saddle
+from calibgui.engine.features import saddle
 from tests.scenes.checkerboards import draw
 from tests.scenes.conditions import Conditions
 

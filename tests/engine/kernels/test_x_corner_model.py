@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 from calibgui.engine import kernels
-from calibgui.engine.detection.checkerboard import corner_noise, x_corner_step
-from calibgui.engine.detection.checkerboard.x_corner_model import (
+from calibgui.engine.corner_fit import corner_noise, x_corner_step
+from calibgui.engine.corner_fit.x_corner_model import (
     EdgeSupport,
     XCornerModel,
     accumulate_normal_equations,

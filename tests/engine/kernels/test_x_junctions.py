@@ -9,7 +9,7 @@ import pytest
 
 from calibgui.engine import kernels, opencv
 from calibgui.engine.arrays import GreyImage
-from calibgui.engine.detection.checkerboard import x_junctions
+from calibgui.engine.lattices import x_junctions
 from tests.scenes.checkerboards import draw
 from tests.scenes.conditions import Conditions
 

@@ -14,7 +14,7 @@ from calibgui.engine.boards.checkerboard import checkerboard_symmetry
 from calibgui.engine.boards.pattern import Symmetry
 from calibgui.engine.calibration.calibrate import calibrate
 from calibgui.engine.calibration.observations import Observation
-from calibgui.engine.detection.corners import Corners
+from calibgui.engine.features.corners import Corners
 from calibgui.engine.redetection.labelling import (
     CornerLabels,
     apply_labels,

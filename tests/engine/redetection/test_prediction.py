@@ -10,7 +10,7 @@ import pytest
 from calibgui.engine.calibration.calibrate import calibrate
 from calibgui.engine.calibration.observations import Observation
 from calibgui.engine.calibration.result import Calibration
-from calibgui.engine.detection.checkerboard.board_priors import BoardPriors
+from calibgui.engine.corner_fit.board_priors import LatticePriors
 from calibgui.engine.redetection.prediction import resect_view
 from tests.engine import scenes
 
@@ -70,7 +70,7 @@ def test_edges_run_and_bend_as_the_camera_sees_them(calibration: Calibration) ->
         POINTS, scenes.BOARD.square
     )
     found = np.ones((scenes.BOARD.rows, scenes.BOARD.cols), dtype=np.bool_)
-    by_corners = BoardPriors(found).estimate_geometry(uv)
+    by_corners = LatticePriors(found).estimate_geometry(uv)
     np.testing.assert_allclose(steps, by_corners[0], atol=0.02)
     np.testing.assert_allclose(kappa, by_corners[1], atol=2e-5)
     assert abs(kappa).max() > 2e-4

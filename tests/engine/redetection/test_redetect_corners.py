@@ -15,9 +15,9 @@ from calibgui.engine.calibration.calibrate import calibrate
 from calibgui.engine.calibration.observations import Observation
 from calibgui.engine.calibration.result import Calibration
 from calibgui.engine.camera.camera import Camera
-from calibgui.engine.detection.corners import Corners
 from calibgui.engine.detection.find_corners import find_corners
 from calibgui.engine.errors import NoBoardError
+from calibgui.engine.features.corners import Corners
 from calibgui.engine.geometry.pose import Pose
 from calibgui.engine.images.rendering import render_view
 from calibgui.engine.redetection.redetect_corners import are_edges_bent, redetect_corners

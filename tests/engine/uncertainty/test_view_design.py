@@ -55,6 +55,10 @@ def test_the_uncertainty_of_a_board_shape_stays() -> None:
     assert doubted.compute_sigmas(twice)[1] > 0.9 * doubted.compute_sigmas(twice / 2)[1]
     falls = estimated.compute_sigmas(twice)[1] / estimated.compute_sigmas(twice / 2)[1]
     assert falls == pytest.approx(np.sqrt(0.5), abs=0.02)
+    assert affine.board_shape is not None
+    shape = affine.board_shape.scale_errors(100.0)
+    given = build_design(calibrate(views, SIZE, board_shape=shape), views)
+    assert given.compute_sigmas(twice)[1] > 0.9 * given.compute_sigmas(twice / 2)[1]
 
 
 def test_held_parameters_count_as_known() -> None:

@@ -12,7 +12,7 @@ from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
 from calibgui.engine.arrays import Array
-from calibgui.engine.detection.corners import Corners
+from calibgui.engine.features.corners import Corners
 from calibgui.gui.canvas import layers
 from calibgui.gui.canvas.canvas import Canvas
 from calibgui.gui.canvas.layers import Drawing, Layer, Marks

@@ -12,7 +12,7 @@ from PySide6.QtWidgets import QApplication
 from calibgui.app.projects.document import Document
 from calibgui.app.projects.project import Project, add_images, change_views
 from calibgui.dataset import View, ViewStatus
-from calibgui.engine.detection.corners import Corners, OtherBoard
+from calibgui.engine.features.corners import Corners, OtherBoard
 from calibgui.gui.images import image_model
 from calibgui.gui.images.film_strip import FilmStrip
 from calibgui.gui.images.image_model import Criterion

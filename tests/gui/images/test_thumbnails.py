@@ -55,8 +55,7 @@ def test_an_image_that_changed_is_shown_as_such_until_it_is_searched_again(
     shutil.copy(find_resource("sample") / "view09.png", image)
     window.files.new()
     window.files.open_project(path)
-    qtbot.waitUntil(window.banner.isVisible)
-    assert "1 of 4 images changed" in window.banner.text.text()
+    qtbot.waitUntil(lambda: "1 of 4 images changed" in window.banner.text.text())
     assert NAMES[1] in window.banner.text.text()
     assert (
         statuses(window)

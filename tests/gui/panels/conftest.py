@@ -19,7 +19,7 @@ from calibgui.dataset import Result, View, ViewStatus
 from calibgui.engine.arrays import Array
 from calibgui.engine.camera.camera import Camera
 from calibgui.engine.camera.projection import pixels_from_rays
-from calibgui.engine.detection.corners import Corners
+from calibgui.engine.features.corners import Corners
 from calibgui.engine.geometry.pose import Pose
 from calibgui.engine.geometry.rotations import rotation_from_vector
 from calibgui.engine.images.reading import Image

@@ -12,7 +12,8 @@ from PySide6.QtWidgets import QApplication, QLabel, QPushButton
 from pytestqt.qtbot import QtBot
 
 from calibgui.dataset import Result
-from calibgui.engine.errors import CalibrationError, Progress
+from calibgui.engine.errors import CalibrationError
+from calibgui.gui.jobs.job import Job
 from calibgui.gui.jobs.jobs import Jobs
 from calibgui.gui.panels.on_demand import OnDemandPanel, have_same_views
 from calibgui.gui.panels.services import Services
@@ -39,9 +40,9 @@ class CountingPanel(OnDemandPanel[int]):
     def _holds_for(self, asked: Result, result: Result) -> bool:
         return have_same_views(asked, result)
 
-    def _find(self, result: Result, progress: Progress) -> int:
+    def _find(self, result: Result, job: Job) -> int:
         while not self.may_end.wait(0.005):
-            progress(1, 2)
+            job.advance(1, 2)
         if self.fails:
             raise CalibrationError("There are few views.", "Take more.")
         return len(result.used)

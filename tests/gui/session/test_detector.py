@@ -54,10 +54,8 @@ class Search:
         stop: Event,
         size: tuple[int, int] | None,
         method: str,
-        preparing: Any = None,
         **___: Any,
     ) -> Detection:
-        self.preparing = preparing
         self.methods.append(method)
         self.grid_sizes.append(grid_size)
         self.sizes.append(size)
@@ -123,22 +121,6 @@ def test_findings_fill_in_as_they_come_and_survive_undo(
     session.document.undo()
     assert status(session) == [FOUND] * 3, "what was found is no edit"
     assert session.project.views[1].enabled
-
-
-def test_the_wait_for_the_first_use_is_explained(
-    qtbot: QtBot, session: Session, search: Search, tmp_path: Path
-) -> None:
-    detector, found = begun(session, tmp_path)
-    qtbot.waitUntil(lambda: bool(search.asked))
-    search.preparing()
-    job = session.jobs.running[0]
-    qtbot.waitUntil(lambda: job.label.startswith("Preparing the search"))
-    search.findings.put(found[0])
-    qtbot.waitUntil(lambda: job.label == "Finding corners")
-    for view in (*found[1:], None):
-        search.findings.put(view)
-    with qtbot.waitSignal(detector.finished):
-        pass
 
 
 def test_what_the_user_did_meanwhile_is_left_alone(

@@ -149,7 +149,7 @@ def test_unsaved_work_is_offered_and_recovered(
     window.files.open_project(path)
     qtbot.waitUntil(lambda: len(window.banner.buttons) == 2)
     assert len(window.session.project.views) == 7
-    assert "ended without saving" in window.banner.text.text()
+    assert f"ended without saving {path}." in window.banner.text.text()
     window.banner.buttons[0].click()
     qtbot.waitUntil(lambda: len(window.session.project.views) == 8)
     assert window.session.document.path == path

@@ -13,7 +13,7 @@ from PySide6.QtWidgets import QApplication, QComboBox
 from pytestqt.qtbot import QtBot
 
 from calibgui.app.projects.document import Document
-from calibgui.app.projects.project import Project, change_views, set_grid_size
+from calibgui.app.projects.project import change_views, set_grid_size
 from calibgui.app.projects.project_file import read_project, write_project
 from calibgui.dataset import ViewStatus
 from calibgui.engine.boards import KINDS
@@ -241,17 +241,9 @@ def test_the_shortcut_calibrates_with_the_size_that_was_typed(
     qtbot.waitUntil(lambda: not full.session.jobs.running, timeout=60_000)
 
 
-def test_marking_by_hand_is_remembered_for_new_projects(
-    session: Session, panel: BoardPanel
-) -> None:
-    assert not session.project.by_hand
+def test_marking_by_hand_is_for_one_project(session: Session, panel: BoardPanel) -> None:
+    """Photographs that are dropped on a new one are searched, whatever the last one was."""
     panel.by_hand.click()
+    assert session.project.by_hand and panel.by_hand.isChecked()
     session.begin(make_empty_document())
-    assert panel.by_hand.isChecked()
-    # A project from a file has a choice of its own, which is not the user's for new ones.
-    session.begin(Document(Project(by_hand=False)))
-    assert not panel.by_hand.isChecked()
-    assert make_empty_document().project.by_hand
-    panel.by_hand.click()
-    session.document.undo()
-    assert not make_empty_document().project.by_hand
+    assert not session.project.by_hand and not panel.by_hand.isChecked()

@@ -157,8 +157,9 @@ def test_every_setting_is_in_the_panel_and_none_disturbs_another(full: MainWindo
         robust=True,
         weigh_views=True,
         once=True,
+        improve=True,
     )
-    changed = {f.name for f in fields(Settings)} - {"cost", "model", "method"}
+    changed = {f.name for f in fields(Settings)} - {"cost", "model", "candidates", "method"}
     assert all(getattr(everything, name) != getattr(Settings(), name) for name in changed)
     session.edit("Settings", lambda p: replace(p, settings=everything))
     panel.robust.click()
@@ -192,6 +193,8 @@ def test_the_boards_shape_is_a_setting(
 ) -> None:
     panel, session = full.settings, full.session
     choice = panel.board_shape
+    assert choice.known.isEnabled() and not choice.in_plane.isEnabled()
+    choose(choice.model, "bowed")
     assert not choice.known.isEnabled()
     choose(choice.model, "free")
     assert session.project.settings.board_shape is BoardShapeModel.FREE
@@ -250,8 +253,8 @@ def test_outliers_left_out_are_seen_in_the_images_and_undone(
     qtbot.mouseClick(full.settings.robust, LEFT, pos=QPoint(8, full.settings.robust.height() // 2))
     assert session.project.settings.robust
     qtbot.mouseClick(full.calibrate, LEFT)
-    qtbot.waitUntil(lambda: len(session.project.results) == 3, timeout=30_000)
-    assert session.result is not None
+    qtbot.waitUntil(lambda: not full.calibrator.running, timeout=30_000)
+    assert session.result is not None and len(session.project.results) == 3
     assert any("1.png loses 1 corner" in text for text in session.result.calibration.warnings)
     assert session.project.is_current(session.result)
     assert full.images.list.model().index(1, 0).data(Role.STATUS) == "41 of 42 corners"

@@ -52,7 +52,10 @@ def test_tags_are_stated(session: Session, tmp_path: Path) -> None:
     choice.spacing.selectAll()
     QTest.keyClicks(choice.spacing, "0.25\r")
     _choose(choice.corner_squares, False)
-    stated = AprilGrid("t25h9", 0.25, 1, True, False)
+    choice.first_tag.setFocus()
+    choice.first_tag.selectAll()
+    QTest.keyClicks(choice.first_tag, "12\r")
+    stated = AprilGrid("t25h9", 0.25, 1, True, False, 12)
     assert session.project.pattern == stated
     write_project(session.project, tmp_path / "project.json")
     assert read_project(tmp_path / "project.json").pattern == stated
@@ -71,6 +74,6 @@ def test_tags_are_counted_for_the_printer(qapp: QApplication) -> None:
     assert (dialog.rows.value(), dialog.cols.value()) == (4, 3)
     assert dialog.counted.text() == "Tags"
     sheet = dialog.make_sheet()
-    assert "AprilGrid of 4 × 3 tags" in sheet.text
-    assert "tags of 30 mm" in sheet.text
+    assert "AprilGrid of 4 × 3 tags" in sheet.lines[1]
+    assert "tags of 30 mm" in sheet.lines[1]
     dialog.deleteLater()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
 from dataclasses import replace
 from types import MappingProxyType
@@ -14,12 +15,14 @@ from pytestqt.qtbot import QtBot
 
 from calibgui.app.calibrating.calibration import calibrate_views
 from calibgui.app.calibrating.settings import Settings
+from calibgui.app.calibrating.true_board import GLASS
 from calibgui.app.projects.document import Document
+from calibgui.app.projects.lengths import confirm_lengths
 from calibgui.app.projects.project import Project, record_result
 from calibgui.dataset import CornerSet, View, ViewStatus
 from calibgui.engine.boards.board import Board
 from calibgui.engine.camera.camera import Camera
-from calibgui.engine.detection.corners import Corners
+from calibgui.engine.features.corners import Corners
 from calibgui.gui.verdict.before_after import BeforeAndAfter
 from calibgui.gui.window.main_window import MainWindow
 from tests.engine import scenes
@@ -53,11 +56,17 @@ def photograph(
 
 
 def make_project(
-    views: tuple[View, ...], model: str = "brown-conrady", size: tuple[int, int] = CAMERA.size
+    views: tuple[View, ...],
+    model: str = "brown-conrady",
+    size: tuple[int, int] = CAMERA.size,
+    *,
+    lengths_confirmed: bool = True,
 ) -> Project:
     """A project of these views with their calibration."""
     settings = Settings(model=model)
-    project = Project(views=views, size=size, settings=settings, lengths_confirmed=True)
+    project = Project(
+        views=views, size=size, settings=settings, lengths_confirmed=lengths_confirmed
+    )
     result = calibrate_views(CornerSet(size, views, BOARD), settings)
     return record_result(
         replace(project, results=MappingProxyType({})), "Calibration 1", views, result
@@ -161,3 +170,50 @@ def test_look_at_shows_the_view(window: MainWindow, qtbot: QtBot) -> None:
     qtbot.mouseClick(bar.button, LEFT)
     assert window.session.image == views[0].image and window.session.project is project
     qtbot.waitUntil(lambda: not window.session.jobs.running, timeout=60_000)
+
+
+def test_a_board_of_glass_is_offered_once_lengths_hold_and_stated_in_one_edit(
+    window: MainWindow, qtbot: QtBot
+) -> None:
+    camera = scenes.barrel()
+    project = make_project(photograph(camera, 12), size=camera.size, lengths_confirmed=False)
+    begin(window, qtbot, project)
+    bar, session, panel = window.verdict, window.session, window.settings.board_shape
+    assert not bar.unfold.isVisible() and bar.findings.glass is None
+    session.edit("Confirm", confirm_lengths)
+    qtbot.waitUntil(lambda: not session.jobs.running, timeout=60_000)
+    before = session.result
+    assert before is not None and not before.condition
+    assert bar.unfold.text() == "Is it &glass?" and panel.prior is None
+    qtbot.mouseClick(bar.unfold, LEFT)
+    row = bar.findings.glass
+    assert row is not None and row.what.isVisible()
+    assert row.what.text().startswith(
+        "If the board is of glass, printed true to 0.002 mm and flat to 0.01 mm: "
+    )
+    promised = re.findall(r"(\w+) ± ([.\d]+)", row.what.text())
+    confirmed = session.project
+    qtbot.mouseClick(row.button, LEFT)
+    qtbot.waitUntil(
+        lambda: (
+            bar.comparison is not None and bar.comparison.isVisible() and not session.jobs.running
+        ),
+        timeout=60_000,
+    )
+    after = session.result
+    assert after is not None and after.calibration.settings.prior == GLASS
+    names, sigma = after.calibration.camera.names, after.calibration.sigma
+    assert {"cx", "cy"} <= dict(promised).keys()
+    for name, stated in promised:
+        found = sigma[names.index(name)]
+        assert found == pytest.approx(float(stated), rel=0.05)
+        assert found < 0.5 * before.calibration.sigma[names.index(name)]
+    assert bar.findings.glass is None  # it is done
+    assert session.project.settings.prior == panel.prior == GLASS
+    assert session.document.undo_label == "State a board of glass"
+    window.settings.robust.click()  # another setting keeps it
+    assert session.project.settings.prior == GLASS
+    session.document.undo()
+    session.document.undo()
+    assert session.project is confirmed and panel.prior is None
+    qtbot.waitUntil(lambda: not session.jobs.running, timeout=60_000)

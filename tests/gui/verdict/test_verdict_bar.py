@@ -17,12 +17,14 @@ from pytestqt.qtbot import QtBot
 from calibgui.app.calibrating.calibration import calibrate_views
 from calibgui.app.calibrating.settings import Settings
 from calibgui.app.projects.document import Document
-from calibgui.app.projects.project import Project, record_result
-from calibgui.dataset import CornerSet, View, ViewStatus
+from calibgui.app.projects.project import Project, change_views, record_result
+from calibgui.app.projects.project_file import read_project, write_project
+from calibgui.dataset import CornerSet, View, ViewStatus, judging
 from calibgui.engine.assessment import Cause, Grade
 from calibgui.engine.boards import AprilGrid, Circles, Pattern
 from calibgui.engine.numbers import format_two_digits
 from calibgui.gui.dialogs.export_dialog import ExportDialog
+from calibgui.gui.panels.answer.result import ResultPanel
 from calibgui.gui.panels.evidence.coverage import CoveragePanel
 from calibgui.gui.panels.evidence.residuals import ResidualsPanel
 from calibgui.gui.verdict.before_after import BeforeAndAfter
@@ -67,6 +69,23 @@ def open_project(window: MainWindow, qtbot: QtBot) -> Open:
     return begin
 
 
+def test_a_verdict_that_a_search_for_a_better_camera_found_reaches_the_panels(
+    window: MainWindow, qtbot: QtBot, plain: Project
+) -> None:
+    """The search judges the shown result itself, and ends where there is nothing to mend."""
+    window.verdict.show_running(True)
+    window.session.begin(Document(plain))
+    words = window.need_analysis().show_panel(ResultPanel).words
+    qtbot.waitUntil(lambda: "is being found out" in words.toPlainText())
+    result = window.session.result
+    assert result is not None
+    assert window.verdict.verdict is None
+    judging.judge_result(result)
+    window.verdict.show_running(False)
+    qtbot.waitUntil(lambda: "is being found out" not in words.toPlainText(), timeout=30_000)
+    assert f"{len(result.used)} views" in words.toPlainText()
+
+
 def displace(project: Project, change: Callable[[int, Any], Any]) -> Project:
     """The project with the corners of its views k elsewhere."""
 
@@ -99,7 +118,7 @@ def test_a_sound_result_has_its_figures_and_no_findings(
 ) -> None:
     bar = open_project(calibrated(plain))
     verdict = bar.verdict
-    assert verdict is not None and bar.mark.grade is verdict.grade
+    assert verdict is not None and bar.icon.grade is verdict.grade
     assert bar.headline.text() in ("GOOD", "USABLE")
     edge, worst = map(format_two_digits, (verdict.error.edge, verdict.error.worst))
     assert f"edge {edge}, worst {worst} px" in bar.figures.text()
@@ -275,6 +294,7 @@ def test_the_length_of_squares_is_asked_until_it_is_confirmed(
     assert row.confirm.text() == "Confirm 30 mm"
     assert "if squares are 30 mm" in bar.figures.text()
     verdict = bar.verdict
+    assert verdict is not None
     qtbot.mouseClick(row.confirm, LEFT)
     assert "Lengths hold" in row.counted.text() and "if squares" not in bar.figures.text()
     assert "confirmed already" in row.confirm.toolTip() and not row.confirm.isEnabled()
@@ -285,13 +305,54 @@ def test_the_length_of_squares_is_asked_until_it_is_confirmed(
     assert row.confirm.text() == "Confirm 25 mm"
     qtbot.mouseClick(row.confirm, LEFT)
     assert window.session.project.square == 25.0 and window.session.project.lengths_confirmed
-    assert "Out of date" in bar.reason.text()
-    qtbot.waitUntil(
-        lambda: not window.calibrator.running and not window.session.jobs.running, timeout=60_000
-    )
-    assert "Out of date" not in bar.reason.text()  # it was calibrated anew at once
+    assert bar.verdict is not None and "Out of date" not in bar.reason.text()
+    assert not window.calibrator.running, "a length scales, it calibrates nothing anew"
     result = window.session.result
     assert result is not None and result.board is not None and result.board.square == 25.0
+    assert bar.verdict.distance == pytest.approx(verdict.distance * 25 / 30)
+    assert f"{bar.verdict.distance:.0f} mm away" in bar.figures.text()
+
+
+def test_the_last_verdict_stays_dimmed_until_there_is_another(
+    plain: Project, open_project: Open, window: MainWindow, qtbot: QtBot
+) -> None:
+    bar = open_project(calibrated(plain))
+    headline, icon, judged = bar.headline.text(), bar.icon.grade, bar.verdict
+    first = plain.views[0].image
+    window.session.select(first)
+    others = change_views(window.session.project, [first], lambda v: replace(v, enabled=False))
+    corner_set = CornerSet(examples.CAMERA.size, others.views, others.board)
+    result = calibrate_views(corner_set, others.settings)
+    window.session.edit("Leave out", lambda _: others)
+    assert bar.verdict is judged
+    window.session.edit("Calibrate", lambda p: record_result(p, "new", others.views, result))
+    assert bar.verdict is None, "it is being found out"
+    assert bar.headline.text() == headline and bar.icon.grade is icon
+    assert bar.reason.text().startswith("Of 6 photographs.")
+    assert f"Now: {describe_fit(result)}" in bar.figures.text()
+    assert not bar.button.isVisible() and not bar.unfold.isVisible()
+    qtbot.waitUntil(lambda: bar.verdict is not None, timeout=60_000)
+    assert not bar.reason.text().startswith("Of 6") and "Now:" not in bar.figures.text()
+    window.session.begin(Document(replace(plain, results={})))
+    assert bar.headline.text() == "NOT CALIBRATED", "another project has no old verdict"
+
+
+def test_a_project_that_is_opened_again_is_not_judged_again(
+    plain: Project,
+    open_project: Open,
+    window: MainWindow,
+    qtbot: QtBot,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    verdict = open_project(calibrated(plain)).verdict
+    write_project(window.session.project, tmp_path / "project.json")
+    monkeypatch.setattr(judging, "judge_calibration", lambda *_: pytest.fail("judged anew"))
+    again = read_project(tmp_path / "project.json")
+    window.session.begin(Document(again))
+    assert window.verdict.verdict == verdict and not window.verdict.headline.text().isspace()
+    qtbot.waitUntil(lambda: not window.session.jobs.running)
+    assert window.verdict.verdict == verdict
 
 
 @pytest.mark.parametrize(

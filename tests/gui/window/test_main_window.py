@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from importlib.util import find_spec
+from pathlib import Path
 
 import pytest
 from PySide6.QtCore import Qt
@@ -10,11 +11,13 @@ from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
 from calibgui.app.projects.project import remove_result
+from calibgui.app.projects.project_file import write_project
 from calibgui.gui.panels.evidence.coverage import CoveragePanel
 from calibgui.gui.panels.panel import Panel
 from calibgui.gui.window import main_window
 from calibgui.gui.window.main_window import MainWindow
 from calibgui.gui.window.menus import Menus
+from tests.app import examples
 
 
 def test_every_module_that_is_imported_soon_exists() -> None:
@@ -82,3 +85,46 @@ def test_an_edit_and_its_undo_refresh_the_menus_once_each(
     assert full.session.result_name != name and len(times) == 1
     document.undo()
     assert full.session.result_name == name and len(times) == 2
+
+
+@pytest.mark.parametrize("are_kept", [False, True])
+def test_kernels_that_are_not_kept_are_compiled_while_the_window_can_be_used(
+    are_kept: bool, window: MainWindow, qtbot: QtBot, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    asked: list[str] = []
+    monkeypatch.setattr(main_window, "_load_ahead", lambda: are_kept)
+    monkeypatch.setattr(main_window, "compile_kernels", lambda *_: asked.append("compile"))
+    loaded: list[None] = []
+    monkeypatch.setattr(main_window.gc, "freeze", lambda: loaded.append(None))
+    window.prepare()
+    qtbot.waitUntil(lambda: bool(loaded) and not window.session.jobs.running)
+    assert asked == ([] if are_kept else ["compile"])
+
+
+def test_a_photograph_that_is_gone_says_so_where_it_would_be(
+    full: MainWindow, qtbot: QtBot
+) -> None:
+    full.session.select(full.session.project.views[1].image)
+    qtbot.waitUntil(full.page.reason.isVisible)
+    assert "1.png cannot be read: No such file" in full.page.reason.text()
+
+
+def test_a_project_among_other_files_is_said_to_be_opened_alone(
+    window: MainWindow, qtbot: QtBot, tmp_path: Path
+) -> None:
+    write_project(examples.calibrated(tmp_path), tmp_path / "p.json")
+    window.files.open_paths([str(tmp_path / "p.json"), *(f"{k}.png" for k in range(9))])
+    told = "Only the project p.json is opened, without the 9 other files."
+    assert window.banner.text.text() == told
+    qtbot.waitUntil(lambda: bool(window.session.project.views))
+    qtbot.waitUntil(lambda: not window.session.jobs.running)
+
+
+def test_a_project_that_takes_long_to_open_is_said_to_be_opened(
+    window: MainWindow, qtbot: QtBot, tmp_path: Path
+) -> None:
+    write_project(examples.calibrated(tmp_path), tmp_path / "p.json")
+    window.files.open_project(tmp_path / "p.json")
+    assert window.banner.isVisible() and window.banner.text.text() == "Opening p.json…"
+    qtbot.waitUntil(lambda: not window.session.jobs.running)
+    assert window.banner.text.text() != "Opening p.json…"

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 from threading import Event
+from typing import Any
 
 import numpy as np
 import pytest
@@ -14,12 +15,13 @@ from pytestqt.qtbot import QtBot
 
 from calibgui.app.calibrating.settings import DEFAULT_SETTINGS
 from calibgui.app.photographs.board_recognition import find_other_pattern
-from calibgui.app.photographs.detection import find_views
+from calibgui.app.photographs.detection import Detection, find_views
 from calibgui.app.photographs.paths import find_images
 from calibgui.app.projects.document import Document
 from calibgui.app.projects.project import Project, add_images, set_grid_size, set_pattern
 from calibgui.app.system.workers import do_tasks_here
 from calibgui.dataset import View, ViewStatus
+from calibgui.engine.boards.april_grid import AprilGrid
 from calibgui.engine.boards.board import Board
 from calibgui.engine.boards.charuco import Charuco
 from calibgui.engine.boards.checkerboard import CHECKERBOARD
@@ -34,7 +36,7 @@ from calibgui.gui.window import offers
 from calibgui.gui.window.main_window import MainWindow
 from tests import photographs as tests_photographs
 from tests.app import examples
-from tests.engine.detection.conftest import Scene
+from tests.engine.conftest import Scene
 
 pytestmark = pytest.mark.slow
 
@@ -84,6 +86,7 @@ def test_an_offer_ends_with_its_project(window: MainWindow, tmp_path: Path) -> N
 
 def test_an_offer_of_another_board_ends_when_another_is_chosen(window: MainWindow) -> None:
     """It would offer what is searched for already, or over what was found with undo."""
+    window.session.edit("Pattern", lambda project: set_pattern(project, AprilGrid()))
     window.offers._offer_another(offers._OtherBoard(Charuco()))
     assert "ChArUco" in window.banner.text.text() and window.banner.isVisible()
     window.session.edit("Square", lambda project: replace(project, square=12.0))
@@ -127,42 +130,66 @@ def test_an_offer_of_folders_ends_when_others_are_opened(
     assert not window.banner.isVisible()
 
 
-def test_circles_are_searched_for_with_one_click(
-    window: MainWindow, qtbot: QtBot, tmp_path: Path
+@pytest.mark.parametrize(
+    ("pattern", "grid_size", "told"),
+    [
+        (CIRCLES, (7, 9), "These look like photographs of a grid of circles."),
+        (
+            Charuco("DICT_4X4_50", 0.6, legacy=False),
+            (6, 8),
+            "These look like photographs of a ChArUco board.",
+        ),
+    ],
+    ids=["circles", "charuco"],
+)
+def test_a_board_of_another_kind_is_taken_as_one_where_none_was_stated(
+    window: MainWindow,
+    qtbot: QtBot,
+    tmp_path: Path,
+    pattern: Pattern,
+    grid_size: tuple[int, int],
+    told: str,
 ) -> None:
-    photographs(tmp_path, CIRCLES, (7, 9), count=4)
-    window.session.begin(Document(Project(settings=DEFAULT_SETTINGS)))  # compares no lens models
+    """As the command line does it. Who takes it back is asked the next time."""
+    session = window.session
+    photographs(tmp_path, pattern, grid_size, count=4)
+    session.begin(Document(Project(settings=DEFAULT_SETTINGS)))  # compares no lens models
     window.files.open_paths([str(tmp_path)])
-    qtbot.waitUntil(lambda: len(window.banner.buttons) == 1, timeout=60_000)
-    assert {v.status for v in window.session.project.views} == {ViewStatus.NO_BOARD}
-    assert window.banner.text.text() == "These look like photographs of a grid of circles."
-    qtbot.mouseClick(window.banner.buttons[0], Qt.MouseButton.LeftButton)
-    qtbot.waitUntil(lambda: window.session.result is not None, timeout=60_000)
-    assert {v.status for v in window.session.project.views} == {ViewStatus.FOUND}
-    qtbot.waitUntil(lambda: not window.session.jobs.running, timeout=60_000)
-    window.session.document.undo()
-    window.session.document.undo()
-    assert window.session.project.pattern == CHECKERBOARD
+    qtbot.waitUntil(lambda: isinstance(session.project.pattern, type(pattern)), timeout=60_000)
+    assert window.banner.text.text() == f"{told} Undo goes back."
+    qtbot.waitUntil(lambda: session.result is not None, timeout=60_000)
+    qtbot.waitUntil(lambda: not session.jobs.running, timeout=60_000)
+    assert {view.status for view in session.project.views} == {ViewStatus.FOUND}
+    assert session.result is not None and session.result.board is not None
+    assert isinstance(session.result.board.pattern, type(pattern))
+    assert len(session.project.results) == 1, "none from corners that were another board's"
+    session.document.undo()
+    session.document.undo()
+    assert session.project.pattern == CHECKERBOARD
+    window.offers._offer_another(offers._OtherBoard(pattern))
+    assert session.project.pattern == CHECKERBOARD and window.banner.buttons
 
 
-def test_marks_on_a_board_that_was_found_as_a_plain_one_are_told(
-    window: MainWindow, qtbot: QtBot, tmp_path: Path
+def test_marks_are_looked_for_on_the_first_board_that_is_found(
+    window: MainWindow, qtbot: QtBot, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    photographs(tmp_path, Charuco("DICT_4X4_50", 0.6, legacy=False), (6, 8), count=4)
-    window.session.begin(Document(Project(settings=DEFAULT_SETTINGS)))
-    window.files.open_paths([str(tmp_path)])
-    told = "These look like photographs of a ChArUco board."
-    qtbot.waitUntil(lambda: window.banner.text.text() == told, timeout=60_000)
-    assert {v.status for v in window.session.project.views} == {ViewStatus.FOUND}
-    qtbot.mouseClick(window.banner.buttons[0], Qt.MouseButton.LeftButton)
-    qtbot.waitUntil(lambda: isinstance(window.session.project.pattern, Charuco), timeout=60_000)
-    qtbot.waitUntil(lambda: not window.session.jobs.running, timeout=60_000)
-    corners = [v.corners for v in window.session.project.views]
-    assert all(c is not None and c.pattern.identifies_points for c in corners)
-    result = window.session.result
-    assert result is not None and result.board is not None
-    assert isinstance(result.board.pattern, Charuco), "it is calibrated anew as well"
-    assert not window.banner.isVisible()
+    """Not only when a plain board was searched in all photographs, and a camera fitted to it."""
+    looks: list[int] = []
+    found, may_end = examples.views(tmp_path)[:2], Event()
+
+    def search(*arguments: Any, **_: Any) -> Detection:
+        arguments[3](1, 2, found[0])
+        may_end.wait(20)
+        return Detection(found, (200, 150))
+
+    monkeypatch.setattr(offers, "recognise_pattern", lambda views: looks.append(len(views)))
+    monkeypatch.setattr("calibgui.gui.session.detector.find_views", search)
+    window.session.edit("Add", lambda p: add_images(p, [view.image for view in found]))
+    window.detector.search()
+    qtbot.waitUntil(lambda: looks == [1], timeout=20_000)
+    assert window.detector.running
+    may_end.set()
+    qtbot.waitUntil(lambda: not window.session.jobs.running, timeout=20_000)
 
 
 def test_boards_are_looked_at_for_marks_once(
@@ -217,9 +244,10 @@ def test_a_wrong_size_is_told_from_the_images(
 def test_the_look_for_another_board_ends_with_its_question(
     window: MainWindow, qtbot: QtBot, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    ended = Event()
+    begun, ended = Event(), Event()
 
     def look(_: object, __: object, stop: Event) -> None:
+        begun.set()
         stop.wait(60)
         ended.set()
         raise Cancelled
@@ -230,6 +258,7 @@ def test_the_look_for_another_board_ends_with_its_question(
     window.detector.finished.emit(True)
     labels = [job.label for job in window.session.jobs.running]
     assert "Looking for another kind of board" in labels
+    qtbot.waitUntil(begun.is_set)
     window.session.document.undo()
     qtbot.waitUntil(ended.is_set, timeout=2_000)
     qtbot.waitUntil(lambda: not window.session.jobs.running)
@@ -254,7 +283,9 @@ def test_a_failure_waits_for_the_look_that_may_explain_it(
     monkeypatch.setattr(offers, "find_other_pattern", look)
     monkeypatch.setattr(offers, "find_mirrored_pattern", lambda *_: None)
     blank = [View(str(tmp_path / "blank.png"), ViewStatus.NO_BOARD, "No board.")]
-    window.session.edit("Add", lambda project: replace(project, views=tuple(blank)))
+    window.session.edit(
+        "Add", lambda project: replace(project, views=tuple(blank), pattern=AprilGrid())
+    )
     window.detector.finished.emit(True)
     window.session.failed.emit(CalibrationError("None can be used.", "Take others."))
     assert not window.banner.isVisible()

@@ -9,7 +9,7 @@ from typing import Any
 
 import pytest
 from PySide6.QtCore import Qt
-from PySide6.QtGui import QPaintEvent
+from PySide6.QtGui import QAction, QKeySequence, QPaintEvent
 from PySide6.QtWidgets import QVBoxLayout, QWidget
 from pytestqt.qtbot import QtBot
 
@@ -57,57 +57,70 @@ def test_a_job_has_nothing_painted_before_what_starts_it_ends(qtbot: QtBot) -> N
     jobs.close()
 
 
-def test_one_button_ends_a_search(
+def test_a_search_is_ended_where_its_progress_is_told(
     window: MainWindow, qtbot: QtBot, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """Stop and Cancel would do the same while a calibration waits for the search."""
+    """Calibrate stays what it is: who presses it twice ends nothing."""
 
     def search(*arguments: Any, **_: Any) -> Detection:
         arguments[4].wait(60)
         return Detection((), None)
 
     monkeypatch.setattr("calibgui.gui.session.detector.find_views", search)
-    cancel = window.inspector.findChildren(Progress)[0].cancel
+    cancel = window.progress.cancel
     project = examples.calibrated(tmp_path)
     waiting = tuple(replace(v, status=ViewStatus.WAITING, corners=None) for v in project.views)
     window.session.begin(Document(replace(project, views=waiting, results={})))
     window.detector.search()
     qtbot.waitUntil(cancel.isVisible)
-    place = cancel.geometry()
-    qtbot.mouseClick(window.calibrate, Qt.MouseButton.LeftButton)
-    qtbot.waitUntil(lambda: not cancel.isVisible())
-    assert (
-        window.calibrate.text() == "&Stop" and "what has been found" in window.calibrate.toolTip()
-    )
-    assert cancel.geometry() == place
-    qtbot.mouseClick(window.calibrate, Qt.MouseButton.LeftButton)
+    for _ in range(2):
+        qtbot.mouseClick(window.calibrate, Qt.MouseButton.LeftButton)
+    qtbot.wait(50)
+    assert window.detector.running and window.calibrator.running
+    assert window.calibrate.text() == "C&alibrate" and not window.calibrate.isEnabled()
+    qtbot.mouseClick(cancel, Qt.MouseButton.LeftButton)
     qtbot.waitUntil(lambda: not window.session.jobs.running)
     assert "search was stopped" in window.banner.text.text() and window.banner.isVisible()
     qtbot.mouseClick(window.calibrate, Qt.MouseButton.LeftButton)
     qtbot.waitUntil(lambda: window.detector.running)
     assert not window.banner.isVisible(), "it goes on"
-    qtbot.mouseClick(window.calibrate, Qt.MouseButton.LeftButton)
+    stop = next(act for act in window.findChildren(QAction) if act.text() == "S&top")
+    assert stop.shortcut() == QKeySequence("Shift+F9")
+    stop.trigger()
     qtbot.waitUntil(lambda: not window.session.jobs.running)
-    job = window.session.jobs.start("Working", lambda job: job.cancelling.wait(60))
-    qtbot.waitUntil(cancel.isVisible)
-    job.cancel()
 
 
 def test_the_longest_words_about_a_job_have_room(window: MainWindow, qtbot: QtBot) -> None:
     progress, jobs = window.inspector.findChildren(Progress)[0], window.session.jobs
     window.resize(1120, 760)
     go_on = Event()
-    preparing = "Preparing the search (once, about 35 s)…"
+    compiling = "Compiling for speed, once"
 
     def work(job: Job) -> None:
         job.advance(3, 12)
-        job.rename(preparing)
+        job.rename(compiling)
         go_on.wait(20)
 
     jobs.start("Comparing lens models", work)
-    qtbot.waitUntil(lambda: progress.label.text() == preparing)  # of which 3 are not finished
-    for words in (preparing, "Comparing lens models: 3 of 12, 35 s left"):
+    qtbot.waitUntil(lambda: progress.label.text() == compiling)  # of which 3 are not finished
+    for words in (f"{compiling}: 3 of 7, 35 s left", "Comparing lens models: 3 of 12, 35 s left"):
         assert progress.label.fontMetrics().horizontalAdvance(words) <= progress.label.width()
     assert progress.height() <= window.calibrate.height()
+    go_on.set()
+    qtbot.waitUntil(lambda: not jobs.running)
+
+
+def test_what_the_user_works_on_is_told_before_what_is_compiled(
+    window: MainWindow, qtbot: QtBot
+) -> None:
+    progress, jobs = window.inspector.findChildren(Progress)[0], window.session.jobs
+    go_on = Event()
+    jobs.start("Compiling", lambda _: go_on.wait(20), is_about_document=False)
+    qtbot.waitUntil(lambda: progress.label.text() == "Compiling")
+    job = jobs.start("Searching", lambda _: go_on.wait(20))
+    qtbot.waitUntil(lambda: progress.label.text() == "Searching")
+    window.session.begin(window.session.document)
+    assert [each.label for each in jobs.running if not each.cancelled] == ["Compiling"]
+    assert job.cancelled
     go_on.set()
     qtbot.waitUntil(lambda: not jobs.running)

@@ -5,17 +5,15 @@ like both. So no test speaks for itself. The causes are asked in an order in whi
 without those behind it, and what one explains is taken out before the next is asked:
 
 1. **What is given** (``input_errors.py``): corners of another frame or image size, values that are
-   held and wrong, two pictures in one photograph (``side_by_side.py``), corners that are not where
-   the others say. The latter are left out, and all that follows is asked of what is left.
+   held and wrong, two pictures in one photograph (``two_pictures.py``), photographs that are turned
+   against the others (``turned_views.py``), corners that are not where the others say. The latter
+   are left out, and all that follows is asked of what is left.
 2. **Number of views.** Two or three views show nothing but that they are too few, if pixels are
-   poorly known or if lens and board would explain the same residuals. Nor do views so much alike
-   that the noise alone leaves pixels poorly known. Where corners cover a small part of the image
-   and pixels are known well there, this is what is wrong.
+   poorly known. Nor do views so much alike that the noise alone leaves pixels poorly known. Where
+   pixels are known well among corners, these cover too small a part of the image.
 3. **Residuals that are not noise** (``cause_choice.py``), which have one cause.
-4. **Views** that are too much alike, or that disagree for no cause that is known.
-
 A finding is of use only if the answer depends on it: each has the harm that its cause does to
-pixels (``harm.py``).
+pixels (``case.py``).
 """
 
 from __future__ import annotations
@@ -25,36 +23,33 @@ from dataclasses import replace
 
 import numpy as np
 
+from calibgui.engine.assessment.action import Action, ActionKind
+from calibgui.engine.assessment.causes.case import Case, prepare_case
 from calibgui.engine.assessment.causes.cause_choice import (
     MIN_SHARE_OF_KINDS,
-    MIN_VIEWS_TO_JUDGE,
-    describe_disagreement,
+    MIN_SHARE_OF_RIVAL,
     explain_most,
-    find_largest_share,
-    find_split,
     find_systematic_cause,
     list_names,
 )
-from calibgui.engine.assessment.causes.finding import (
-    MIN_HARM_PX,
-    REMEDY_OF_FEW_VIEWS,
-    Action,
-    ActionKind,
-    Cause,
-    Finding,
-    describe_harm,
-    describe_narrow_views,
-)
-from calibgui.engine.assessment.causes.harm import Case, prepare_case
 from calibgui.engine.assessment.causes.input_errors import (
     describe_misplaced_corners,
     find_wrong_frame,
     find_wrong_values,
     screen_misplaced_corners,
 )
-from calibgui.engine.assessment.causes.rival_lens import fit_rival
-from calibgui.engine.assessment.causes.side_by_side import TwoPictures, find_two_pictures
-from calibgui.engine.assessment.residuals.outliers import Screening, select_corners
+from calibgui.engine.assessment.causes.turned_views import TurnedViews, find_turned_views
+from calibgui.engine.assessment.causes.two_pictures import TwoPictures, find_two_pictures
+from calibgui.engine.assessment.finding import (
+    MIN_VIEWS_TO_JUDGE,
+    REMEDY_OF_FEW_VIEWS,
+    Cause,
+    Finding,
+    describe_harm,
+    describe_narrow_views,
+)
+from calibgui.engine.assessment.residuals.outliers import Screening
+from calibgui.engine.assessment.residuals.residual_causes import Family, list_tests
 from calibgui.engine.calibration.calibrate import calibrate
 from calibgui.engine.calibration.observations import Observation, name_views
 from calibgui.engine.calibration.problem import recover_image_arguments
@@ -65,35 +60,21 @@ from calibgui.engine.errors import CalibrationError
 from calibgui.engine.numbers import format_two_digits
 from calibgui.engine.threads import with_one_blas_thread
 
+_MAX_POOR_PX = 1.0
+"""Uncertainty of a pixel, median over the image, above which the views are too few, px. A choice,
+as what makes a calibration unusable (``verdict.py``)."""
 _MAX_WORST_PX = 0.5
 """Uncertainty of the worst pixel of the image above which fewer than `MIN_VIEWS_TO_JUDGE` views
 are too few, px."""
-_MAX_POOR_PX = 1.0
-"""Uncertainty of a pixel, median over the image, above which the views are too few, px."""
 _MAX_NOISE_PX = 0.5
 """Uncertainty of a pixel by the noise that no cause explains, median over the image, above which
 the views are too much alike, px. Of ten bursts it was 0.2 to 1.8, above this in nine; of 60 faults
 of boards and shutters (``tests/faults``), in which pixels were known to more than 1 px, below 0.27.
 """
-_MAX_NARROW_PART = 1 / 3
-"""Share of the image that corners cover, up to which this and not the number of views is what is
-wrong, if pixels are known well among them."""
-_MIN_DISAGREEMENT = 3.0
-"""Ratio of the views' disagreement to what noise explains, from which it is a finding by itself."""
-_MAX_REJECTED = 0.4
-"""Share of all corners beyond which those that do not fit are missed by the model."""
-_MIN_SHARE_OF_ALL, _MIN_SHARE_OF_RIVAL = 1 / 3, 0.1
-"""Shares of the squared residuals that one cause explains, and a lens of another kind, from which
-corners that do not fit may be missed by the model. Where corners were misplaced (150 faults of
-``tests/faults``) such a lens explained at most 4 %."""
-_MIN_PART_LEFT, _LOSS_BY_REJECTION = 0.01, 60
-"""Part of what a cause explains that it explains without these corners, from which they are: the
-larger of the first and (1 - share of the corners that do not fit) to the power of the second, as
-few corners carry little of what all views share. Of the causes that explained enough of all in 401
-faults (seeds 7000 to 7002 and 8000 to 8019 of ``tests/faults``) it was below 0.001 where corners
-were misplaced, and above 0.013 where they were not, but for two kinds of views. Of boards that were
-bent as well, by up to 1 mm, with at most 2 % of the corners misplaced, it was below 0.06; where 2 %
-did not fit for another cause it was 0.8."""
+_MIN_PART_LEFT = 0.1
+"""Part of what a cause explains of all corners that it explains without those that do not fit, from
+which the model misses these. Of 401 faults (``tests/faults``) it was below 0.001 where corners were
+misplaced; of boards that were bent as well, by up to 1 mm, below 0.06."""
 
 
 @with_one_blas_thread
@@ -141,10 +122,14 @@ def _find(
     if pictures is not None:
         yield _describe_two_pictures(case, pictures)
         return
+    turned = find_turned_views(case)
+    if turned is not None and not _are_of_two_kinds(case, turned.views):
+        yield _describe_turned_views(case, turned)
+        return
     screening = screen_misplaced_corners(calibration, views)
     if screening is not None:
         left = _leave_out(screening, views, names, check)
-        if not _misses_views(case, screening, left):
+        if not _misses_views(case, left):
             misplaced = describe_misplaced_corners(calibration, screening, views, names)
             if misplaced is not None:
                 yield misplaced
@@ -152,7 +137,7 @@ def _find(
             open_coefficients = _find_open_coefficients(case)
     found = few = _find_lack_of_views(case)
     if few is None or not (len(case.views) < MIN_VIEWS_TO_JUDGE or _is_noise_enough(case)):
-        found = find_systematic_cause(case) or _find_disagreement(case) or few
+        found = find_systematic_cause(case) or few
     if open_coefficients is not None and (found is None or found.cause is not Cause.LENS):
         yield open_coefficients  # those of a model that is to be replaced go with it
     if found is not None:
@@ -192,6 +177,33 @@ def _describe_two_pictures(case: Case, found: TwoPictures) -> Finding:
     )
 
 
+def _are_of_two_kinds(case: Case, turned: tuple[int, ...]) -> bool:
+    """Return whether the views certainly are of two kinds, other than some views and the rest."""
+    return case.split is not None and tuple(np.flatnonzero(case.split.is_odd).tolist()) != turned
+
+
+def _describe_turned_views(case: Case, found: TurnedViews) -> Finding:
+    """Describe photographs that are upside down against all others."""
+    names = list_names([case.names[k] for k in found.views])
+    is_one = len(found.views) == 1
+    part = len(found.views) / len(case.views)
+    harm = case.measure_harm(min(part * (found.before**2 - found.after**2) / case.rms**2, 1.0))
+    return Finding(
+        Cause.MIXED_VIEWS,
+        f"{names} {'is' if is_one else 'are'} upside down against the others, stored by a program "
+        "that turned what the camera wrote.",
+        f"The others predict {'it' if is_one else 'the worst of them'} with {found.before:.2g} px "
+        f"as {'it is' if is_one else 'they are'}, and with {found.after:.2g} px turned back; "
+        f"{describe_harm(harm)}.",
+        f"Turn {'it' if is_one else 'them'} by 180 degrees, or take the files as the camera wrote "
+        f"them. If "
+        f"{'it is' if is_one else 'they are'} of another camera, calibrate that by itself.",
+        harm,
+        found.views,
+        Action(ActionKind.LEAVE_OUT_VIEWS, found.views),
+    )
+
+
 def _leave_out(
     screening: Screening,
     views: Sequence[Observation],
@@ -200,31 +212,26 @@ def _leave_out(
 ) -> Case:
     """Prepare what is left without the corners that were rejected."""
     used = [k for k, kept in enumerate(screening.kept) if kept.any()]
-    left = [select_corners(views[k], screening.kept[k]) for k in used]
+    left = screening.select_kept(views)
     case = prepare_case(screening.calibration, left, [names[k] for k in used], check)
     return replace(case, numbers=used)
 
 
-def _misses_views(case: Case, screening: Screening, left: Case) -> bool:
+def _misses_views(case: Case, left: Case) -> bool:
     """Return whether corners do not fit because one cause makes the model miss whole views.
 
-    Such a cause is a lens that another model follows better. Or it explains much of the residuals
-    of all corners, and much of those of the others. Of corners that are misplaced it may explain
-    much by chance; but without them it explains nothing. Two kinds of views explain most, and
-    nothing is left of them where one kind is left out.
+    Such a cause is a lens that another model follows better. Or it explains the residuals of the
+    other corners, too: of corners that are misplaced a cause may explain much by chance, but
+    without them it explains nothing. Two kinds of views explain most, and nothing is left of them
+    where one kind is left out.
     """
-    if fit_rival(case.calibration, case.views).share > _MIN_SHARE_OF_RIVAL:
+    if case.rival.share > MIN_SHARE_OF_RIVAL:
         return True
-    split = find_split(case)
-    if split is not None and split.is_certain and split.share > MIN_SHARE_OF_KINDS:
+    split = case.split
+    if split is not None and split.share > MIN_SHARE_OF_KINDS:
         return True
-    share = explain_most(case)
-    if share <= _MIN_SHARE_OF_ALL:
-        return False
-    rejected = float(np.mean(~np.concatenate(screening.kept)))
-    part = explain_most(left) * left.rms**2 / (share * case.rms**2)
-    least = max(_MIN_PART_LEFT, (1 - rejected) ** _LOSS_BY_REJECTION)
-    return rejected > _MAX_REJECTED or part > least
+    before, after = (explain_most(each) * each.rms**2 for each in (case, left))
+    return after > _MIN_PART_LEFT * before
 
 
 def _find_open_coefficients(case: Case) -> Finding | None:
@@ -256,7 +263,7 @@ def _find_lack_of_views(case: Case) -> Finding | None:
     if not (case.sigma > _MAX_POOR_PX or (few and case.worst > _MAX_WORST_PX)):
         return None
     harm = case.measure_harm(share=1.0)
-    if not few and case.part < _MAX_NARROW_PART and harm <= _MAX_WORST_PX:
+    if not few and harm <= _MAX_POOR_PX:
         return describe_narrow_views(case.part, harm, case.sigma)
     return Finding(
         Cause.FEW_VIEWS,
@@ -274,15 +281,7 @@ def _is_noise_enough(case: Case) -> bool:
 
     Views that are too much alike magnify the least that their residuals have in common.
     """
-    checks = case.report.checks
-    smooth = max((check.share for check in checks if check.name == "smooth"), default=0.0)
-    rival = fit_rival(case.calibration, case.views).share
-    explained = max(smooth, rival, find_largest_share(checks))
+    causes = list_tests(*Family)
+    shares = [check.share for check in case.report.checks if check.name in causes]
+    explained = max(*shares, case.rival.share)
     return float(np.sqrt(1 - explained)) * case.by_noise_alone > _MAX_NOISE_PX
-
-
-def _find_disagreement(case: Case) -> Finding | None:
-    """Find views that disagree about the camera for no cause that is known; None if they agree."""
-    is_strong = case.calibration.overdispersion >= _MIN_DISAGREEMENT
-    is_harmful = case.measure_harm() > MIN_HARM_PX
-    return describe_disagreement(case) if is_strong and is_harmful else None

@@ -16,21 +16,21 @@ from typing import Any
 import numpy as np
 
 from calibgui.engine.arrays import Array
-from calibgui.engine.assessment.causes.finding import (
+from calibgui.engine.assessment.action import Action, ActionKind
+from calibgui.engine.assessment.changes.comparison import compare_cameras
+from calibgui.engine.assessment.finding import (
+    MAX_LISTED,
     MIN_HARM_PX,
-    Action,
-    ActionKind,
+    MIN_VIEWS_TO_JUDGE,
     Cause,
     Finding,
     describe_harm,
 )
-from calibgui.engine.assessment.changes.comparison import compare_cameras
 from calibgui.engine.assessment.residuals.outliers import (
     Screening,
     estimate_coordinate_sigma,
     predict_coordinate_sigma,
     screen_outliers,
-    select_corners,
 )
 from calibgui.engine.assessment.residuals.residual_statistics import (
     stack_residuals,
@@ -39,58 +39,45 @@ from calibgui.engine.assessment.residuals.residual_statistics import (
 from calibgui.engine.calibration.calibrate import calibrate
 from calibgui.engine.calibration.observations import Observation
 from calibgui.engine.calibration.problem import recover_arguments
-from calibgui.engine.calibration.result import Calibration, Cost
+from calibgui.engine.calibration.result import DEFAULT_METHOD, Calibration, Cost
 from calibgui.engine.camera.camera import Camera
 from calibgui.engine.camera.distortion import project_points
 from calibgui.engine.camera.models import find_model
 from calibgui.engine.errors import CalibrationError
 
 _OUTSIDE_PX = 1.0
-"""Distance from the image beyond which a corner is outside, px."""
-_MAX_VIEWS_OUTSIDE, _MAX_SHARE_OUTSIDE = 0.5, 0.01
-"""Shares of the views with corners outside, and of these corners, above which the frame is wrong:
-single corners outside are misplaced."""
-_MAX_REACH_OF_QUARTER = 0.55
-"""Largest coordinate of all corners, in the image's size, up to which only its upper left quarter
-shows any: as if the image were half as large as stated."""
-_MIN_VIEWS_OF_QUARTER, _MIN_EXTENT_OF_QUARTER = 5, 0.3
-"""Number of views, and extent of their corners in the image's size, from which that is no accident.
-"""
+"""Distance from the image beyond which a corner is outside, px: a plausibility limit, above the
+noise of corners."""
+_MAX_REACH_OF_QUARTER, _MIN_EXTENT_OF_QUARTER = 0.55, 0.3
+"""Largest coordinate of all corners, and their extent, in the image's size, up to and from which
+its upper left quarter alone shows any: as if the image were half as large as stated. Plausibility
+limits."""
 _MIN_SIGMAS_MOVED = 3.0
 """Move of a freed parameter, in its standard deviations, from which its value is wrong."""
 _MIN_OUTLYING = 6.0
 """Length of the largest residual, in sigma of the median one, from which outliers are looked for:
 of a thousand sets of 4,000 good corners one has such a residual."""
-_MIN_GROSS_SIGMAS, _MIN_GROSS_PX = 15.0, 1.5
-"""Distances from where it should be, in sigma of the others and in px, beyond which a corner is
-grossly misplaced, and not missed by the model or by a little."""
-_MIN_LEFT = 0.1
-"""Part of a gross displacement that is left in the residuals, at least: of one corner of nine a
-pose leaves two fifths, of a row of three a fifth, and more of those of larger boards."""
-_MAX_RANK = 0.9
-"""Part of all corners that lie closer to the centre than the median of the misplaced ones, above
-which a lens that is not followed at the image's edge is the cause."""
-_MIN_RISE = 1.3
-"""Ratio by which misplaced corners raise the residuals, from which they matter all the same."""
-_MAX_LISTED = 5
-"""Number of views that a sentence lists."""
+_MIN_GROSS_SIGMAS = 15.0
+"""Distance from where it should be, in sigma of the others, beyond which a corner is grossly
+misplaced, and not missed by the model or by a little. A plausibility limit."""
 
 
 def find_wrong_frame(camera: Camera, views: Sequence[Observation]) -> Finding | None:
     """Find out whether the corners are of another frame, or another image size, than stated.
 
-    They lie outside of the image in most of the views, or in its upper left quarter alone.
+    They lie outside of the image in most of the views, where single ones were misplaced, or in its
+    upper left quarter alone.
     """
     low, high = -0.5 - _OUTSIDE_PX, np.array(camera.size) - 0.5 + _OUTSIDE_PX
     beyond = [((v.uv < low) | (v.uv > high)).any(axis=1) for v in views]
-    share = float(np.mean(np.concatenate(beyond)))
     uv = np.concatenate([view.uv for view in views])
     reach, extent = uv.max(axis=0) / np.array(camera.size), np.ptp(uv, axis=0) / camera.size
-    if np.mean([b.any() for b in beyond]) > _MAX_VIEWS_OUTSIDE and share > _MAX_SHARE_OUTSIDE:
+    if 2 * sum(bool(b.any()) for b in beyond) > len(views):
+        share = float(np.mean(np.concatenate(beyond)))
         message = "Corners lie outside of the image."
         evidence = f"{100 * share:.1f} % of them do, by up to {_measure_excess(uv, camera):.0f} px."
     elif (
-        len(views) >= _MIN_VIEWS_OF_QUARTER
+        len(views) >= MIN_VIEWS_TO_JUDGE
         and (reach < _MAX_REACH_OF_QUARTER).all()
         and (extent > _MIN_EXTENT_OF_QUARTER).all()
     ):
@@ -126,9 +113,9 @@ def find_wrong_values(calibration: Calibration, views: Sequence[Observation]) ->
     camera = calibration.camera
     usual = find_model(camera.model).held
     by_choice = [name for name in calibration.fixed if name not in usual]
-    if not by_choice or calibration.settings.get("method"):
+    if not by_choice or calibration.settings.method != DEFAULT_METHOD:
         return None
-    settings = _recover_plain_settings(calibration)
+    settings = _recover_nominal_settings(calibration)
     settings["fix"] = {n: v for n, v in settings["fix"].items() if n not in by_choice}
     settings["free"] = [*settings["free"], *by_choice]
     try:
@@ -166,7 +153,7 @@ def find_wrong_values(calibration: Calibration, views: Sequence[Observation]) ->
     )
 
 
-def _recover_plain_settings(calibration: Calibration) -> dict[str, Any]:
+def _recover_nominal_settings(calibration: Calibration) -> dict[str, Any]:
     """Return the arguments that repeat a calibration, by the image cost on the board as drawn."""
     settings = recover_arguments(calibration)
     for name in ("board_shape", "prior", "method"):
@@ -196,8 +183,7 @@ def screen_misplaced_corners(
 ) -> Screening | None:
     """Leave corners out that are grossly not where the others say; None if there are none.
 
-    Corners that are off by a few standard deviations, at the edges of many views, are those that
-    the model misses.
+    Corners that are off by a few standard deviations are those that the model misses.
     """
     if not _has_outlying_corners(calibration, views):
         return None
@@ -209,21 +195,11 @@ def screen_misplaced_corners(
         return None
     if not screening.rejected:
         return None
-    found = screening.calibration
-    lengths = np.linalg.norm(stack_residuals(found, on_reference=False), axis=1)
+    kept = stack_residuals(screening.calibration, on_reference=False)
+    lengths = np.linalg.norm(kept, axis=1)
     sigma = estimate_coordinate_sigma(lengths)
     off = _measure_rejected(calibration, screening, views)
-    is_gross = off > max(_MIN_GROSS_SIGMAS * sigma, _MIN_GROSS_PX)
-    if not is_gross.any():
-        return None
-    of_view = np.concatenate([np.full(len(r.corners), r.view) for r in screening.rejected])
-    if len(np.unique(of_view[is_gross])) == 1:  # the image's edge is in many views
-        return screening
-    centre = found.camera.centre
-    radius = np.linalg.norm(np.concatenate([view.uv for view in views]) - centre, axis=1)
-    uv = np.concatenate([views[r.view].uv[list(r.corners)] for r in screening.rejected])
-    rejected = np.linalg.norm(uv - centre, axis=1)[is_gross]
-    return screening if np.mean(radius < np.median(rejected)) < _MAX_RANK else None
+    return screening if (off > _MIN_GROSS_SIGMAS * sigma).any() else None
 
 
 def _has_outlying_corners(calibration: Calibration, views: Sequence[Observation]) -> bool:
@@ -236,8 +212,7 @@ def _has_outlying_corners(calibration: Calibration, views: Sequence[Observation]
         ]
     )
     relative = lengths / sigmas
-    is_outlying = relative > _MIN_OUTLYING * estimate_coordinate_sigma(relative)
-    return bool((is_outlying & (lengths > _MIN_LEFT * _MIN_GROSS_PX)).any())
+    return bool((relative > _MIN_OUTLYING * estimate_coordinate_sigma(relative)).any())
 
 
 def _measure_rejected(
@@ -271,20 +246,16 @@ def describe_misplaced_corners(
     worst = sorted(screening.rejected, key=lambda r: len(r.corners), reverse=True)
     listed = ", ".join(
         f"{names[r.view]} ({'all' if r.is_whole_view else len(r.corners)})"
-        for r in worst[:_MAX_LISTED]
+        for r in worst[:MAX_LISTED]
     )
-    others = len(worst) - _MAX_LISTED
+    others = len(worst) - MAX_LISTED
     more = f" and {others} other view{'s' * (others > 1)}" if others > 0 else ""
     before, after = (
         summarise_residuals(c.residuals).rms for c in (calibration, screening.calibration)
     )
-    kept = [
-        select_corners(view, good)
-        for view, good in zip(views, screening.kept, strict=True)
-        if good.any()
-    ]
+    kept = screening.select_kept(views)
     harm = _measure_harm(calibration.camera, screening.calibration.camera, kept)
-    if harm < MIN_HARM_PX and before < _MIN_RISE * after:
+    if harm < MIN_HARM_PX:
         return None
     chosen = tuple(r.view for r in worst)
     return Finding(

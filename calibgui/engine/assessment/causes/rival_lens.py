@@ -19,6 +19,11 @@ from typing import Any, NamedTuple
 from calibgui.engine.assessment.changes.comparison import compare_cameras
 from calibgui.engine.assessment.residuals.residual_statistics import summarise_residuals
 from calibgui.engine.calibration.calibrate import calibrate
+from calibgui.engine.calibration.methods import find_method
+from calibgui.engine.calibration.methods.method import (
+    start_from_calibration,
+    start_from_other_model,
+)
 from calibgui.engine.calibration.observations import Observation
 from calibgui.engine.calibration.problem import recover_image_arguments
 from calibgui.engine.calibration.result import Calibration
@@ -65,7 +70,7 @@ def fit_rival(calibration: Calibration, views: Sequence[Observation]) -> Rival:
 def calibrate_by_model(
     calibration: Calibration, views: Sequence[Observation], model: str, **changes: Any
 ) -> Calibration:
-    """Repeat a calibration with another lens model, for its camera alone.
+    """Repeat a calibration with another lens model, from what its camera sees.
 
     Args:
         calibration: a calibration with any cost; of what was held the pinhole's values still are.
@@ -78,4 +83,9 @@ def calibrate_by_model(
     """
     settings = recover_image_arguments(calibration) | {"model": model, "free": ()} | changes
     settings["fix"] = {n: v for n, v in settings["fix"].items() if n in PINHOLE}
+    method = find_method(settings["method"])
+    if model == calibration.camera.model:
+        settings["method"] = start_from_calibration(method, calibration, range(len(views)))
+    else:
+        settings["method"] = start_from_other_model(method, calibration)
     return calibrate(views, calibration.camera.size, model_errors=False, **settings)

@@ -25,24 +25,18 @@ from typing import NamedTuple
 
 import numpy as np
 
-from calibgui.engine.assessment.causes.finding import (
-    MIN_HARM_PX,
-    Action,
-    ActionKind,
-    Cause,
-    Finding,
-    describe_harm,
-)
-from calibgui.engine.assessment.causes.harm import Case
+from calibgui.engine.assessment.action import Action, ActionKind
+from calibgui.engine.assessment.causes.case import Case
 from calibgui.engine.assessment.causes.rival_lens import calibrate_by_model
+from calibgui.engine.assessment.causes.sheared_images import MIN_PART
 from calibgui.engine.assessment.changes.comparison import compare_cameras
+from calibgui.engine.assessment.finding import MIN_HARM_PX, Cause, Finding, describe_harm
 from calibgui.engine.assessment.residuals.cause_fits import MIN_LEAD
 from calibgui.engine.assessment.residuals.residual_statistics import summarise_residuals
 from calibgui.engine.assessment.residuals.systematic_errors import (
-    measure_dispersion,
     multiply_by_roll,
     prepare_fit,
-    step_to_smooth,
+    take_open_steps,
 )
 from calibgui.engine.calibration.calibrate import calibrate
 from calibgui.engine.calibration.observations import Observation
@@ -56,16 +50,8 @@ from calibgui.engine.numbers import format_two_digits
 _MIN_ROLL = np.deg2rad(0.2)
 """Roll from the first row to the last that a decentring stands for, from which the lens may have
 none, rad."""
-_MIN_SIGMAS, _MIN_SIGMAS_OF_MOTION = 3.0, 1.0
-"""The same, in its standard deviations, and where a motion is found in each view: views that
-disagree widen them by more than it takes (rolls of 1 and 3 degrees, with a fifth of that from view
-to view, were found to 0.3 degrees, and stated to 0.2 to 2)."""
-_MIN_LEAD_TO_NAME = 20.0
-"""Difference of Akaike's criterion from that of a decentred lens, from which a roll is named. Of 17
-decentred lenses that stood for a roll of 0.2 degrees or more it was 0 at most, of 45 rolls of 0.3
-to 3 degrees -3 at least, and beyond this in 22 of 25 of 1 and 3 degrees with noise of 0.06 px."""
-_MIN_PART = 0.8
-"""Part of what a lens explains, from which a roll may be the cause instead."""
+_MIN_SIGMAS = 3.0
+"""The same, in its standard deviations: a plausibility limit."""
 _MAX_STEPS, _MAX_PART_LEFT = 3, 0.05
 """Number of times that the images are turned back, at most, and the part of the decentring that may
 be left then."""
@@ -94,9 +80,10 @@ class _Roll(NamedTuple):
     number: int
     """Index of the decentring among the camera's parameters."""
 
-    def is_large(self, sigmas: float) -> bool:
-        """Return whether lenses are hardly decentred as much, and it is so many sigmas."""
-        return abs(self.angle) >= max(_MIN_ROLL, sigmas * self.sigma)
+    @property
+    def is_large(self) -> bool:
+        """True if lenses are hardly decentred as much, and noise does not make it."""
+        return abs(self.angle) >= max(_MIN_ROLL, _MIN_SIGMAS * self.sigma)
 
 
 def find_roll(case: Case, found: Finding | None, explained: float) -> Finding | None:
@@ -108,17 +95,18 @@ def find_roll(case: Case, found: Finding | None, explained: float) -> Finding | 
         explained: the share of the squared residuals that a wrong lens explains.
     """
     is_moving = found is not None and found.cause is Cause.ROLLING_SHUTTER
-    sigmas = _MIN_SIGMAS_OF_MOTION if is_moving else _MIN_SIGMAS
     try:
         decentred = _let_lens_be_decentred(case, explained)
         roll = None if decentred is None else _estimate_roll(decentred, case.views)
-        if decentred is None or roll is None or not roll.is_large(sigmas):
+        if decentred is None or roll is None or not roll.is_large:
             return None
         angle, still = _turn_back(decentred, case.views, roll)
         moved = compare_cameras(still.camera, case.calibration.camera, views=case.views).rms
     except CalibrationError:
         return None
-    before, after = (summarise_residuals(one.residuals).rms for one in (decentred, still))
+    before, after = (
+        summarise_residuals(calibration.residuals).rms for calibration in (decentred, still)
+    )
     lead = _compute_lead(case, before, after)
     # The harm of a lens model that cannot be decentred is the roll's own.
     is_less = found is not None and decentred is case.calibration and moved < found.harm
@@ -133,7 +121,7 @@ def find_roll(case: Case, found: Finding | None, explained: float) -> Finding | 
         )
         return replace(found, evidence=evidence, harm=harm, without=still.camera)
     left = f"{after:.3g} px RMS are left, with a decentred lens {before:.3g} px"
-    either = lead < _MIN_LEAD_TO_NAME
+    either = lead < MIN_LEAD
     return Finding(
         Cause.ROLLED_IMAGES,
         _EITHER if either else _ROLLED,
@@ -153,7 +141,7 @@ def _compute_lead(case: Case, decentred: float, rolled: float) -> float:
     independent than what their corners do (``cause_fits.py``).
     """
     fit = prepare_fit(case.calibration, case.views)
-    dispersion = measure_dispersion(fit, step_to_smooth(fit))
+    dispersion = take_open_steps(fit).dispersion
     dispersion *= max(case.calibration.overdispersion, 1.0) ** 2
     return float(2 * fit.degrees_of_freedom / dispersion * np.log(decentred / rolled))
 
@@ -179,7 +167,7 @@ def _let_lens_be_decentred(case: Case, explained: float) -> Calibration | None:
     centred = calibrate(case.views, found.camera.size, **settings)
     after, before = (summarise_residuals(one.residuals).rms for one in (found, centred))
     share = (before**2 - after**2) / case.rms**2  # what another lens model explains is no roll
-    return found if share >= _MIN_PART * explained else None
+    return found if share >= MIN_PART * explained else None
 
 
 def _estimate_roll(calibration: Calibration, views: Sequence[Observation]) -> _Roll | None:

@@ -29,13 +29,13 @@ from typing import NamedTuple
 import numpy as np
 
 from calibgui.engine.arrays import Array
-from calibgui.engine.assessment.causes.finding import (
+from calibgui.engine.assessment.causes.case import Case
+from calibgui.engine.assessment.finding import (
     MIN_HARM_PX,
     Cause,
     Finding,
     describe_harm,
 )
-from calibgui.engine.assessment.causes.harm import Case
 
 _MIN_FREQUENCY, _MAX_FREQUENCY = 0.15, 0.95
 """Frequencies that are looked through, cycles per pixel."""

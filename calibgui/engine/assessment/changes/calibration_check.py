@@ -40,6 +40,12 @@ from calibgui.engine.assessment.changes.camera_change import (
     factor_covariance,
     fit_camera_change,
 )
+from calibgui.engine.assessment.residuals.outliers import (
+    MAX_LOST_SHARE,
+    MAX_RESIDUAL_IN_SIGMA,
+    MAX_VIEW_SCALE,
+    RAYLEIGH_MEDIAN,
+)
 from calibgui.engine.calibration.observations import (
     Observation,
     Observations,
@@ -51,7 +57,6 @@ from calibgui.engine.calibration.refinement.residuals import compute_image_resid
 from calibgui.engine.calibration.resection import estimate_poses, refine_poses
 from calibgui.engine.calibration.result import Cost
 from calibgui.engine.camera.camera import Camera
-from calibgui.engine.camera.models import find_model
 from calibgui.engine.camera.projection import rays_from_pixels
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.uncertainty.projection_uncertainty import compute_sensitivity
@@ -60,19 +65,10 @@ DEFAULT_LIMIT = 0.5
 """Change of the camera from which it counts as changed, px rms."""
 CONFIDENCE = 2.0
 """Number of standard deviations by which the change must be above or below the limit."""
-_MAX_RESIDUAL_IN_SIGMA = 4.65
-"""Residual, in sigma, beyond which a corner is left out: exp(-4.65^2 / 2) = 2e-5 of good ones."""
-_MAX_LOST_SHARE = 1 / 3
-"""Share of a view's corners that are left out, beyond which the whole view is."""
-_MAX_VIEW_SCALE = 10.0
-"""Median residual of a view by itself, relative to the median view's, beyond which the view is left
-out."""
 _MAX_ROUNDS = 20
 """Number of times that corners are chosen anew."""
 _MIN_CORNERS = 12
 """Number of corners that a view needs: poses and change leave nothing of fewer to judge by."""
-_RAYLEIGH_MEDIAN = float(np.sqrt(2 * np.log(2)))
-"""Median of a Rayleigh distribution, in units of its parameter."""
 
 
 class CheckVerdict(StrEnum):
@@ -218,8 +214,8 @@ def _screen_corners(fit: CameraChange, kept: Sequence[BoolArray], used: Sequence
     lengths = [
         np.linalg.norm(fit.left[i, : np.count_nonzero(kept[k])], axis=1) for i, k in enumerate(used)
     ]
-    sigma = float(np.median(np.concatenate(lengths))) / _RAYLEIGH_MEDIAN
-    limit = _MAX_RESIDUAL_IN_SIGMA * max(sigma, MIN_NOISE)
+    sigma = float(np.median(np.concatenate(lengths))) / RAYLEIGH_MEDIAN
+    limit = MAX_RESIDUAL_IN_SIGMA * max(sigma, MIN_NOISE)
     changed = False
     for length, k in zip(lengths, used, strict=True):
         wrong = length > max(limit, length.max() / 2)
@@ -235,7 +231,7 @@ def _leave_out_views(kept: Sequence[BoolArray], reasons: dict[int, str], reason:
             continue
         if len(good) < _MIN_CORNERS:
             reasons[k] = f"it has {len(good)} corners, and {_MIN_CORNERS} are needed"
-        elif good.mean() < 1 - _MAX_LOST_SHARE or good.sum() < _MIN_CORNERS:
+        elif good.mean() < 1 - MAX_LOST_SHARE or good.sum() < _MIN_CORNERS:
             reasons[k] = reason
         if k in reasons:
             good[:] = False
@@ -253,7 +249,7 @@ def _leave_out_impossible_views(
         if good.any():
             scales[k] = _resect_alone(camera, Observation(given[k].uv[good], given[k].xy[good]))
     finite = [scale for scale in scales.values() if np.isfinite(scale)]
-    limit = _MAX_VIEW_SCALE * max(float(np.median(finite or [0.0])), MIN_NOISE)
+    limit = MAX_VIEW_SCALE * max(float(np.median(finite or [0.0])), MIN_NOISE)
     for k, scale in scales.items():
         if not scale <= limit:
             reasons[k] = "the stored camera does not see a flat board like this"
@@ -268,7 +264,7 @@ def _resect_alone(camera: Camera, view: Observation) -> float:
         state = refine_poses(start, alone, camera.model, Cost.IMAGE)
     except (CalibrationError, np.linalg.LinAlgError):
         return np.inf
-    residual = compute_image_residuals(state, alone, find_model(camera.model)).residual
+    residual = compute_image_residuals(state, alone, camera.model).residual
     return float(np.median(np.linalg.norm(residual[0], axis=1)))
 
 

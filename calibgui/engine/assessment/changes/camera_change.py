@@ -40,7 +40,6 @@ from calibgui.engine.calibration.refinement.residuals import (
 from calibgui.engine.calibration.resection import estimate_poses, refine_poses
 from calibgui.engine.calibration.result import Cost
 from calibgui.engine.camera.camera import Camera
-from calibgui.engine.camera.models import find_model
 
 SHIFT, SCALE, RADIAL = slice(0, 2), 2, slice(3, 5)
 """Places of the patterns of B in c."""
@@ -100,7 +99,6 @@ def fit_camera_change(
         overdispersion: ratio, at least 1, by which views of this camera and board disagree more
             than the noise of their corners explains.
     """
-    lens = find_model(camera.model)
     Z, prior_q = _make_board_patterns(packed)
     prior_c = np.array([_SHIFT_AND_SCALE_SIGMA] * 3 + [_RADIAL_SIGMA] * 2)
     root = root if root.size else np.zeros((len(camera.params), 0))
@@ -109,7 +107,7 @@ def fit_camera_change(
     x = np.zeros(len(prior))
     rows = packed.mask[..., None] > 0
     state = _refine(estimate_poses(camera, packed), packed, camera.model)
-    poses_only = compute_image_residuals(state, packed, lens).residual
+    poses_only = compute_image_residuals(state, packed, camera.model).residual
     predicted = packed.uv + poses_only
     for _ in range(_MAX_STEPS):
         B = _make_patterns(predicted, camera)
@@ -119,7 +117,7 @@ def fit_camera_change(
         state = _refine(
             state._replace(params=camera.params + root @ x[M + Q :]), moved, camera.model
         )
-        found = compute_image_residuals(state, moved, lens)
+        found = compute_image_residuals(state, moved, camera.model)
         predicted = moved.uv + found.residual
         left = np.where(rows, found.residual, 0.0)
         freedom = max(2 * packed.count - 6 * len(left) - M - Q, 1)

@@ -21,10 +21,12 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from calibgui.engine.arrays import Array, IntArray
 from calibgui.engine.assessment.changes.comparison import find_covered_pixels
 from calibgui.engine.calibration.observations import Observation
 from calibgui.engine.calibration.problem import find_free_parameters
 from calibgui.engine.calibration.result import Calibration
+from calibgui.engine.camera.camera import Camera
 from calibgui.engine.images.sampling import make_mesh
 from calibgui.engine.uncertainty.projection_uncertainty import (
     ProjectionUncertainty,
@@ -44,12 +46,19 @@ def estimate_camera_uncertainty(
     """
     camera, free = calibration.camera, find_free_parameters(calibration)
     u, v = make_map_grid(camera.size)
-    uv = make_mesh(u, v)
+    by_params, by_motion = compute_sensitivity(camera, make_mesh(u, v), np.inf)
+    J = by_params[..., free] + by_motion[..., :3] @ find_compensating_turn(camera, free, views)
+    covariance = J @ calibration.covariance[np.ix_(free, free)] @ np.swapaxes(J, -1, -2)
+    return ProjectionUncertainty(camera.size, np.inf, u, v, covariance)
+
+
+def find_compensating_turn(camera: Camera, free: IntArray, views: Sequence[Observation]) -> Array:
+    """Find W (3, P), the rotation, rad per unit of the free parameters, that makes up for most of
+    an error of the camera where the corners of views cover the image."""
+    uv = make_mesh(*make_map_grid(camera.size))
     by_params, by_motion = compute_sensitivity(camera, uv, np.inf)
     by_params, by_turn = by_params[..., free], by_motion[..., :3]
     known = find_covered_pixels(uv, views) & np.isfinite(by_params).all(axis=(-2, -1))
     P = by_params.shape[-1]
-    W = -np.linalg.lstsq(by_turn[known].reshape(-1, 3), by_params[known].reshape(-1, P))[0]
-    J = by_params + by_turn @ W
-    covariance = J @ calibration.covariance[np.ix_(free, free)] @ np.swapaxes(J, -1, -2)
-    return ProjectionUncertainty(camera.size, np.inf, u, v, covariance)
+    turn = np.linalg.lstsq(by_turn[known].reshape(-1, 3), by_params[known].reshape(-1, P))[0]
+    return np.asarray(-turn, np.float64)

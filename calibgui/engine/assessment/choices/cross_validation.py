@@ -4,12 +4,8 @@ The residuals of a calibration flatter it, because it was fitted to them. In k-f
 cross-validation (Stone 1974) the views are dealt into k folds, like cards: view i into fold
 i mod k, because neighbouring photographs resemble each other. The camera, and the board's shape
 where it is estimated, are calibrated from all but one fold; of the views in that fold only the
-poses are fitted. The root mean square of those residuals is the held-out error. A camera or board
-shape with more parameters than the views can carry lowers the training error but raises the
-held-out one. Between models of the board's shape the comparison is paired: view by view, by the
-logarithm of the ratio of the held-out errors, and a richer model is taken only if the mean exceeds
-twice its standard error and 1 %. A shape is fitted to all views, and led from there to the minimum
-for those of each fold (``calibration/subset_fit.py``).
+poses are fitted. The root mean square of those residuals is the held-out error. Choices among
+models rest on the same for each view, in closed form (``calibration/leave_one_out.py``).
 
 The bootstrap (Efron 1979) draws K views from the K with replacement and calibrates, many times.
 The scatter of the estimates is a standard deviation that does not assume the corners' errors to
@@ -28,38 +24,24 @@ from typing import Any
 import numpy as np
 
 from calibgui.engine.arrays import Array, IntArray, Size, freeze
-from calibgui.engine.boards.shape import BoardShape, BoardShapeModel
+from calibgui.engine.boards.shape import BoardShape
 from calibgui.engine.calibration.calibrate import calibrate
-from calibgui.engine.calibration.methods import DEFAULT_METHOD, find_method
-from calibgui.engine.calibration.methods.method import (
-    Method,
-    keep_calibration,
-    start_from_calibration,
-)
+from calibgui.engine.calibration.methods import find_method
+from calibgui.engine.calibration.methods.method import Method, start_from_calibration
 from calibgui.engine.calibration.observations import Observation, pack_observations
 from calibgui.engine.calibration.problem import weigh_and_place
 from calibgui.engine.calibration.resection import estimate_poses, refine_poses
-from calibgui.engine.calibration.result import Calibration, DegenerateError, ViewResiduals
+from calibgui.engine.calibration.result import (
+    DEFAULT_METHOD,
+    Calibration,
+    ViewResiduals,
+)
 from calibgui.engine.calibration.result_assembly import compute_view_residuals
-from calibgui.engine.calibration.subset_fit import fit_some_views
 from calibgui.engine.camera.camera import Camera
-from calibgui.engine.camera.models import find_model
 from calibgui.engine.errors import CalibrationError
-from calibgui.engine.threads import with_one_blas_thread
 
 DEFAULT_FOLDS = 5
 """Number of folds where none is given."""
-_MIN_GAIN_IN_STANDARD_ERRORS = 2.0
-"""Mean gain over its standard error above which a richer model is taken."""
-_MIN_RELATIVE_GAIN = 0.01
-"""Mean relative gain above which a richer model is taken."""
-_MAX_DEVIATION = 0.01
-"""Deviation of a board over its length, up to which its shape is estimated from where a flat board
-leaves the camera. Of 24 rendered boards that were bowed by 7 to 14 % of their length, and deviated
-by 1.8 % at least, that failed in 13. From the beginning the shape of 43 of 48 boards that were
-bowed by 10 to 14 % was found, and of 47 from where a bowed one leaves the camera."""
-_REASON_LENS = "It would stand in for the lens, which the lens model does not follow."
-"""Reason why a board shape is not tried with a lens model that does not fit."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -236,129 +218,6 @@ def compute_rms(residuals: Sequence[ViewResiduals]) -> float:
     """Return the root mean square length of the residuals of views together, px."""
     image = np.concatenate([view.image for view in residuals])
     return float(np.sqrt(np.mean(np.sum(image**2, axis=1))))
-
-
-@dataclass(frozen=True, eq=False, slots=True)
-class BoardShapeChoice:
-    """The model of the board's shape that predicts unseen views best."""
-
-    model: BoardShapeModel
-    """The recommended model."""
-    validations: dict[BoardShapeModel, CrossValidation]
-    """Cross-validation of every model that the views can carry."""
-    refused: dict[BoardShapeModel, str]
-    """Reasons why the other models could not be tried, or were not."""
-    nominal: Calibration
-    """Calibration from all views with the board as drawn."""
-    chosen: Calibration
-    """Calibration from all views with the recommended model."""
-
-    @property
-    def recommendation(self) -> str:
-        """Sentence that recommends a model, with its figures."""
-        before = self.validations[BoardShapeModel.NOMINAL].held_out
-        if (error := self.nominal.lens_error) > 0:
-            lens = find_model(self.nominal.camera.model).short_title
-            return (
-                f"Keep the board as drawn: the lens model {lens} leaves "
-                f"{error:.2g} px that it cannot follow, which a board shape would stand in for. "
-                "The lens comes first: choose a model that follows it, and then the board's shape."
-            )
-        if self.chosen.board_shape is None:
-            return (
-                "Keep the board as drawn: no estimated shape predicts unseen views better than "
-                f"its {before:.3f} px."
-            )
-        after = self.validations[self.model].held_out
-        move = self.chosen.camera.params - self.nominal.camera.params
-        return (
-            f"Your board deviates by {self.chosen.board_shape.rms:.2f} mm rms; using the estimated "
-            f"shape ({self.model}) moves fx by {move[0]:+.2g} px and the centre by "
-            f"({move[2]:+.2g}, {move[3]:+.2g}) px. It lowers the error on unseen views from "
-            f"{before:.3f} to {after:.3f} px, {100 * (1 - after / before):.0f} %."
-        )
-
-
-@with_one_blas_thread
-def choose_board_shape(
-    views: Sequence[Observation | tuple[Array, Array]],
-    size: Size,
-    folds: int = DEFAULT_FOLDS,
-    nominal: Calibration | None = None,
-    **settings: Any,
-) -> BoardShapeChoice:
-    """Try all models of the board's shape on unseen views and recommend one.
-
-    Where the lens model does not follow the lens (``Calibration.lens_error``), a board of another
-    shape predicts unseen views better, too, although the board is true: none is tried then.
-
-    A board that is far from flat leads the camera astray: to where a shape cannot be estimated
-    from, and where some of the views do not determine a camera with a flat board. Its bow is then
-    estimated from the beginning, and its corners from there. If need be, they must predict unseen
-    views better than a flat board does those that it was fitted to.
-
-    Args:
-        views, size, folds, settings: as for `cross_validate`, without `board_shape`.
-        nominal: a calibration of all views with the same settings and the board as drawn, if it is
-            at hand.
-
-    Raises:
-        CalibrationError: as `cross_validate` with the board as drawn.
-    """
-    validations: dict[BoardShapeModel, CrossValidation] = {}
-    refused: dict[BoardShapeModel, str] = {}
-    best, nominal = BoardShapeModel.NOMINAL, nominal or calibrate(views, size, **settings)
-    seen, method, further = _sort_arguments(views, settings)
-    begun = [
-        start_from_calibration(method, nominal, kept) for kept, _ in _deal_views(len(seen), folds)
-    ]
-    too_few: DegenerateError | None = None
-    try:
-        without = _calibrate_folds(seen, size, begun, further)
-    except DegenerateError as error:
-        without, too_few = [nominal] * folds, error
-    validations[best] = _validate(seen, without)
-    extent = np.ptp(np.concatenate([view.xy for view in seen]), axis=0).max()
-    is_near = nominal.board_shape_error <= _MAX_DEVIATION * extent
-    chosen, start = nominal, keep_calibration(method, nominal) if is_near else method
-    for model in BoardShapeModel:
-        if model is BoardShapeModel.NOMINAL:
-            continue
-        if nominal.lens_error > 0:
-            refused[model] = _REASON_LENS
-            continue
-        try:
-            whole = calibrate(seen, size, board_shape=model, method=start, **further)
-            validations[model] = _validate(seen, _fit_folds(seen, whole, folds, settings))
-        except CalibrationError as error:
-            refused[model] = error.message
-            continue
-        if model is BoardShapeModel.BOW and not is_near:
-            start = keep_calibration(method, whole)
-        if predicts_better(validations[model].by_view, validations[best].by_view):
-            best, chosen = model, whole
-    if too_few is not None and best is BoardShapeModel.NOMINAL:
-        raise too_few
-    return BoardShapeChoice(best, validations, refused, nominal, chosen)
-
-
-def _fit_folds(
-    views: Sequence[Observation], whole: Calibration, folds: int, settings: Mapping[str, Any]
-) -> list[Calibration]:
-    """Fit a calibration with an estimated board shape without the views of each fold."""
-    return [
-        fit_some_views(
-            whole, kept, pack_observations([views[k] for k in kept]), settings.get("report")
-        )
-        for kept, _ in _deal_views(len(views), folds)
-    ]
-
-
-def predicts_better(candidate: Array, incumbent: Array) -> bool:
-    """Return whether errors (K,) are lower than others of the same views, beyond chance and 1 %."""
-    gain = np.log(incumbent / candidate)
-    error = gain.std(ddof=1) / np.sqrt(len(gain))
-    return bool(gain.mean() > max(_MIN_GAIN_IN_STANDARD_ERRORS * error, _MIN_RELATIVE_GAIN))
 
 
 @dataclass(frozen=True, eq=False, slots=True)

@@ -1,10 +1,10 @@
 """The choice of a lens model: all candidates on the same views, and the one to be trusted.
 
-Every candidate is calibrated from all views; those that are sound, or all if none is, are
-cross-validated (``cross_validation.py``). Neither a low residual nor an information criterion
-chooses well: a model with numerator and denominator lowers the residuals by nonsense, and with
-thousands of corners the Bayesian criterion pays for two parameters that gain a tenth of a
-thousandth of a pixel on unseen views. The choice is made so:
+Every candidate is calibrated from all views; those that are sound, or all if none is, are asked
+what they say of each view without it (``calibration/leave_one_out.py``). Neither a low residual nor
+an information criterion chooses well: a model with numerator and denominator lowers the residuals
+by nonsense, and with thousands of corners the Bayesian criterion pays for two parameters that gain
+a tenth of a thousandth of a pixel on unseen views. The choice is made so:
 
 1. A candidate is sound if the views determine its parameters and if its map is one-to-one where
    corners were seen. One with coefficients that had to be held, as the views leave them open, has
@@ -49,17 +49,14 @@ import numpy as np
 
 from calibgui.engine.arrays import Array, Size
 from calibgui.engine.assessment.changes.comparison import compare_cameras, find_covered_pixels
-from calibgui.engine.assessment.choices.cross_validation import (
-    DEFAULT_FOLDS,
-    cross_validate,
-    predicts_better,
-)
+from calibgui.engine.assessment.choices.board_shape_choice import predicts_better
 from calibgui.engine.assessment.choices.lens_trial import LensTrial, assess_trial
 from calibgui.engine.calibration.calibrate import calibrate
-from calibgui.engine.calibration.methods import DEFAULT_METHOD, find_method
+from calibgui.engine.calibration.leave_one_out import leave_views_out
+from calibgui.engine.calibration.methods import find_method
 from calibgui.engine.calibration.methods.method import Method, start_from_other_model
 from calibgui.engine.calibration.observations import Observation
-from calibgui.engine.calibration.result import Calibration, Iteration, Report
+from calibgui.engine.calibration.result import DEFAULT_METHOD, Calibration, Iteration, Report
 from calibgui.engine.camera.models import find_model
 from calibgui.engine.errors import CalibrationError, Progress
 from calibgui.engine.images.sampling import make_mesh
@@ -85,6 +82,9 @@ CANDIDATES = (
 """Lens models that are compared, in the order in which people list them."""
 _FIRST_CANDIDATES = (SIMPLEST_MODEL, "brown-conrady", "kannala-brandt-decentering")
 """Lens models that are enough to see whether the paper's follows a lens."""
+_NEXT_CANDIDATES = ("rational", "thin-prism", "eucm", "kannala-brandt")
+"""Lens models that follow what the first do not. In none of eight sets of photographs, among them
+fisheyes and a wide action camera, did another candidate predict unseen views better by 1 %."""
 _MIN_VIEWS = 3
 """Number of views below which no view can be spared for a comparison."""
 _MAX_LOSS = 0.01
@@ -137,8 +137,8 @@ def choose_lens(
     views: Sequence[Observation | tuple[Array, Array]],
     size: Size,
     candidates: Sequence[str] = CANDIDATES,
-    folds: int = DEFAULT_FOLDS,
     progress: Progress | None = None,
+    preferred: Sequence[str] = (SIMPLEST_MODEL,),
     **settings: Any,
 ) -> LensChoice:
     """Try lens models on unseen views and recommend one.
@@ -147,14 +147,15 @@ def choose_lens(
         views, size, settings: as for ``calibrate``, without `model` and `free`; `fix` is a mapping
             of parameters that all models have.
         candidates: ids of the models to try.
-        folds: number of folds of the cross-validation, at most one a view.
+        preferred: ids of those that are taken wherever they are as good as any, in this order; of
+            the others it is that of the fewest parameters.
         progress: a function that is told how many steps are done, and of how many.
 
     Raises:
         CalibrationError: if there are fewer than three views, or no candidate can be calibrated.
         Cancelled: from `progress`.
     """
-    attempt = _Attempt(views, size, folds, progress, settings)
+    attempt = _Attempt(views, size, progress, settings, preferred)
     attempt.try_lenses(candidates)
     return attempt.recommend()
 
@@ -162,11 +163,10 @@ def choose_lens(
 def choose_lens_stepwise(
     views: Sequence[Observation | tuple[Array, Array]],
     size: Size,
-    folds: int = DEFAULT_FOLDS,
     progress: Progress | None = None,
     **settings: Any,
 ) -> LensChoice:
-    """Recommend the paper's model if few others show that it is enough, else choose from all.
+    """Recommend the paper's model if few others show that it is enough, else choose from more.
 
     It is enough if the views agree with each other to their corners' noise, or if one of the few
     predicts unseen views as it does: what formulas of different kinds say alike, they have from the
@@ -174,11 +174,11 @@ def choose_lens_stepwise(
 
     Args, raises: as for `choose_lens`, without `candidates`.
     """
-    attempt = _Attempt(views, size, folds, progress, settings)
+    attempt = _Attempt(views, size, progress, settings)
     attempt.try_lenses(_FIRST_CANDIDATES)
     if attempt.is_paper_enough() and (choice := attempt.recommend()).model == SIMPLEST_MODEL:
         return choice
-    attempt.try_lenses(CANDIDATES)
+    attempt.try_lenses(_NEXT_CANDIDATES)
     return attempt.recommend()
 
 
@@ -189,9 +189,9 @@ class _Attempt:
         self,
         views: Sequence[Observation | tuple[Array, Array]],
         size: Size,
-        folds: int,
         progress: Progress | None,
         settings: dict[str, Any],
+        preferred: Sequence[str] = (SIMPLEST_MODEL,),
     ) -> None:
         """Take the arguments of `choose_lens`."""
         if len(views) < _MIN_VIEWS:
@@ -202,7 +202,7 @@ class _Attempt:
         self.views, self.size = [Observation(*view) for view in views], size
         self.settings = {name: value for name, value in settings.items() if name != "fix"}
         self.held: dict[str, float | None] = dict(settings.get("fix", {}))
-        self.folds = min(folds, len(views))
+        self.preferred = list(preferred)
         self.trials: dict[str, LensTrial] = {}
         self.refused: dict[str, str] = {}
         self.reduced: set[str] = set()
@@ -211,7 +211,7 @@ class _Attempt:
         self.done = self.total = 0
 
     def try_lenses(self, candidates: Sequence[str]) -> None:
-        """Calibrate the candidates, and cross-validate those that follow the corners.
+        """Calibrate the candidates, and ask those that follow the corners of unseen views.
 
         One that is not sound counts only if none is, and takes long: the views leave it a valley.
         """
@@ -222,7 +222,8 @@ class _Attempt:
                 self._calibrate(model)
         for model in sorted(candidates, key=lambda model: not self._is_sound(model)):
             self._advance()
-            if self._is_close(model) and self.trials[model].validation is None:
+            trial = self.trials.get(model)
+            if trial is not None and trial.validation is None and self._is_close(trial):
                 others = (t for t in self.trials.values() if t.validation is not None)
                 if self._is_sound(model) or not any(other.is_sound for other in others):
                     self._validate(model)
@@ -242,7 +243,7 @@ class _Attempt:
                 watch = _StagnationStop(self.settings.get("report"))
                 trial = self._try(model, fixed, **({"report": watch} if has_powers else {}))
                 name = _find_open_coefficient(trial.calibration)
-                if name is None and watch.has_stagnated:
+                if name is None and watch.has_stagnated and self._is_close(trial):
                     trial = self._try(model, fixed)
                     name = _find_open_coefficient(trial.calibration)
                 if name is None:
@@ -254,7 +255,7 @@ class _Attempt:
         self.trials[model] = trial
 
     def _validate(self, model: str) -> None:
-        """Cross-validate a candidate."""
+        """Ask a candidate what it says of unseen views."""
         try:
             self.trials[model] = self._predict(self.trials[model])
         except CalibrationError as error:
@@ -275,9 +276,7 @@ class _Attempt:
 
     def _predict(self, trial: LensTrial) -> LensTrial:
         """Return a trial with its error on unseen views."""
-        how = {"model": trial.model, "fix": self.held | trial.fixed, **self.settings}
-        found = cross_validate(self.views, self.size, self.folds, trial.calibration, **how)
-        return replace(trial, validation=found)
+        return replace(trial, validation=leave_views_out(trial.calibration, self.views))
 
     def is_paper_enough(self) -> bool:
         """Return whether the paper's model leaves no doubt that it follows the lens."""
@@ -295,17 +294,15 @@ class _Attempt:
         """Return whether a model could be calibrated, and is sound."""
         return model in self.trials and self.trials[model].is_sound
 
-    def _is_close(self, model: str) -> bool:
-        """Return whether a model's residuals are of the size of the best one's."""
-        if model not in self.trials:
-            return False
-        least = min(trial.rms for trial in self.trials.values())
-        return self.trials[model].rms <= _MAX_RESIDUAL_RATIO * least
+    def _is_close(self, trial: LensTrial) -> bool:
+        """Return whether a trial's residuals are of the size of the best one's so far."""
+        least = min((other.rms for other in self.trials.values()), default=np.inf)
+        return trial.rms <= _MAX_RESIDUAL_RATIO * least
 
     def recommend(self) -> LensChoice:
         """Recommend one of the models, without the coefficients that harm its predictions."""
         while True:
-            choice = _recommend(self.trials, self.refused, self.views)
+            choice = _recommend(self.trials, self.refused, self.views, self.preferred)
             if choice.model in self.reduced:
                 return choice
             self.reduced.add(choice.model)
@@ -387,7 +384,10 @@ def _list_dispensable(trial: LensTrial) -> list[tuple[str, ...]]:
 
 
 def _recommend(
-    trials: dict[str, LensTrial], refused: dict[str, str], views: Sequence[Observation]
+    trials: dict[str, LensTrial],
+    refused: dict[str, str],
+    views: Sequence[Observation],
+    preferred: Sequence[str],
 ) -> LensChoice:
     """Recommend one of the trials."""
     if all(trial.validation is None for trial in trials.values()):
@@ -395,11 +395,13 @@ def _recommend(
             "No lens model can be calibrated from these views. " + next(iter(refused.values()), ""),
             "Check the corners and the board, and add views in different directions.",
         )
-    order = sorted(trials.values(), key=lambda t: (t.model != SIMPLEST_MODEL, t.parameters))
+    rank = {model: k for k, model in enumerate(preferred)}
+    order = sorted(trials.values(), key=lambda t: (rank.get(t.model, len(rank)), t.parameters))
     validated = [trial for trial in order if trial.validation is not None]
-    sound = _prefer_determined([trial for trial in validated if trial.is_sound] or validated)
+    usable = [trial for trial in validated if trial.is_sound] or validated
+    sound = _prefer_determined(usable, preferred)
     best = min(sound, key=lambda trial: trial.held_out)
-    adequate = [trial for trial in sound if _predicts_as_well(trial, best)]
+    adequate = [trial for trial in sound if _predicts_as_well(trial, best, preferred)]
     adequate = [trial for trial in adequate if _fills_image(trial)] or adequate
     reference = max(adequate, key=lambda t: (t.parameters, -t.held_out))
     chosen, tolerance = reference, 0.0
@@ -420,18 +422,20 @@ def _recommend(
     )
 
 
-def _prefer_determined(sound: list[LensTrial]) -> list[LensTrial]:
-    """Leave out candidates with open coefficients, unless unseen views demand them."""
-    determined = [t for t in sound if t.model == SIMPLEST_MODEL or not t.left_open]
+def _prefer_determined(sound: list[LensTrial], preferred: Sequence[str]) -> list[LensTrial]:
+    """Leave out candidates with open coefficients, unless they are preferred or unseen views demand
+    them."""
+    determined = [t for t in sound if t.model in preferred or not t.left_open]
     bound = (1 + _MAX_LOSS_OF_DETERMINED) * min(trial.held_out for trial in sound)
     return determined if any(trial.held_out <= bound for trial in determined) else sound
 
 
-def _predicts_as_well(trial: LensTrial, best: LensTrial) -> bool:
-    """Return whether a candidate predicts unseen views as well as the best one."""
+def _predicts_as_well(trial: LensTrial, best: LensTrial, preferred: Sequence[str]) -> bool:
+    """Return whether a candidate predicts unseen views as well as the best one; of one that is
+    preferred, whether it is not worse by more than chance."""
     if trial.held_out <= (1 + _MAX_LOSS) * best.held_out:
         return True
-    if trial.model != SIMPLEST_MODEL or trial.validation is None or best.validation is None:
+    if trial.model not in preferred or trial.validation is None or best.validation is None:
         return False
     return not predicts_better(best.validation.by_view, trial.validation.by_view)
 

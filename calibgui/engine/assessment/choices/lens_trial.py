@@ -8,8 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from calibgui.engine.arrays import Array
-from calibgui.engine.assessment.choices.cross_validation import CrossValidation
 from calibgui.engine.assessment.residuals.residual_statistics import summarise_residuals
+from calibgui.engine.calibration.leave_one_out import LeftOut
 from calibgui.engine.calibration.observations import Observation
 from calibgui.engine.calibration.problem import find_free_parameters
 from calibgui.engine.calibration.refinement.covariances import compute_correlations
@@ -45,7 +45,7 @@ class LensTrial:
     """Share of the image where the map is one-to-one."""
     exchangeable: tuple[tuple[str, str], ...]
     """Pairs of coefficients of which the views determine only a combination."""
-    validation: CrossValidation | None = None
+    validation: LeftOut | None = None
     """Its error on unseen views; None if it is ruled out without, by its residuals or because it is
     not sound where others are."""
     fuller: LensTrial | None = None

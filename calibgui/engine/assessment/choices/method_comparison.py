@@ -6,10 +6,10 @@ know no lengths (``plumb_line.py``) are judged by how straight they make the boa
 columns in views that they have not seen.
 
 What is compared has one frame for all: pixels of the array frame, rays, and one standard deviation
-by the corners' noise. Coefficients of different lens models mean different things; what does not
-is how far a corner at a given distance from the principal point is moved by the distortion
-(`measure_radial_shift`), and the displacement of one camera's pixels against another's
-(``comparison.py``).
+as a calibration by each method states it. Coefficients of different lens models mean different
+things; what does not is how far a corner at a given distance from the principal point is moved by
+the distortion (`measure_radial_shift`), and the displacement of one camera's pixels against
+another's (``comparison.py``).
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ from calibgui.engine.assessment.choices.cross_validation import (
     resect_views,
 )
 from calibgui.engine.calibration.calibrate import calibrate
-from calibgui.engine.calibration.methods import DEFAULT_METHOD, METHODS
+from calibgui.engine.calibration.methods import METHODS
 from calibgui.engine.calibration.methods.dlt import DLT, make_dlt
 from calibgui.engine.calibration.methods.method import Description, Method
 from calibgui.engine.calibration.methods.plumb_line import (
@@ -44,10 +44,16 @@ from calibgui.engine.calibration.methods.plumb_line import (
     measure_straightness,
 )
 from calibgui.engine.calibration.observations import Observation
-from calibgui.engine.calibration.result import Calibration, Cost, ViewResiduals
+from calibgui.engine.calibration.result import (
+    DEFAULT_METHOD,
+    Calibration,
+    Cost,
+    Iteration,
+    ViewResiduals,
+)
 from calibgui.engine.camera.camera import Camera
 from calibgui.engine.camera.projection import rays_from_pixels
-from calibgui.engine.errors import CalibrationError, Progress
+from calibgui.engine.errors import CalibrationError, Cancelled, Progress
 from calibgui.engine.geometry.pose import Pose
 from calibgui.engine.images.sampling import make_mesh
 from calibgui.engine.uncertainty.projection_uncertainty import make_map_grid
@@ -57,6 +63,8 @@ AS_PRINTED = "lucchese-printed"
 _PRINTED_LABEL = "Lucchese, as printed"
 _PRINTED_TITLE = "Lucchese, with the cost and the lens as printed"
 _PRINTED_LIMITS = "It minimises distances on the reference plane, where far views weigh more."
+_STOPPED = "The comparison was stopped before it was tried."
+"""Why a method gave nothing that was not tried any more."""
 _TURNS = np.linspace(0, 2 * np.pi, 72, endpoint=False)
 _DIRECTIONS = np.stack([np.cos(_TURNS), np.sin(_TURNS)], axis=1)
 """(72, 2) directions around the centre."""
@@ -204,6 +212,7 @@ def compare_methods(
     board_poses: Sequence[Pose] | None = None,
     progress: Progress | None = None,
     names: Sequence[str] | None = None,
+    check: Callable[[], None] | None = None,
 ) -> MethodComparison:
     """Try all methods on the same views.
 
@@ -218,16 +227,27 @@ def compare_methods(
         progress: a function that is told how many of how many methods are done; it may raise
             ``Cancelled``.
         names: names of the views for messages.
+        check: a function that is called now and then, and raises ``Cancelled`` to end with the
+            methods that have been tried by then.
 
     Raises:
         CalibrationError, DegenerateError: if the default method fails.
+        Cancelled: from `progress`, or from `check` before the default method has been tried.
     """
     methods = list_compared_methods()
-    attempt = _Attempt(views, size, chosen, min(folds, len(views)), board_poses, names)
+    attempt = _Attempt(
+        views, size, chosen, min(folds, len(views)), board_poses, names, check or (lambda: None)
+    )
     for k, (name, (method, settings)) in enumerate(methods.items()):
         if progress is not None:
             progress(k, len(methods))
-        attempt.add(name, method, settings)
+        try:
+            attempt.add(name, method, settings)
+        except Cancelled:
+            if DEFAULT_METHOD not in attempt.trials:
+                raise
+            attempt.refused |= dict.fromkeys(list(methods)[k:], _STOPPED)
+            break
     if progress is not None:
         progress(len(methods), len(methods))
     assert attempt.chosen is not None  # the default method comes first, and raises where it fails
@@ -248,9 +268,10 @@ class _Attempt:
         folds: int,
         board_poses: Sequence[Pose] | None,
         names: Sequence[str] | None,
+        check: Callable[[], None],
     ) -> None:
         self._views, self._size, self._folds = views, size, folds
-        self._board_poses, self._names = board_poses, names
+        self._board_poses, self._names, self._check = board_poses, names, check
         self.chosen = chosen
         self.trials: dict[str, MethodTrial] = {}
         self.lines: dict[str, LineTrial] = {}
@@ -299,7 +320,15 @@ class _Attempt:
         """Calibrate from the views of these numbers, with the poses that are known of them."""
         if settings["method"] is DLT and self._board_poses is not None:
             settings = {"method": make_dlt([self._board_poses[k] for k in chosen])}
-        return calibrate([self._views[k] for k in chosen], self._size, names=names, **settings)
+
+        def report(_: Iteration) -> bool:
+            self._check()
+            return True
+
+        self._check()
+        return calibrate(
+            [self._views[k] for k in chosen], self._size, names=names, report=report, **settings
+        )
 
     def _measure_unseen_residuals(self, settings: Mapping[str, Any]) -> tuple[float, str]:
         """Measure the RMS residual of unseen views with only their poses fitted, px.
@@ -311,7 +340,7 @@ class _Attempt:
         try:
             for fold in range(self._folds):
                 kept = [k for k in range(len(self._views)) if k % self._folds != fold]
-                found = self._calibrate(kept, settings)
+                found = self._calibrate(kept, {**settings, "model_errors": False})
                 unseen += resect_views(found, self._views[fold :: self._folds])
         except CalibrationError as error:
             return float("nan"), error.message
@@ -351,6 +380,7 @@ class _Attempt:
         for fold in range(self._folds):
             kept = [view for k, view in enumerate(self._views) if k % self._folds != fold]
             unseen = self._views[fold :: self._folds]
+            self._check()
             try:
                 rms = measure_straightness(unseen, method.estimate(kept, self._size))
             except CalibrationError:
@@ -384,10 +414,9 @@ def _measure_distortion(found: Calibration, radius: float) -> Distortion:
     def shift(params: Array) -> float:
         return measure_radial_shift(Camera(camera.size, params, camera.model), radius)
 
-    with np.errstate(invalid="ignore"):
-        share = np.nan_to_num(found.sigma_by_noise / found.sigma)  # 0 where a parameter is held
-    by_noise = found.covariance * np.outer(share, share)
-    return Distortion(radius, shift(camera.params), _propagate(shift, camera.params, by_noise))
+    return Distortion(
+        radius, shift(camera.params), _propagate(shift, camera.params, found.covariance)
+    )
 
 
 def _measure_line_distortion(lines: PlumbLine, radius: float) -> Distortion:

@@ -22,7 +22,7 @@ A cause with more unknowns follows any other better. Causes are compared by Akai
 
 nu being the number of residual coordinates beyond that of the fitted unknowns, m the number of
 unknowns that the cause has, and d how much more of the errors an unknown takes than if they were
-independent (``systematic_errors.measure_dispersion``). The least A is that of the cause which is
+independent (``systematic_errors.OpenSteps``). The least A is that of the cause which is
 likely to predict other corners best, and without a cause it is 0. Schwarz's criterion, which has
 ln nu for 2, is for causes all of whose unknowns depend on all corners: it takes motions of some
 tenths of a pixel for a changing focus, which has a sixth of their unknowns.
@@ -59,8 +59,8 @@ _MIN_DESCENT = 1e-3
 _FIRST_DAMPING, _MORE_DAMPING, _LESS_DAMPING = 1e-4, 30.0, 0.1
 """Damping of the first step, in units of the columns' squares, and what multiplies it after a step
 that does not lead down, and after one that does."""
-_MIN_EIGENVALUE = 1e-9
-"""Eigenvalue of a view's normal equations of unit diagonal, below which a direction is open."""
+MIN_EIGENVALUE = 1e-9
+"""Eigenvalue of normal equations of unit diagonal, below which a direction is undetermined."""
 
 _MIN_CHANCE = 0.05
 """Probability that noise explains as much as the first step, above which no other is taken: where
@@ -137,7 +137,7 @@ def fit_own_cause(fit: LinearisedFit, columns: Columns) -> CauseFit:
     m = columns(fit, fit.linearise(slice(0, 1)), slice(0, 1)).shape[-1]
     first = _Trial(fit, np.zeros(0), np.zeros((K, m)))
     found, V = _minimise(first, columns, None)
-    return CauseFit(found, int(sum(np.sum(np.linalg.eigvalsh(V) > _MIN_EIGENVALUE, axis=1) - 6)))
+    return CauseFit(found, int(sum(np.sum(np.linalg.eigvalsh(V) > MIN_EIGENVALUE, axis=1) - 6)))
 
 
 def fit_board(fit: LinearisedFit, model: BoardShapeModel) -> CauseFit:

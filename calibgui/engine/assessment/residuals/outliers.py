@@ -12,7 +12,7 @@ which corners to trust, each on what the one before left:
    beyond `_MAX_GROSS_RESIDUAL` s are set aside for the first solve of the next pass.
 3. Corner by corner in the joint solution. With sigma from the median of the residuals' lengths
    (for a Rayleigh distribution sigma = median / sqrt(2 ln 2)), the corners within
-   `_MAX_RESIDUAL_IN_SIGMA` sigma are kept, those set aside before among them, and the solve is
+   `MAX_RESIDUAL_IN_SIGMA` sigma are kept, those set aside before among them, and the solve is
    repeated until nothing changes. It rejects one good Gaussian corner in fifty thousand.
 
 A view that loses more than a third of its corners is left out whole.
@@ -52,15 +52,15 @@ _REWEIGHTINGS = 6
 """Number of registrations in Stage I, each with the weights of the one before."""
 _MAX_GROSS_RESIDUAL = 8.0
 """Stage I residual, in units of s, beyond which a corner is set aside."""
-_MAX_RESIDUAL_IN_SIGMA = 4.65
+MAX_RESIDUAL_IN_SIGMA = 4.65
 """Residual, in sigma, beyond which a corner is rejected: exp(-4.65^2 / 2) = 2e-5 of good ones."""
-_MAX_VIEW_SCALE = 10.0
+MAX_VIEW_SCALE = 10.0
 """Stage I scale, relative to the median view's, beyond which a view is no view of the board."""
 _MAX_SOLVES = 20
 """Number of joint solves after which screening ends even if corners still change."""
-_MAX_LOST_SHARE = 1 / 3
+MAX_LOST_SHARE = 1 / 3
 """Share of a view's corners that are rejected, beyond which the whole view is left out."""
-_RAYLEIGH_MEDIAN = float(np.sqrt(2 * np.log(2)))
+RAYLEIGH_MEDIAN = float(np.sqrt(2 * np.log(2)))
 """Median of a Rayleigh distribution, in units of its parameter."""
 
 
@@ -89,6 +89,14 @@ class Screening:
     calibration: Calibration
     """Calibration from the kept corners of the views that keep any, in their order."""
 
+    def select_kept(self, views: Sequence[Observation]) -> list[Observation]:
+        """Return the views that keep any corners, with those that are kept."""
+        return [
+            select_corners(view, kept)
+            for view, kept in zip(views, self.kept, strict=True)
+            if kept.any()
+        ]
+
 
 def screen_outliers(
     views: Sequence[Observation | tuple[Array, Array]],
@@ -114,11 +122,11 @@ def screen_outliers(
     reasons = dict(_screen_by_stage_one(given, names, size, kept))
     _leave_out_poor_views(kept, reasons)
     # Screening assumes a flat board and the image cost, whatever is estimated afterwards.
-    plain: dict[str, Any] = {"model_errors": False} | {
+    nominal: dict[str, Any] = {"model_errors": False} | {
         name: settings[name] for name in ("fix", "free", "model") if name in settings
     }
     for _ in range(_MAX_SOLVES):
-        if not _screen_by_residual(_calibrate_kept(given, size, names, kept, plain), given, kept):
+        if not _screen_by_residual(_calibrate_kept(given, size, names, kept, nominal), given, kept):
             break
         _leave_out_poor_views(kept, reasons)
     calibration = _calibrate_kept(given, size, names, kept, settings)
@@ -155,10 +163,10 @@ def _screen_by_stage_one(
         s = _estimate_scale(error, observations)
         weight = mask / np.sqrt(1 + (error / (_CAUCHY_SCALE * s[:, None])) ** 2)
     usual = float(np.median(s))
-    most = 1.0 if sign[s <= _MAX_VIEW_SCALE * usual].sum() >= 0 else -1.0
+    most = 1.0 if sign[s <= MAX_VIEW_SCALE * usual].sum() >= 0 else -1.0
     for k, good in enumerate(kept):
         good &= error[k, observations.corners_of(k)] <= _MAX_GROSS_RESIDUAL * max(s[k], usual)
-        if s[k] > _MAX_VIEW_SCALE * usual:
+        if s[k] > MAX_VIEW_SCALE * usual:
             yield k, "no camera sees a flat board like this: its corners are misnumbered"
         elif sign[k] != most:
             yield k, "its corners are numbered mirrored against the other views'"
@@ -167,7 +175,7 @@ def _screen_by_stage_one(
 def _estimate_scale(error: Array, observations: Observations) -> Array:
     """Estimate the robust scale s (K,) of each view's residual lengths."""
     padded = np.where(observations.mask > 0, error, np.nan)
-    return np.maximum(np.nanmedian(padded, axis=1) / _RAYLEIGH_MEDIAN, 1e-9)
+    return np.maximum(np.nanmedian(padded, axis=1) / RAYLEIGH_MEDIAN, 1e-9)
 
 
 def estimate_coordinate_sigma(lengths: Array) -> float:
@@ -175,7 +183,7 @@ def estimate_coordinate_sigma(lengths: Array) -> float:
 
     It follows from their median, which outliers hardly move.
     """
-    return float(np.median(lengths)) / _RAYLEIGH_MEDIAN
+    return float(np.median(lengths)) / RAYLEIGH_MEDIAN
 
 
 def _screen_by_residual(
@@ -196,7 +204,7 @@ def _screen_by_residual(
     ]
     trusted = np.concatenate([length[kept[k]] for k, length in zip(used, lengths, strict=True)])
     # Perfect data leave rounding only, of which the largest is no outlier.
-    limit = max(_MAX_RESIDUAL_IN_SIGMA * estimate_coordinate_sigma(trusted), 1e-6)
+    limit = max(MAX_RESIDUAL_IN_SIGMA * estimate_coordinate_sigma(trusted), 1e-6)
     changed = False
     for k, length in zip(used, lengths, strict=True):
         changed |= bool((kept[k] != (length <= limit)).any())
@@ -220,7 +228,7 @@ def _leave_out_poor_views(kept: list[BoolArray], reasons: dict[int, str]) -> Non
     """Leave out views that have lost too many corners; clear the marks of those left out."""
     for k, good in enumerate(kept):
         lost = np.count_nonzero(~good)
-        if k not in reasons and lost > _MAX_LOST_SHARE * len(good):
+        if k not in reasons and lost > MAX_LOST_SHARE * len(good):
             reasons[k] = f"{lost} of its {len(good)} corners do not fit"
         if k in reasons:
             good[:] = False

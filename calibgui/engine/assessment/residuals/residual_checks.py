@@ -26,7 +26,7 @@ directions  covariance C of the residuals is isotropic: -n ln(4 det C / tr^2 C) 
 
 By chance each test fails at most once in a thousand sound calibrations, and any of them once in
 seventy. Several fail together, because a bent board also moves neighbours alike and looks a little
-like a lens. The cause is the first that explains nearly as much as any does.
+like a lens. Which of them is the cause is chosen in ``causes/cause_choice.py``.
 
 Many corners reveal harmless deviations, too. A displacement that corners share moves the camera
 however small it is; but least squares stays unbiased, and its standard deviations right on
@@ -53,18 +53,15 @@ from calibgui.engine.assessment.residuals.cause_fits import (
     fit_nothing,
     fit_own_cause,
 )
+from calibgui.engine.assessment.residuals.residual_causes import CAUSES, Family
 from calibgui.engine.assessment.residuals.residual_statistics import summarise_residuals
 from calibgui.engine.assessment.residuals.systematic_errors import (
-    MOTIONS,
-    OWN_CAUSES,
-    measure_dispersion,
+    make_cubic_displacements,
     prepare_fit,
-    step_to_lines,
-    step_to_smooth,
+    take_open_steps,
     weigh_views,
 )
 from calibgui.engine.boards.shape import BoardShapeModel
-from calibgui.engine.calibration.lens_error import outdoes_board
 from calibgui.engine.calibration.observations import (
     Observation,
     Observations,
@@ -72,18 +69,11 @@ from calibgui.engine.calibration.observations import (
     name_views,
 )
 from calibgui.engine.calibration.result import Calibration
-from calibgui.engine.calibration.score_tests import (
-    CURVED,
-    LENS,
-    LinearisedFit,
-    SharedCauses,
-)
+from calibgui.engine.calibration.score_tests import LENS, LinearisedFit, SharedCauses
 from calibgui.engine.errors import Progress
 
 _MAX_FALSE_ALARM_RATE = 1e-3
 """Probability under noise below which a test fails."""
-_MIN_SHARE_OF_BEST = 0.8
-"""Share of what the best cause explains, from which an earlier one is taken for the cause."""
 _MIN_GAIN_OF_WEIGHING = 1.1
 """Ratio by which standard deviations must shrink for weighing the views to be worth it."""
 _MAX_LENGTH_IN_SIGMA = 4.5
@@ -93,41 +83,6 @@ FAR_OFF = 5.0
 _MAX_RMS_OVER_MEDIAN = 1.5
 """A view's rms over that from its median, above which few corners are taken to raise it."""
 
-_SHARED_CAUSES = {
-    "squares": BoardShapeModel.AFFINE,
-    "bow": CURVED,
-    "lens": LENS,
-    "board": BoardShapeModel.FREE,
-}
-"""Causes that all views share, by the names of their tests."""
-_STEPS = ("lines", "smooth")
-"""Tests of causes with many unknowns of each view's own, to which one step is taken."""
-_ADVICE_ON_CAUSES = {
-    "squares": "The board's squares are not as wide as high, or askew: measure its sides over many "
-    "squares, or estimate the board's shape (affine).",
-    "bow": "The board is bowed or twisted: mount it on something stiff, or estimate its shape "
-    "(free).",
-    "lens": "The lens model does not follow this lens: free the coefficients that are held, or use "
-    "another model.",
-    "focus": "The focal length differs between the views: switch autofocus and stabilisation off, "
-    "and do not touch zoom and focus.",
-    "centre": "The principal point differs between the views: switch image stabilisation off, and "
-    "do not crop or straighten the photographs.",
-    "bending": "The board bends from view to view, as paper in the hand does, or is seen through "
-    "glass: mount it on something stiff, and take off glass or plastic that covers it.",
-    "rows": "Camera or board moved while a rolling shutter read the rows, or a program has warped "
-    "the photographs: put both on a stand, or expose all rows at once, and switch off what "
-    "stabilises or straightens.",
-    "lines": "The image's rows are shifted sideways against each other: an analogue camera's lines "
-    "do not start evenly, or the camera trembled while a rolling shutter read them. Many views "
-    "average it; a digital or steady camera avoids it.",
-    "smooth": "Each view is distorted in its own way, and no single cause explains it: mount the "
-    "board on something stiff, keep board and camera still, and switch off autofocus, "
-    "stabilisation and what edits photographs.",
-    "board": "The board is not flat or not printed true: mount it on glass, or estimate its shape "
-    "(free).",
-}
-"""Meaning and remedy of every cause, in the order in which they are considered."""
 _ADVICE_ON_OUTLIERS = (
     "A few corners are much farther off than the others: look for misplaced ones, or leave "
     "outliers out."
@@ -172,9 +127,6 @@ class NoiseReport:
 
     checks: tuple[NoiseCheck, ...]
     """Results in the order of the module's description."""
-    are_lens_and_board_alike: bool = False
-    """True if lens and board both explain the residuals, and neither explains anything beyond the
-    other: the views do not tell which of them it is."""
     far_corners: int = 0
     """Number of corners whose residuals exceed `FAR_OFF` sigma of all, but not what their own
     uncertainty explains."""
@@ -185,16 +137,6 @@ class NoiseReport:
     def passed(self) -> bool:
         """True if all tests are passed."""
         return all(check.passed for check in self.checks)
-
-    @property
-    def cause(self) -> NoiseCheck | None:
-        """Failed test to attend to first, by the tests alone; None if all are passed.
-
-        What is to be said to users is in ``cause_choice.py``, where one cause is chosen among all.
-        """
-        failed = [check for check in self.checks if not check.passed]
-        most = max((check.share for check in failed), default=0.0)
-        return next((check for check in failed if check.share >= _MIN_SHARE_OF_BEST * most), None)
 
 
 def check_residuals(
@@ -221,7 +163,7 @@ def check_residuals(
     relative = r / sigma[:, None, None]
     seen = fit.observations.mask > 0
     weighed = weigh_views(fit, sigma)
-    shared = SharedCauses(weighed, list(_SHARED_CAUSES.values()))
+    shared = SharedCauses(weighed, [c.adds for c in CAUSES if isinstance(c.adds, str)])
     causes = tuple(_check_causes(calibration, weighed, shared, progress))
     return NoiseReport(
         (
@@ -231,7 +173,6 @@ def check_residuals(
             _check_neighbours(relative, fit.observations),
             _check_directions(r[seen]),
         ),
-        _are_lens_and_board_alike(causes, shared),
         *_count_far_corners(calibration, relative, fit.observations),
     )
 
@@ -269,66 +210,49 @@ def _check_causes(
 ) -> Iterator[NoiseCheck]:
     """Test what each cause explains of the residuals, of equally noisy views, against noise."""
     rms, freedom = summarise_residuals(calibration.residuals).rms, fit.degrees_of_freedom
-    without, squares = fit_nothing(fit), fit_board(fit, BoardShapeModel.AFFINE)
-    fits = {
-        name: without.lower(*shared.reduce_cost(cause)) for name, cause in _SHARED_CAUSES.items()
-    } | {"squares": squares}
-    names, after, left = list(_ADVICE_ON_CAUSES), [], 1.0
-    fits["smooth"], fits["lines"] = step_to_smooth(fit), step_to_lines(fit)
-    dispersion = measure_dispersion(fit, fits["smooth"])
+    without, steps = fit_nothing(fit), take_open_steps(fit)
+    squares = fit_board(fit, BoardShapeModel.AFFINE)
 
-    def compute_criterion_of(found: CauseFit) -> float:
-        return found.compute_akaike(without, freedom, dispersion)
+    def lower(adds: str) -> CauseFit:
+        return without.lower(*shared.reduce_cost(adds))
 
-    def compute_criterion(name: str) -> float:
-        return compute_criterion_of(fits[name])
+    def compute_criterion(found: CauseFit) -> float:
+        return found.compute_akaike(without, freedom, steps.dispersion)
 
-    is_lens_likely = compute_criterion("lens") < compute_criterion("squares")
-    if is_lens_likely and (calibration.lens_error > 0 or outdoes_board(shared)):
-        names.sort(key=lambda name: name != "lens")
+    causes, after, left = list(CAUSES), [], 1.0
+    if calibration.lens_error > 0 and compute_criterion(lower(LENS)) < compute_criterion(squares):
+        causes.sort(key=lambda cause: cause.adds != LENS)
         after, left = [LENS], 1 - shared.reduce_cost(LENS)[0] / shared.cost
-    for done, name in enumerate(names):
+    for done, cause in enumerate(causes):
         if progress is not None:
-            progress(done, len(names))
+            progress(done, len(causes))
         share = 1.0
-        if name in OWN_CAUSES:
-            ways = MOTIONS if name == "rows" else (OWN_CAUSES[name],)
-            fits[name] = min((fit_own_cause(fit, way) for way in ways), key=compute_criterion_of)
-            found = fits[name].judge(without, freedom)
-        elif name in _STEPS:
-            found = fits[name].judge(CauseFit(shared.cost, 0), freedom)
-        elif name == "squares" and not after:
-            found = squares.judge(without, freedom)
-        elif name == "lens":
-            found = shared.explain(LENS)
+        if isinstance(cause.adds, str):
+            before = [] if cause.adds == LENS else after
+            fitted, share = lower(cause.adds), left if before else 1.0
+            found = shared.explain(cause.adds, *before)
+            if cause.adds == BoardShapeModel.AFFINE:
+                fitted, found = squares, found if before else squares.judge(without, freedom)
+            agree = shared.do_views_agree(cause.adds, *before)
+        elif cause.family is Family.OPEN:
+            fitted = steps.smooth if cause.adds is make_cubic_displacements else steps.lines
+            agree = True
+            found = fitted.judge(CauseFit(shared.cost, 0), freedom)
         else:
-            found, share = shared.explain(_SHARED_CAUSES[name], *after), left
+            fitted, agree = fit_own_cause(fit, cause.adds), True
+            found = fitted.judge(without, freedom)
         share *= found.share
-        passed = found.probability >= _MAX_FALSE_ALARM_RATE
-        if name in _SHARED_CAUSES and not passed:
-            before = () if name == "lens" else after
-            passed = not shared.do_views_agree(_SHARED_CAUSES[name], *before)
+        passed = found.probability >= _MAX_FALSE_ALARM_RATE or not agree
         finding = "nothing" if passed else f"{np.sqrt(share) * rms:.2g} px rms"
         yield NoiseCheck(
-            name,
+            cause.name,
             passed,
             finding,
-            _ADVICE_ON_CAUSES[name],
+            cause.advice,
             0.0 if passed else share,
             found.probability,
-            compute_criterion(name),
+            compute_criterion(fitted),
         )
-
-
-def _are_lens_and_board_alike(causes: Sequence[NoiseCheck], shared: SharedCauses) -> bool:
-    """Return whether both lens and board are causes that failed, and neither explains anything of
-    what the other leaves, beyond noise."""
-    failed = [c.name for c in causes if not c.passed and c.name in _SHARED_CAUSES]
-    boards = [_SHARED_CAUSES[name] for name in failed if name != "lens"]
-    if not boards or "lens" not in failed:
-        return False
-    beyond = [(board, LENS) for board in boards] + [(LENS, BoardShapeModel.FREE)]
-    return all(shared.explain(*pair).probability >= _MAX_FALSE_ALARM_RATE for pair in beyond)
 
 
 def _check_shape(residual: Array, sigma: Array, seen: BoolArray) -> NoiseCheck:

@@ -15,8 +15,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from calibgui.engine.arrays import Array
-from calibgui.engine.assessment.residuals.cause_fits import CauseFit, Columns
+from calibgui.engine.arrays import Array, IntArray
+from calibgui.engine.assessment.residuals.cause_fits import MIN_EIGENVALUE, CauseFit, Columns
 from calibgui.engine.calibration.observations import Observation, slice_views
 from calibgui.engine.calibration.problem import (
     find_free_parameters,
@@ -25,14 +25,16 @@ from calibgui.engine.calibration.problem import (
 )
 from calibgui.engine.calibration.refinement.residuals import Linearised
 from calibgui.engine.calibration.result import Calibration, Cost
-from calibgui.engine.calibration.score_tests import LinearisedFit
+from calibgui.engine.calibration.score_tests import (
+    Explanation,
+    LinearisedFit,
+    judge_explanation,
+)
 
 _KNOT_SPACING = 1 / 16
 """Distance of the knots between which rows are shifted, over the image's longer side."""
 _KNOTS = np.arange(-16, 17)
 """Knots along the rows, counted from the board's mean row."""
-_MIN_EIGENVALUE = 1e-9
-"""Eigenvalue of normal equations of unit diagonal, below which a direction is undetermined."""
 
 
 class ViewProducts(NamedTuple):
@@ -52,6 +54,20 @@ class ViewProducts(NamedTuple):
     """The sum of squares r^T r."""
     freedom: int
     """Number of residual coordinates beyond that of the fitted unknowns."""
+
+
+class OpenSteps(NamedTuple):
+    """Steps to columns of each view's own that are so many that they follow nearly anything."""
+
+    smooth: CauseFit
+    """The step to smooth displacements of the image."""
+    lines: CauseFit
+    """The step to shifts from row to row."""
+    dispersion: float
+    """How much more than independent noise each further unknown of a view explains: the mean square
+    that shifts from row to row explain of what smooth displacements leave, over the variance that
+    both leave; at least 1. Rows that do not start evenly have errors that are alike along them, of
+    which any cause with many unknowns takes more than its share."""
 
 
 def prepare_fit(calibration: Calibration, views: Sequence[Observation]) -> LinearisedFit:
@@ -74,48 +90,30 @@ def weigh_views(fit: LinearisedFit, sigma: Array) -> LinearisedFit:
     return fit.weigh(fit.get_weight(slice(0, len(sigma))) / sigma[:, None, None, None])
 
 
-def step_to_lines(fit: LinearisedFit) -> CauseFit:
-    """Take a step to a shift along the rows that wanders from row to row in each view."""
-    return _take_own_step(fit, _make_line_columns)
-
-
-def step_to_smooth(fit: LinearisedFit) -> CauseFit:
-    """Take a step to any smooth displacement of each view's own, cubic over the board.
-
-    It follows all of `OWN_CAUSES`, and many that have no test.
-    """
-    return _take_own_step(fit, _make_cubic_displacements)
-
-
-def measure_dispersion(fit: LinearisedFit, smooth: CauseFit) -> float:
-    """Measure how much more than independent noise each further unknown of a view explains.
-
-    It is the mean square that shifts from row to row explain of what smooth displacements leave,
-    over the variance that both leave; at least 1. Rows that do not start evenly have errors that
-    are alike along them, of which any cause with many unknowns takes more than its share.
-    """
+def take_open_steps(fit: LinearisedFit) -> OpenSteps:
+    """Take a step to each kind of columns that follow nearly anything, beside the poses."""
 
     def make_columns(fit: LinearisedFit, linear: Linearised, views: slice) -> Array:
-        parts = [
-            make(fit, linear, views) for make in (_make_cubic_displacements, _make_line_columns)
-        ]
+        parts = [make(fit, linear, views) for make in (make_cubic_displacements, make_line_columns)]
         return np.concatenate(parts, axis=-1)
 
-    both = _take_own_step(fit, make_columns)
+    products = _multiply_own_columns(fit, make_columns)
+    lines = products.N.shape[-1] - len(_KNOTS)
+    smooth, both = (_take_step(products, part) for part in (slice(lines), slice(None)))
     further, rest = both.unknowns - smooth.unknowns, fit.degrees_of_freedom - both.unknowns
-    if further < 1 or rest < 1 or not both.cost > 0:
-        return 1.0
-    return max((smooth.cost - both.cost) / further / (both.cost / rest), 1.0)
+    dispersion = 1.0
+    if further >= 1 and rest >= 1 and both.cost > 0:
+        dispersion = max((smooth.cost - both.cost) / further / (both.cost / rest), 1.0)
+    return OpenSteps(smooth, _take_step(products, slice(lines, None)), dispersion)
 
 
-def _take_own_step(fit: LinearisedFit, columns: Columns) -> CauseFit:
-    """Take a step to columns of each view's own, beside the poses."""
-    found = _multiply_own_columns(fit, columns)
-    T, rank = np.sum([_compute_reduction(N, b) for N, b in zip(found.N, found.b, strict=True)], 0)
-    return CauseFit(found.cost, 0).lower(float(T), int(rank))
+def _take_step(products: ViewProducts, columns: slice) -> CauseFit:
+    """Take a step to some of the columns."""
+    T, rank = _compute_reductions(products.N[:, columns, columns], products.b[:, columns])
+    return CauseFit(products.cost, 0).lower(float(T.sum()), int(rank.sum()))
 
 
-def _make_focus_columns(fit: LinearisedFit, _: Linearised, views: slice) -> Array:
+def make_focus_columns(fit: LinearisedFit, _: Linearised, views: slice) -> Array:
     """Make the column of a focal length of each view's own."""
     from_centre = fit.predict_corners(views) - fit.camera.centre
     return np.asarray(fit.get_weight(views) @ from_centre[..., None])
@@ -129,7 +127,7 @@ def _make_distortion_columns(fit: LinearisedFit, _: Linearised, views: slice) ->
     return np.asarray(fit.get_weight(views) @ columns)
 
 
-def _make_centre_columns(_: LinearisedFit, linear: Linearised, __: slice) -> Array:
+def make_centre_columns(_: LinearisedFit, linear: Linearised, __: slice) -> Array:
     """Make the columns of a principal point of each view's own.
 
     A rotation of the camera hides most of it; what is left is that of an image in perspective, so
@@ -138,28 +136,16 @@ def _make_centre_columns(_: LinearisedFit, linear: Linearised, __: slice) -> Arr
     return linear.by_params[..., 2:4]
 
 
-def _make_bending_columns(fit: LinearisedFit, linear: Linearised, views: slice) -> Array:
+def make_bending_columns(fit: LinearisedFit, linear: Linearised, views: slice) -> Array:
     """Make the columns of a board that bends anew in each view, quadratically."""
     x, y = np.moveaxis(_scale_places(fit, views), -1, 0)
     by_height = linear.by_pose[..., 3:] @ fit.state.R[views, None, :, 2:]
     return np.asarray(by_height * np.stack([x * x, x * y, y * y], axis=-1)[..., None, :])
 
 
-def _make_row_columns(fit: LinearisedFit, linear: Linearised, views: slice) -> Array:
+def make_row_columns(fit: LinearisedFit, linear: Linearised, views: slice) -> Array:
     """Make the columns of a steady motion while the rows are read: a rolling shutter's."""
     return np.asarray(linear.by_pose * _measure_rows(fit, views)[..., None, None])
-
-
-def _make_turn_columns(fit: LinearisedFit, linear: Linearised, views: slice) -> Array:
-    """Make the columns of a steady rotation of the camera about its centre while rows are read.
-
-    A rotation by w moves a point X = R x + T by w x X, of which w x T is a shift of the board.
-    """
-    x, y, z = fit.state.T[views].T
-    zero = np.zeros_like(x)
-    shift = np.array([[zero, z, -y], [-z, zero, x], [y, -x, zero]])
-    by_turn = linear.by_pose[..., :3] + linear.by_pose[..., 3:] @ np.moveaxis(shift, -1, 0)[:, None]
-    return np.asarray(by_turn * _measure_rows(fit, views)[..., None, None])
 
 
 def _make_roll_columns(fit: LinearisedFit, _: Linearised, views: slice) -> Array:
@@ -170,24 +156,17 @@ def _make_roll_columns(fit: LinearisedFit, _: Linearised, views: slice) -> Array
     return np.asarray(fit.get_weight(views) @ turned[..., None])
 
 
-def _make_line_columns(fit: LinearisedFit, _: Linearised, views: slice) -> Array:
+def _make_skew_columns(fit: LinearisedFit, _: Linearised, views: slice) -> Array:
+    """Make the column of a shift of each row sideways, px, in proportion to its number."""
+    row = fit.predict_corners(views)[..., 1] - fit.camera.centre[1]
+    return np.asarray(fit.get_weight(views)[..., :1] * row[..., None, None])
+
+
+def make_line_columns(fit: LinearisedFit, _: Linearised, views: slice) -> Array:
     """Make the columns of a shift along the rows that wanders from row to row in each view."""
     rows = _measure_rows(fit, views)[..., None]
     hats = np.maximum(1 - np.abs(rows / _KNOT_SPACING - _KNOTS), 0.0)
     return np.asarray(fit.get_weight(views)[..., :1] * hats[..., None, :])
-
-
-OWN_CAUSES: dict[str, Columns] = {
-    "focus": _make_focus_columns,
-    "centre": _make_centre_columns,
-    "bending": _make_bending_columns,
-    "rows": _make_row_columns,
-}
-"""Columns of the causes with few unknowns of each view's own, by the names of their tests
-(``residual_checks.py``)."""
-MOTIONS = (_make_row_columns, _make_turn_columns, _make_roll_columns)
-"""Columns of steady motions while the rows are read, with fewer and fewer unknowns: of any, of a
-camera that turns, as one does that is held in the hand, and of one that rolls."""
 
 
 def _measure_rows(fit: LinearisedFit, views: slice) -> Array:
@@ -198,7 +177,7 @@ def _measure_rows(fit: LinearisedFit, views: slice) -> Array:
 
 def multiply_by_focus(fit: LinearisedFit) -> ViewProducts:
     """Multiply the column of a focal length of each view's own."""
-    return _multiply_own_columns(fit, _make_focus_columns)
+    return _multiply_own_columns(fit, make_focus_columns)
 
 
 def multiply_by_distortion(fit: LinearisedFit) -> ViewProducts:
@@ -233,6 +212,26 @@ def multiply_by_roll(fit: LinearisedFit) -> ViewProducts:
     return _multiply_own_columns(fit, _make_roll_columns)
 
 
+def multiply_by_skew(fit: LinearisedFit) -> ViewProducts:
+    """Multiply the column of a skew of each view's own."""
+    return _multiply_own_columns(fit, _make_skew_columns)
+
+
+def judge_together(products: ViewProducts) -> Explanation:
+    """Judge columns as the cause that all views share, beside the camera: by a score test."""
+    S, B, N = (a.sum(axis=0) for a in (products.shared, products.between, products.N))
+    gradient, b = products.gradient.sum(axis=0), products.b.sum(axis=0)
+    unit = 1 / np.sqrt(np.maximum(np.diag(S), 1e-24))
+    S = S * np.outer(unit, unit)
+    taken = np.linalg.lstsq(S, unit[:, None] * np.column_stack([B, gradient]), rcond=None)[0]
+    by_camera = (unit[:, None] * B).T @ taken
+    left = N - by_camera[:, :-1]
+    is_told = np.diag(left) > MIN_EIGENVALUE * np.diag(N)  # others have columns like it already
+    left, b = left[np.ix_(is_told, is_told)], (b - by_camera[:, -1])[is_told]
+    T, rank = _compute_reductions(left[None], b[None])
+    return judge_explanation(float(T[0]), int(rank[0]), products.cost, products.freedom)
+
+
 def _multiply_own_columns(fit: LinearisedFit, columns: Columns) -> ViewProducts:
     """Multiply columns that each view has of its own, and the camera's, without the view's pose."""
     parts, cost, P = [], 0.0, len(fit.free)
@@ -256,12 +255,14 @@ def _multiply_own_columns(fit: LinearisedFit, columns: Columns) -> ViewProducts:
     )  # fmt: skip
 
 
-def _compute_reduction(N: Array, b: Array) -> tuple[float, int]:
-    """Return b^T N^+ b and the rank of N (m, m)."""
-    unit = 1 / np.sqrt(np.maximum(np.diag(N), 1e-24))  # columns may depend on no corner at all
-    values, vectors = np.linalg.eigh(N * np.outer(unit, unit))
-    good = values > _MIN_EIGENVALUE
-    return float(np.sum(((unit * b) @ vectors[:, good]) ** 2 / values[good])), int(good.sum())
+def _compute_reductions(N: Array, b: Array) -> tuple[Array, IntArray]:
+    """Return b^T N^+ b (K,) and the ranks (K,) of K matrices N (m, m)."""
+    # Columns may depend on no corner at all.
+    unit = 1 / np.sqrt(np.maximum(np.diagonal(N, axis1=1, axis2=2), 1e-24))
+    values, vectors = np.linalg.eigh(N * unit[:, :, None] * unit[:, None])
+    good = values > MIN_EIGENVALUE
+    along = ((unit * b)[:, None] @ vectors)[:, 0]
+    return np.sum(np.where(good, along**2 / np.where(good, values, 1.0), 0.0), 1), good.sum(axis=1)
 
 
 def make_smooth_columns(fit: LinearisedFit) -> Array:
@@ -273,17 +274,17 @@ def make_smooth_columns(fit: LinearisedFit) -> Array:
     """
     K = len(fit.observations.xy)
     linear = fit.linearise(slice(0, K))
-    smooth = _make_cubic_displacements(fit, linear, slice(0, K))
+    smooth = make_cubic_displacements(fit, linear, slice(0, K))
     smooth = smooth.reshape(K, -1, smooth.shape[-1])
     # Columns that no corner depends on would be divided by 0.
     smooth /= np.maximum(np.linalg.norm(smooth, axis=1, keepdims=True), 1e-300)
     pose = np.linalg.qr(linear.by_pose.reshape(K, -1, 6))[0]
     left, values, _ = np.linalg.svd(smooth - pose @ (np.swapaxes(pose, 1, 2) @ smooth), False)
-    left *= (values > np.sqrt(_MIN_EIGENVALUE))[:, None, :]
+    left *= (values > np.sqrt(MIN_EIGENVALUE))[:, None, :]
     return np.concatenate([pose, left], axis=-1)
 
 
-def _make_cubic_displacements(fit: LinearisedFit, _: Linearised, views: slice) -> Array:
+def make_cubic_displacements(fit: LinearisedFit, _: Linearised, views: slice) -> Array:
     """Make columns (k, N, 2, 20): weighted displacements of the image, cubic over the board."""
     x, y = np.moveaxis(_scale_places(fit, views), -1, 0)
     terms = np.stack([x**i * y**j for i in range(4) for j in range(4 - i)], axis=-1)
@@ -293,6 +294,5 @@ def _make_cubic_displacements(fit: LinearisedFit, _: Linearised, views: slice) -
 
 def _scale_places(fit: LinearisedFit, views: slice) -> Array:
     """Return the places (k, N, 2) of corners on the board, from -1 to 1 over all that were seen."""
-    xy, mask = fit.observations.xy[..., :2], fit.observations.mask > 0
-    low, high = xy[mask].min(axis=0), xy[mask].max(axis=0)
-    return np.asarray((2 * xy[views] - low - high) / (high - low))
+    low, high = fit.extent
+    return np.asarray((2 * fit.observations.xy[views, :, :2] - low - high) / (high - low))

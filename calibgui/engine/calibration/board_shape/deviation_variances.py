@@ -48,6 +48,8 @@ class Coefficients(NamedTuple):
     """(Q, Q) R, where sigma^2 R R^T is their covariance."""
     sigma2: float
     """Variance of one residual coordinate."""
+    variances: Array
+    """(3,) variances of the coefficients of each kind, mm^2."""
 
 
 class Noise(NamedTuple):
@@ -90,11 +92,11 @@ def estimate_coefficients(
         least,
         (_MAX_ITERATIONS, _MAX_CHANGE, _MAX_MIXING, _MIN_RATIO),
     )
-    stiffened = S.copy()
-    stiffened.flat[:: len(S) + 1] += np.exp(logarithms)[kind]
+    stiffened, stiffness = S.copy(), np.exp(logarithms)
+    stiffened.flat[:: len(S) + 1] += stiffness[kind]
     factor, _ = scipy.linalg.lapack.dpotrf(stiffened.T, overwrite_a=True)
     root, _ = scipy.linalg.lapack.dtrtri(factor, overwrite_c=True)
-    return Coefficients(-root @ (right @ root), root, sigma2)
+    return Coefficients(-root @ (right @ root), root, sigma2, sigma2 / stiffness)
 
 
 def estimate_sigma2(noise: Noise, gained: float, known: float) -> float:

@@ -97,3 +97,10 @@ def make_deviations(points: Array) -> Deviations:
     is_rough = degrees[degrees > 1] > SMOOTH_DEGREE
     kinds = [np.where(is_rough, ROUGH, smooth) for smooth in (PRINT, PRINT, FLATNESS)]
     return Deviations(q, linear, np.concatenate([np.full(linear.shape[1], PRINT), *kinds]))
+
+
+def split_by_kind(deviations: Deviations) -> tuple[Array, Array]:
+    """Return orthonormal bases (3n, m) of the deviations in `FLATNESS` and in `PRINT`."""
+    size = 3 * len(deviations.polynomials)
+    whole = deviations.contract(np.eye(size).reshape(-1, 3, size))
+    return whole[:, deviations.kind == FLATNESS], whole[:, deviations.kind == PRINT]

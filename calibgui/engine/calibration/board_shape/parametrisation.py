@@ -41,7 +41,6 @@ from calibgui.engine.calibration.refinement.residuals import (
 )
 from calibgui.engine.calibration.refinement.schur import NormalEquations, sum_costs
 from calibgui.engine.calibration.result import Cost
-from calibgui.engine.camera.models import find_model
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.kernels import with_kernel
 
@@ -174,10 +173,10 @@ def iterate_corner_products(
         without the poses; (n, 3, P + 4) of these three with the camera's, with r and with
         themselves, summed over the views.
     """
-    K, lens = len(index), find_model(model)
+    K = len(index)
     for part in slice_views(K):
         with np.errstate(all="ignore"):  # a wild trial overflows; its cost says so
-            whole = linearise_residuals(state, observations, part, lens, Cost.IMAGE, 1.0)
+            whole = linearise_residuals(state, observations, part, model, Cost.IMAGE, 1.0)
         A, D = _form_products(
             whole, state.R[part], free, index[part], observations.mask[part], count
         )

@@ -56,6 +56,7 @@ import numpy as np
 from calibgui.engine.arrays import Array, IntArray, compute_median
 from calibgui.engine.boards.shape import BoardShapePrior
 from calibgui.engine.calibration.board_shape.deviation_variances import (
+    Coefficients,
     Noise,
     VariancePrior,
     estimate_coefficients,
@@ -67,13 +68,14 @@ from calibgui.engine.calibration.board_shape.parametrisation import (
 )
 from calibgui.engine.calibration.observations import Observations
 from calibgui.engine.calibration.refinement import covariances
+from calibgui.engine.calibration.refinement.covariances import Estimate
 from calibgui.engine.calibration.refinement.schur import (
     NormalEquations,
+    Reduced,
     eliminate_poses,
     invert_roots,
     sum_costs,
 )
-from calibgui.engine.calibration.result_assembly import Estimate
 
 DEFAULT_FLATNESS = 3e-4
 """Expected deviation (rms) of a board from flatness, and from its print, over its longer side:
@@ -85,6 +87,12 @@ _PRIOR_FREEDOM = 0.3
 the degrees of ``deviations.py``, 92 % and more of the intrinsics lie within two standard deviations
 of the truth on boards that are bowed, twisted, stretched or rough by 0.05 to 1 mm, in 3 to 25 views
 (``tests/benchmarks/standard_deviations.py``)."""
+_NO_FREEDOM = 1e-6
+"""Degrees of freedom of a prior that yields to any view."""
+_MAX_LINEAR = 3e-3
+"""Deviation rms over the board's longer side beyond which a linear step from the drawing does not
+tell of it: 1 mm of a board of 0.33 m. On one that was bowed by 14 % of its length, the camera for
+the drawing explained the print and left a residual of 2 px."""
 _SHIFT_WEIGHT = 1.2922
 """The factor gamma of a shift's square, see above."""
 _MIN_VIEWS_OF_CORNER = 3
@@ -204,19 +212,12 @@ def estimate_board_error(
         count: number of corners in all views.
         prior: deviations to expect; `DEFAULT_FLATNESS` if None.
     """
-    normal, kind = board.normal, board.deviations.kind
-    P, n = len(normal.U) - len(kind), len(board.points)
-    joint = eliminate_poses(normal)
-    right, S = joint.reduce_gradient(normal.shared, normal.pose), joint.S
-    camera = covariances.invert_information(joint._replace(S=S[:P, :P], unit=joint.unit[:P]))[0]
-    follow = -camera @ S[:P, P:]  # of the camera, by each coefficient
-
-    q, root, sigma2 = estimate_coefficients(
-        S[P:, P:] + S[P:, :P] @ follow,
-        right[P:] + right[:P] @ follow,
-        kind,
-        _state_prior(board.points, kind, prior),
-        Noise(normal.cost, 2 * count - P - normal.pose.size, estimate.sigma2),
+    normal, kind, n = board.normal, board.deviations.kind, len(board.points)
+    joint, right, camera, follow = _eliminate_camera(board)
+    P = len(camera)
+    variances = state_variance_prior(board.points, kind, prior)
+    q, root, sigma2, _ = _solve_for_coefficients(
+        board, joint, right, follow, variances, estimate, count
     )
     shift = follow @ q - camera @ right[:P]
     # Higher degrees are as rough as most of those before: of noise's squares the median is 0.455.
@@ -232,6 +233,69 @@ def estimate_board_error(
         shift,
         joint.solve_poses(-normal.pose, np.append(shift, q)),
         float(np.sqrt(square / n)),
+    )
+
+
+def learn_variances(
+    board: LinearisedBoard, estimate: Estimate, count: int, prior: BoardShapePrior | None
+) -> Array:
+    """Learn the variances (3,), mm^2, of a board's deviations by kind, for a shape to be estimated.
+
+    They are what the views say, by restricted maximum likelihood (the prior's nu is next to 0): of
+    a board on which noise explains what is seen they are next to 0 as well. What the user knows of
+    the board is kept. From a board that is far from flat, the drawing leads astray, and nothing is
+    learnt: the variances are then infinite.
+
+    Args:
+        board: the estimate, linearised.
+        estimate: the estimate with the image cost for the board as it is drawn.
+        count: number of corners in all views.
+        prior: deviations that the user expects, or None.
+    """
+    expected = state_variance_prior(board.points, board.deviations.kind, prior)
+    if prior is not None:
+        return expected.expected
+    joint, right, _, follow = _eliminate_camera(board)
+    weak = expected._replace(freedom=_NO_FREEDOM)
+    found = _solve_for_coefficients(board, joint, right, follow, weak, estimate, count)
+    rms = np.linalg.norm(found.q) / np.sqrt(len(board.points))
+    is_far = rms > _MAX_LINEAR * np.ptp(board.points, axis=0).max()
+    return np.full(3, np.inf) if is_far else found.variances
+
+
+def _eliminate_camera(board: LinearisedBoard) -> tuple[Reduced, Array, Array, Array]:
+    """Eliminate poses and camera from a linearised calibration.
+
+    Returns:
+        The equations of camera and coefficients, their gradient (P + Q,), the camera's inverse
+        information (P, P) for a board that is known, and how the camera follows the coefficients
+        (P, Q).
+    """
+    normal = board.normal
+    P = len(normal.U) - len(board.deviations.kind)
+    joint = eliminate_poses(normal)
+    right, S = joint.reduce_gradient(normal.shared, normal.pose), joint.S
+    camera = covariances.invert_information(joint._replace(S=S[:P, :P], unit=joint.unit[:P]))[0]
+    return joint, right, camera, -camera @ S[:P, P:]
+
+
+def _solve_for_coefficients(
+    board: LinearisedBoard,
+    joint: Reduced,
+    right: Array,
+    follow: Array,
+    prior: VariancePrior,
+    estimate: Estimate,
+    count: int,
+) -> Coefficients:
+    """Estimate the coefficients of a board's deviations, from what `_eliminate_camera` returns."""
+    P, S = len(follow), joint.S
+    return estimate_coefficients(
+        S[P:, P:] + S[P:, :P] @ follow,
+        right[P:] + right[:P] @ follow,
+        board.deviations.kind,
+        prior,
+        Noise(board.normal.cost, 2 * count - P - board.normal.pose.size, estimate.sigma2),
     )
 
 
@@ -256,7 +320,9 @@ def add_board_error(
     )
 
 
-def _state_prior(points: Array, kind: IntArray, prior: BoardShapePrior | None) -> VariancePrior:
+def state_variance_prior(
+    points: Array, kind: IntArray, prior: BoardShapePrior | None
+) -> VariancePrior:
     """Return the prior on the variances: what the user knows, else what boards usually have."""
     usual = DEFAULT_FLATNESS * float(np.ptp(points, axis=0).max())
     flat, true = (usual, usual) if prior is None else (prior.out_of_plane, prior.in_plane)

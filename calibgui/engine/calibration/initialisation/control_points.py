@@ -2,7 +2,7 @@
 
 A splined lens (``camera.models.splined_stereographic``) knows nothing beyond its control points.
 Where its user names no angle, these cover the largest one at which a start of the unified model
-(``unified_start.py``) sees a corner, and a little more.
+(``unified_camera_search.py``) sees a corner, and a little more.
 """
 
 from __future__ import annotations
@@ -10,7 +10,7 @@ from __future__ import annotations
 import numpy as np
 
 from calibgui.engine.arrays import Array, Size
-from calibgui.engine.calibration.initialisation.unified_start import find_unified_start
+from calibgui.engine.calibration.initialisation.unified_camera_search import search_unified_camera
 from calibgui.engine.calibration.observations import Observations
 from calibgui.engine.calibration.refinement.residuals import State, place_points
 from calibgui.engine.camera.model import Lens
@@ -28,7 +28,7 @@ _MAX_ANGLE_DEG = 340
 def choose_control_points(observations: Observations, size: Size) -> str:
     """Choose the splined lens model whose control points cover the corners; return its id."""
     unknown = np.full(4, np.nan)
-    reach = _measure_reach(find_unified_start(observations, size, unknown), observations)
+    reach = _measure_reach(search_unified_camera(observations, size, unknown), observations)
     aspect = (_COLUMNS - 3) / (_ROWS - 3)  # control points are equally far apart along both axes
     half = _MARGIN * max(reach[0], aspect * reach[1])
     angle = min(int(np.ceil(np.rad2deg(4 * np.arctan(half / 2)))), _MAX_ANGLE_DEG)

@@ -8,8 +8,8 @@ Stage I corrects each view by one coefficient, n = d (1 + k1 r^2). The polynomia
 their first coefficient (``PlaneLens.closed_form_factor``). Any other model is fitted to the rays
 that it gives (``Lens.fit_to_rays`` or ``lens_fit.py``), or, where the start so made misses the
 corners by more than 0.3 % of the image's width, to those of a camera of the unified model that
-needs no Stage I (``unified_start.py``). Models of several minima are started from several values of
-the coefficient along which these lie (``Lens.valley``, ``descent.py``).
+needs no Stage I (``unified_camera_search.py``). Models of several minima are started from several
+values of the coefficient along which these lie (``Lens.valley``, ``multistart.py``).
 """
 
 from __future__ import annotations
@@ -21,12 +21,12 @@ import numpy as np
 
 from calibgui.engine.arrays import Array, Size
 from calibgui.engine.calibration.initialisation import closed_form, focal_sweep
-from calibgui.engine.calibration.initialisation.descent import descend_along
 from calibgui.engine.calibration.initialisation.lens_fit import fit_lens
+from calibgui.engine.calibration.initialisation.multistart import descend_along
 from calibgui.engine.calibration.initialisation.stage_one import StageOneRegistration
-from calibgui.engine.calibration.initialisation.unified_start import (
-    find_unified_start,
+from calibgui.engine.calibration.initialisation.unified_camera_search import (
     measure_miss,
+    search_unified_camera,
 )
 from calibgui.engine.calibration.observations import Observations
 from calibgui.engine.calibration.refinement.levenberg_marquardt import StartError
@@ -229,7 +229,7 @@ def _start_any_lens(
     misses = [measure_miss(observations, start, lens, size) for start in starts]
     if not misses or misses[0] > _MAX_START_MISS * size[0]:
         known = np.array([_find_known(held, name, size) for name in PINHOLE])
-        unified = find_unified_start(observations, size, known)
+        unified = search_unified_camera(observations, size, known)
         rays = rays_from_pixels(observations.uv, Camera(size, unified.params, "ucm"))
         candidates.append(_ObservedRays(rays, unified._replace(params=unified.params[:4])))
         starts.append(_fit_to_rays(observations, candidates[-1], model, held))

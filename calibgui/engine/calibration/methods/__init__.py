@@ -19,9 +19,6 @@ from calibgui.engine.camera.models import MODELS
 from calibgui.engine.camera.models.splined_stereographic import PREFIX
 from calibgui.engine.errors import CalibrationError
 
-DEFAULT_METHOD = LUCCHESE.name
-"""Name of the method that `calibrate` uses unless told otherwise."""
-
 METHODS: dict[str, Method] = {
     method.name: method
     for method in (

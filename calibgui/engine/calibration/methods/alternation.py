@@ -22,13 +22,13 @@ import numpy as np
 
 from calibgui.engine.arrays import IntArray
 from calibgui.engine.calibration.methods.method import (
+    Problem,
     Refinement,
     evaluate_state,
     refine_by_bundle_adjustment,
     subtract_states,
 )
 from calibgui.engine.calibration.observations import Observations
-from calibgui.engine.calibration.options import Options
 from calibgui.engine.calibration.refinement.levenberg_marquardt import (
     Solution,
     measure_scaled_step,
@@ -53,47 +53,42 @@ _ROUNDING = 1e-24
 def refine_by_alternation(
     solve_distortion: SolveDistortion,
     names: tuple[str, ...],
-    observations: Observations,
+    problem: Problem,
     start: State,
-    options: Options,
     report: Report | None,
-    max_iterations: int,
     *,
     distortion_first: bool = False,
 ) -> Refinement:
     """Take turns; an iteration of the history is a turn.
 
-    The status is ``MAX_ITERATIONS`` where `max_iterations` turns do not suffice.
+    The status is ``MAX_ITERATIONS`` where that many turns do not suffice.
 
     Args:
         solve_distortion: the linear half of a turn.
         names: names of the coefficients that it solves for, where they are not held.
-        observations: the views.
+        problem: the problem; a turn more than its largest number of iterations is taken at most.
         start: camera and poses.
-        options: the options of the calibration.
         report: a function that takes each turn; it returns False to stop.
-        max_iterations: number of turns after the first, at most.
         distortion_first: True if the first turn solves for the distortion too; otherwise it keeps
             that of the start.
     """
     began, history = time.perf_counter(), list[Iteration]()
-    linear = np.array([i for i in options.free if options.names[i] in names], dtype=np.int64)
-    held_in_turn = {options.names[i]: 0.0 for i in linear}  # held where they are
-    rest = options._replace(held={**options.held, **held_in_turn})
+    observations, parameters, free = problem.prepared, problem.parameters, problem.free
+    linear = np.array([i for i in free if parameters[i] in names], dtype=np.int64)
+    held_in_turn = dict.fromkeys(parameters[i] for i in linear)  # held where they are
+    rest = replace(problem, held={**problem.held, **held_in_turn})
     state, status = start, Status.MAX_ITERATIONS
-    for index in range(max_iterations + 1):
+    for index in range(problem.max_iterations + 1):
         before = state
         if index or distortion_first:
             state = solve_distortion(state, observations, linear)
-        state = refine_by_bundle_adjustment(
-            observations, state, rest, None, max_iterations
-        ).solution.state
-        here = evaluate_state(observations, state, options)
+        state = refine_by_bundle_adjustment(rest, state, None).solution.state
+        here = evaluate_state(problem, observations, state)
         history.append(
             replace(
                 here.history[0],
                 index=index,
-                step=_measure_turn(before, state, here.normal, options.free),
+                step=_measure_turn(before, state, here.normal, free),
                 seconds=time.perf_counter() - began,
             )
         )

@@ -20,9 +20,9 @@ import numpy as np
 from calibgui.engine.arrays import Size
 from calibgui.engine.calibration.initialisation import closed_form, focal_sweep
 from calibgui.engine.calibration.methods.method import (
-    Given,
     Initialisation,
     Method,
+    Problem,
     hold_parameters,
     refine_by_bundle_adjustment,
 )
@@ -61,10 +61,10 @@ def start_from_vanishing_points(observations: Observations, size: Size, model: s
     return State(np.concatenate([f, centre, find_model(model).defaults]), R, T)
 
 
-def initialise_from_vanishing_points(given: Given) -> Initialisation:
+def initialise_from_vanishing_points(problem: Problem) -> Initialisation:
     """Make the toolbox's start; held parameters take their values, or those of the start."""
-    start = start_from_vanishing_points(given.observations, given.size, given.model)
-    return hold_parameters(start, given.model, given.held, {})
+    start = start_from_vanishing_points(problem.observations, problem.size, problem.model)
+    return hold_parameters(start, problem.model, problem.held, {})
 
 
 def _list_remarks(calibration: Calibration) -> tuple[str, ...]:

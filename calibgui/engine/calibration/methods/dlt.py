@@ -36,9 +36,9 @@ import scipy
 
 from calibgui.engine.arrays import Array
 from calibgui.engine.calibration.methods.method import (
-    Given,
     Initialisation,
     Method,
+    Problem,
     check_ideal_lens,
     hold_parameters,
     keep_start,
@@ -110,7 +110,7 @@ def decompose_projection(P: Array) -> Projection:
     """
     if not np.linalg.det(P[:, :3]) > 0:
         raise StartError(
-            "The image shows the boards mirrored against the poses that were given.",
+            "The image shows the boards mirrored against the poses that were problem.",
             "Check the poses' frame, and that the views number their corners as the board does.",
         )
     A, R = scipy.linalg.rq(P[:, :3])
@@ -143,17 +143,17 @@ def _place_boards(observations: Observations, R: Array, T: Array) -> tuple[Array
     return placed[seen], observations.uv[seen]
 
 
-def _check_held(given: Given) -> None:
+def _check_held(problem: Problem) -> None:
     """Refuse to hold what the DLT always estimates, and to estimate what it does not know."""
-    names = [name for name in given.held if name not in _DISTORTION]
+    names = [name for name in problem.held if name not in _DISTORTION]
     if names:
         raise CalibrationError(
             f"The DLT cannot hold {', '.join(names)}.", "Choose the method 'zhang' for that."
         )
-    check_ideal_lens(given, "The DLT", _DISTORTION)
+    check_ideal_lens(problem, "The DLT", _DISTORTION)
 
 
-def _initialise(board_poses: Sequence[Pose] | None, given: Given) -> Initialisation:
+def _initialise(board_poses: Sequence[Pose] | None, problem: Problem) -> Initialisation:
     """Solve for camera and poses in closed form.
 
     Raises:
@@ -166,7 +166,7 @@ def _initialise(board_poses: Sequence[Pose] | None, given: Given) -> Initialisat
             "by itself shows one plane only.",
             _NEED,
         )
-    observations = given.observations
+    observations = problem.observations
     if len(board_poses) != len(observations.uv):
         raise CalibrationError(
             f"The DLT was given the poses of {len(board_poses)} boards for "
@@ -174,14 +174,14 @@ def _initialise(board_poses: Sequence[Pose] | None, given: Given) -> Initialisat
             "Give the pose of the board in each view, in the order of the views; a part of the "
             "views needs their poses only.",
         )
-    _check_held(given)
+    _check_held(problem)
     R = rotation_from_vector(np.array([pose.rvec for pose in board_poses]))
     T = np.array([pose.tvec for pose in board_poses])
     camera = decompose_projection(solve_dlt(*_place_boards(observations, R, T)))
     (fx, shear, cx), (_, fy, cy), _ = camera.A
     params = np.array([fx, fy, cx, cy, 0.0, 0.0, 0.0, 0.0, shear / fx])
     state = State(params, camera.R @ R, T @ camera.R.T + camera.T)
-    return hold_parameters(state, given.model, given.held, {})
+    return hold_parameters(state, problem.model, problem.held, {})
 
 
 def make_dlt(board_poses: Sequence[Pose] | None) -> Method:

@@ -10,47 +10,39 @@ from __future__ import annotations
 
 from calibgui.engine.calibration.initialisation.start import initialise_stage_two
 from calibgui.engine.calibration.methods.method import (
-    Given,
     Initialisation,
     Method,
+    Problem,
     Refinement,
     bind_solver,
     hold_at_defaults,
     refine_by_bundle_adjustment,
 )
-from calibgui.engine.calibration.observations import Observations
-from calibgui.engine.calibration.options import Options
 from calibgui.engine.calibration.refinement.bundle_adjustment import reweight_and_solve
 from calibgui.engine.calibration.refinement.residuals import State
-from calibgui.engine.calibration.result import Cost, Report
+from calibgui.engine.calibration.result import DEFAULT_METHOD, Cost, Report
 from calibgui.engine.camera.models import MODELS
 
 
-def _initialise(given: Given) -> Initialisation:
+def _initialise(problem: Problem) -> Initialisation:
     """Make one camera from Stage I of views spread over all (3.5)."""
     state = initialise_stage_two(
-        given.observations, given.spread_registration, given.size, given.model, given.held
+        problem.observations, problem.stage_one.of_spread, problem.size, problem.model, problem.held
     )
-    return hold_at_defaults(state, given)
+    return hold_at_defaults(state, problem)
 
 
-def _refine(
-    observations: Observations,
-    start: State,
-    options: Options,
-    report: Report | None,
-    max_iterations: int,
-) -> Refinement:
+def _refine(problem: Problem, start: State, report: Report | None) -> Refinement:
     """Solve Stage II, again with the models' own errors in the weights if corners are weighted."""
-    first = refine_by_bundle_adjustment(observations, start, options, report, max_iterations)
-    if observations.whitening is None:
+    first = refine_by_bundle_adjustment(problem, start, report)
+    if problem.prepared.whitening is None:
         return first
-    solve = bind_solver(options, report, max_iterations)
-    return Refinement(*reweight_and_solve(observations, first.solution, options.model, solve))
+    solve = bind_solver(problem, report)
+    return Refinement(*reweight_and_solve(problem.prepared, first.solution, problem.model, solve))
 
 
 LUCCHESE = Method(
-    name="lucchese",
+    name=DEFAULT_METHOD,
     label="Lucchese",
     title="Lucchese: each view, then all together",
     source="L. Lucchese, Geometric calibration of digital cameras through multi-view "

@@ -1,9 +1,9 @@
-"""The contract of a calibration method, and functions that methods share.
+"""The contract of a calibration method: the problem that it takes, and its two steps.
 
-Every method takes the same two steps. Its initialisation turns corners into a camera and poses; its
-refinement moves them, mostly to the minimum of a cost. All else (checks of the views, covariances,
-the diagnosis of degenerate views, the board's shape) is the same for all methods and lies in
-``calibrate.py``.
+Its initialisation turns corners into a camera and poses; its refinement moves them, mostly to the
+minimum of a cost. All else (checks of the views, covariances, the diagnosis of degenerate views,
+the board's shape) is the same for all methods: ``calibrate.py`` tells it in order. Functions that
+methods share stand here as well.
 """
 
 from __future__ import annotations
@@ -15,7 +15,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from calibgui.engine.arrays import Array, Size
+from calibgui.engine.arrays import Array, IntArray, Size
+from calibgui.engine.boards.shape import BoardShape, BoardShapeModel, BoardShapePrior
+from calibgui.engine.calibration.board_shape.parametrisation import place_on_board_shape
 from calibgui.engine.calibration.initialisation.stage_one import (
     StageOneRegistration,
     register_views,
@@ -25,7 +27,6 @@ from calibgui.engine.calibration.initialisation.start import (
     start_from_camera,
 )
 from calibgui.engine.calibration.observations import Observations, select_spread_views
-from calibgui.engine.calibration.options import Options
 from calibgui.engine.calibration.refinement.bundle_adjustment import solve_stage_two
 from calibgui.engine.calibration.refinement.levenberg_marquardt import (
     Solution,
@@ -34,7 +35,14 @@ from calibgui.engine.calibration.refinement.levenberg_marquardt import (
 )
 from calibgui.engine.calibration.refinement.residuals import State, build_stage_two
 from calibgui.engine.calibration.refinement.whitening import whiten_observations
-from calibgui.engine.calibration.result import Calibration, Cost, Report, Status
+from calibgui.engine.calibration.result import (
+    Calibration,
+    CalibrationSettings,
+    Cost,
+    Report,
+    Status,
+)
+from calibgui.engine.camera.camera import Camera
 from calibgui.engine.camera.models import find_model, list_parameter_names
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.geometry.pose import Pose
@@ -46,36 +54,118 @@ first coefficient serve all views."""
 
 
 @dataclass(frozen=True, eq=False)
-class Given:
-    """The views and wishes that an initialisation starts from."""
+class RegisteredViews:
+    """Stage I of the views, carried out when somebody first needs it."""
 
     observations: Observations
-    """The views."""
+    scale: float
+    size: Size
+    facing: float
+
+    @cached_property
+    def of_all(self) -> StageOneRegistration:
+        """Stage I of every view, by which misfits are told and reports drawn."""
+        return self._register(self.observations)
+
+    @cached_property
+    def of_spread(self) -> StageOneRegistration:
+        """Stage I of some views, spread evenly over all: enough to start from."""
+        if len(self.observations.uv) <= _MAX_START_VIEWS:
+            return self.of_all
+        return self._register(select_spread_views(self.observations, _MAX_START_VIEWS))
+
+    def _register(self, views: Observations) -> StageOneRegistration:
+        return register_views(*convert_to_paper_frame(views, self.scale, self.size, self.facing))
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Problem:
+    """What a calibration is to solve: the views, and what is wanted of them (``problem.py``)."""
+
+    observations: Observations
+    """The views as they came, on the board as it is drawn."""
+    view_names: Sequence[str]
+    """Names of the views for messages."""
     scale: float
     """Scale of the virtual reference image, reference px per mm."""
     facing: float
     """The side of the board that all views show, from ``start.check_facing``."""
     size: Size
     """Width and height of the images, px."""
+    method: Method
+    """The method."""
     model: str
-    """The lens model."""
+    """The lens model, a key of ``camera.models.MODELS``."""
+    cost: Cost
+    """The cost to minimise."""
     held: Mapping[str, float | None]
-    """Parameters to hold, with a value or None for the method's default."""
+    """Parameters to hold, with a value, or None until the method has chosen one."""
+    board_shape: BoardShapeModel | BoardShape
+    """The model of the board's shape to estimate, or a shape to hold."""
+    prior: BoardShapePrior | None
+    """What is known beforehand of the board's deviations from its drawing."""
+    model_errors: bool
+    """Whether the uncertainties count what the models of board, lens and views miss."""
+    max_iterations: int
+    """Largest number of iterations of a solve."""
+
+    @property
+    def parameters(self) -> tuple[str, ...]:
+        """(P,) names of the camera's parameters."""
+        return list_parameter_names(self.model)
+
+    @property
+    def free(self) -> IntArray:
+        """Indices of the parameters to estimate, ascending."""
+        return np.flatnonzero([name not in self.held for name in self.parameters])
+
+    @property
+    def free_parameters(self) -> tuple[str, ...]:
+        """Names of the parameters to estimate."""
+        return tuple(name for name in self.parameters if name not in self.held)
+
+    @property
+    def held_shape(self) -> BoardShape | None:
+        """The board's shape if it is held."""
+        return self.board_shape if isinstance(self.board_shape, BoardShape) else None
+
+    @property
+    def estimated_shape(self) -> BoardShapeModel:
+        """The model of the board's shape to estimate; nominal if there is nothing to estimate."""
+        shape = self.board_shape
+        return BoardShapeModel.NOMINAL if isinstance(shape, BoardShape) else shape
+
+    @property
+    def settings(self) -> CalibrationSettings:
+        """The record of the problem in its result."""
+        shape = self.board_shape
+        return CalibrationSettings(
+            cost=self.cost,
+            model=self.model,
+            fixed={name: value for name, value in self.held.items() if value is not None},
+            max_iterations=self.max_iterations,
+            board_shape=shape.model if isinstance(shape, BoardShape) else shape,
+            is_board_shape_held=isinstance(shape, BoardShape),
+            prior=self.prior,
+            method=self.method.name,
+        )
 
     @cached_property
-    def registration(self) -> StageOneRegistration:
-        """Stage I of every view, by which misfits are told and reports drawn."""
-        return self._register(self.observations)
+    def prepared(self) -> Observations:
+        """The views as a solver takes them: on the board that is held, whitened."""
+        shape, views = self.held_shape, self.observations
+        views = views if shape is None else place_on_board_shape(views, shape)
+        # The covariances are of corners in the image.
+        return whiten_observations(views) if self.cost is Cost.IMAGE else views
 
     @cached_property
-    def spread_registration(self) -> StageOneRegistration:
-        """Stage I of some views, spread evenly over all: enough to start from."""
-        if len(self.observations.uv) <= _MAX_START_VIEWS:
-            return self.registration
-        return self._register(select_spread_views(self.observations, _MAX_START_VIEWS))
+    def stage_one(self) -> RegisteredViews:
+        """Stage I of the views."""
+        return RegisteredViews(self.observations, self.scale, self.size, self.facing)
 
-    def _register(self, views: Observations) -> StageOneRegistration:
-        return register_views(*convert_to_paper_frame(views, self.scale, self.size, self.facing))
+    def make_camera(self, state: State) -> Camera:
+        """Make the camera of a state."""
+        return Camera(self.size, state.params, self.model)
 
 
 class Initialisation(NamedTuple):
@@ -124,18 +214,14 @@ class Method(Description):
 
     lens_models: tuple[str, ...]
     """Keys of ``camera.models.MODELS`` that the method can estimate; the first is its own."""
-    initialise: Callable[[Given], Initialisation]
+    initialise: Callable[[Problem], Initialisation]
     """Guess camera and poses.
 
     Raises:
         StartError: if the views allow no guess.
     """
-    refine: Callable[[Observations, State, Options, Report | None, int], Refinement]
-    """Move a guess to the method's estimate.
-
-    Arguments: the views, whitened if they have covariances; the guess; the options; the function to
-    report iterations to; the largest number of iterations of a solve.
-    """
+    refine: Callable[[Problem, State, Report | None], Refinement]
+    """Move a guess to the method's estimate, reporting iterations."""
     held: tuple[str, ...] | None = None
     """Names of the parameters that are held unless the user frees them; None for those of the lens
     model."""
@@ -168,9 +254,9 @@ def start_from_calibration(
     R, T = _stack_poses([calibration.poses[k] for k in views])
     values = dict(zip(calibration.camera.names, calibration.camera.params.tolist(), strict=True))
 
-    def initialise(given: Given) -> Initialisation:
+    def initialise(problem: Problem) -> Initialisation:
         state = State(calibration.camera.params.copy(), R.copy(), T.copy())
-        return Initialisation(state, {name: values[name] for name in given.held})
+        return Initialisation(state, {name: values[name] for name in problem.held})
 
     return replace(method, initialise=initialise)
 
@@ -189,11 +275,11 @@ def start_from_other_model(method: Method, calibration: Calibration) -> Method:
         return method
     R, T = _stack_poses(calibration.poses)
 
-    def initialise(given: Given) -> Initialisation:
+    def initialise(problem: Problem) -> Initialisation:
         state = start_from_camera(
-            given.observations, calibration.camera, R, T, given.model, given.held
+            problem.observations, calibration.camera, R, T, problem.model, problem.held
         )
-        return method.initialise(given) if state is None else hold_at_defaults(state, given)
+        return method.initialise(problem) if state is None else hold_at_defaults(state, problem)
 
     return replace(method, initialise=initialise)
 
@@ -217,27 +303,21 @@ def keep_calibration(method: Method, calibration: Calibration) -> Method:
     if not method.is_minimum:
         return method
 
-    def refine(
-        observations: Observations,
-        start: State,
-        options: Options,
-        report: Report | None,
-        max_iterations: int,  # noqa: ARG001 - of the contract
-    ) -> Refinement:
-        observations = whiten_observations(observations, calibration.model_error**2)
-        return Refinement(observations, evaluate_state(observations, start, options, report))
+    def refine(problem: Problem, start: State, report: Report | None) -> Refinement:
+        observations = whiten_observations(problem.prepared, calibration.model_error**2)
+        return Refinement(observations, evaluate_state(problem, observations, start, report))
 
     return replace(
         start_from_calibration(method, calibration, range(len(calibration.poses))), refine=refine
     )
 
 
-def hold_at_defaults(state: State, given: Given) -> Initialisation:
+def hold_at_defaults(state: State, problem: Problem) -> Initialisation:
     """Return a start whose held parameters have the wanted values, or else the lens model's."""
-    lens = find_model(given.model)
+    lens = find_model(problem.model)
     start = state._replace(params=state.params.copy())  # those of a camera are read-only
     defaults = dict(zip(lens.names, lens.defaults, strict=True))
-    return hold_parameters(start, given.model, given.held, defaults)
+    return hold_parameters(start, problem.model, problem.held, defaults)
 
 
 def hold_parameters(
@@ -260,11 +340,11 @@ def hold_parameters(
     return Initialisation(state, values)
 
 
-def check_ideal_lens(given: Given, method: str, coefficients: tuple[str, ...]) -> None:
+def check_ideal_lens(problem: Problem, method: str, coefficients: tuple[str, ...]) -> None:
     """Check that nobody wants distortion of a method that knows none.
 
     Args:
-        given: what the initialisation starts from.
+        problem: what the initialisation starts from.
         method: what the message calls the method.
         coefficients: names of the coefficients, which must all be held at 0.
 
@@ -272,53 +352,42 @@ def check_ideal_lens(given: Given, method: str, coefficients: tuple[str, ...]) -
         CalibrationError: if one is to be estimated, or is held at another value.
     """
     for name in coefficients:
-        if name not in given.held or given.held[name] not in (None, 0.0):
+        if name not in problem.held or problem.held[name] not in (None, 0.0):
             raise CalibrationError(
                 f"{method} knows no distortion: {name} is 0 in it.",
                 f"Hold {name} at 0, or choose the method 'zhang'.",
             )
 
 
-def bind_solver(
-    options: Options, report: Report | None, max_iterations: int
-) -> Callable[..., Solution]:
+def bind_solver(problem: Problem, report: Report | None) -> Callable[..., Solution]:
     """Return `solve_stage_two` with everything but the views and the state to begin from."""
     return partial(
         solve_stage_two,
-        model=options.model,
-        cost=options.cost,
-        scale=options.scale,
-        free=options.free,
+        model=problem.model,
+        cost=problem.cost,
+        scale=problem.scale,
+        free=problem.free,
         report=report,
-        max_iterations=max_iterations,
+        max_iterations=problem.max_iterations,
     )
 
 
 def refine_by_bundle_adjustment(
-    observations: Observations,
-    start: State,
-    options: Options,
-    report: Report | None,
-    max_iterations: int,
+    problem: Problem, start: State, report: Report | None
 ) -> Refinement:
     """Minimise the cost over the free parameters and all poses."""
-    solve = bind_solver(options, report, max_iterations)
-    return Refinement(observations, solve(observations, start))
+    observations = problem.prepared
+    return Refinement(observations, bind_solver(problem, report)(observations, start))
 
 
-def keep_start(
-    observations: Observations,
-    start: State,
-    options: Options,
-    report: Report | None,
-    max_iterations: int,  # noqa: ARG001 - of the contract
-) -> Refinement:
+def keep_start(problem: Problem, start: State, report: Report | None) -> Refinement:
     """Take the start for the estimate: the refinement of a method in closed form."""
-    return Refinement(observations, evaluate_state(observations, start, options, report))
+    observations = problem.prepared
+    return Refinement(observations, evaluate_state(problem, observations, start, report))
 
 
 def evaluate_state(
-    observations: Observations, state: State, options: Options, report: Report | None = None
+    problem: Problem, observations: Observations, state: State, report: Report | None = None
 ) -> Solution:
     """Evaluate the cost and its normal equations at a state that no solver of ours has found.
 
@@ -327,11 +396,10 @@ def evaluate_state(
     Raises:
         StartError: if the camera does not image all corners.
     """
-    problem = build_stage_two(
-        observations, options.model, options.cost, options.scale, options.free
-    )
+    free = problem.free
+    evaluate = build_stage_two(observations, problem.model, problem.cost, problem.scale, free)
     try:
-        found = minimise(problem, state, options.free, observations.count, 0.0, max_iterations=0)
+        found = minimise(evaluate, state, free, observations.count, 0.0, max_iterations=0)
     except StartError as error:
         raise StartError(
             "The estimated camera does not image all corners.",

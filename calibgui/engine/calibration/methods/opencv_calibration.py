@@ -28,14 +28,12 @@ import numpy as np
 from calibgui.engine import opencv
 from calibgui.engine.calibration.methods.bouguet import initialise_from_vanishing_points
 from calibgui.engine.calibration.methods.method import (
-    Given,
     Initialisation,
     Method,
+    Problem,
     Refinement,
     evaluate_state,
 )
-from calibgui.engine.calibration.observations import Observations
-from calibgui.engine.calibration.options import Options
 from calibgui.engine.calibration.refinement.levenberg_marquardt import (
     StartError,
     predict_full_decrease,
@@ -54,15 +52,15 @@ _MIN_VARIANCE = 1e-9
 """Mean squared distance, px^2, below which residuals are those of single precision."""
 
 
-def _initialise(given: Given) -> Initialisation:
+def _initialise(problem: Problem) -> Initialisation:
     """Make the start from vanishing points, which OpenCV uses only if parameters are held.
 
     Raises:
         CalibrationError: if OpenCV cannot hold just these parameters.
         StartError: if no focal length explains the views.
     """
-    held = set(given.held)
-    if given.held.get("skew", 1.0) not in (None, 0.0):
+    held = set(problem.held)
+    if problem.held.get("skew", 1.0) not in (None, 0.0):
         raise CalibrationError(
             "OpenCV's calibration knows no skew.", "Hold it at 0, or choose another method."
         )
@@ -72,26 +70,21 @@ def _initialise(given: Given) -> Initialisation:
                 f"OpenCV's calibration holds {' and '.join(names)} only together.",
                 "Hold both or none, or choose another method.",
             )
-    return initialise_from_vanishing_points(given)
+    return initialise_from_vanishing_points(problem)
 
 
-def _refine(
-    observations: Observations,
-    start: State,
-    options: Options,
-    report: Report | None,
-    max_iterations: int,
-) -> Refinement:
+def _refine(problem: Problem, start: State, report: Report | None) -> Refinement:
     """Call OpenCV, and evaluate what it returns."""
-    fixed = [flag for names, flag in opencv.FIX_FLAGS.items() if names[0] in options.held]
+    observations = problem.prepared
+    fixed = [flag for names, flag in opencv.FIX_FLAGS.items() if names[0] in problem.held]
     counted = [observations.corners_of(k) for k in range(len(observations.uv))]
     found = opencv.calibrate_camera(
         [uv[corners] for uv, corners in zip(observations.uv, counted, strict=True)],
         [xy[corners] for xy, corners in zip(observations.xy, counted, strict=True)],
-        options.size,
+        problem.size,
         start.params[:9] if fixed else None,
         sum(fixed),
-        max_iterations,
+        problem.max_iterations,
     )
     if found is None or not all(np.isfinite(values).all() for values in found):
         raise StartError(
@@ -99,7 +92,7 @@ def _refine(
             "Choose another method, or add views with the board tilted in different directions.",
         )
     state = State(np.append(found.params, 0.0), rotation_from_vector(found.rvecs), found.tvecs)
-    solution = evaluate_state(observations, state, options, report)
+    solution = evaluate_state(problem, observations, state, report)
     rounding = _MIN_VARIANCE * observations.count
     gain = predict_full_decrease(solution.normal)
     if gain > _MAX_DECREASE * solution.normal.cost + rounding:

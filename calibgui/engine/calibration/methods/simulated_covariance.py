@@ -10,50 +10,49 @@ the value may be off by more.
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import replace
 
 import numpy as np
 
-from calibgui.engine.arrays import Array
-from calibgui.engine.calibration.methods.method import subtract_states
-from calibgui.engine.calibration.observations import Observations
-from calibgui.engine.calibration.options import Options
+from calibgui.engine.arrays import Array, IntArray
+from calibgui.engine.calibration.methods.method import Problem, subtract_states
 from calibgui.engine.calibration.refinement import residuals
+from calibgui.engine.calibration.refinement.covariances import Estimate
 from calibgui.engine.calibration.refinement.residuals import State
-from calibgui.engine.calibration.result_assembly import Estimate
 from calibgui.engine.errors import CalibrationError
 
 _DRAWS = 50
 """Number of simulations: the standard deviations are then good to 10 %."""
 
 
-def simulate_covariances(
-    estimate: Estimate, options: Options, run: Callable[[Observations], State]
-) -> Estimate:
+def simulate_covariances(estimate: Estimate, problem: Problem, free: IntArray) -> Estimate:
     """Return an estimate with the covariances of its method's scatter.
 
     They are NaN where the method fails on more than half of the simulated corners.
 
     Args:
         estimate: the estimate, in the image's px.
-        options: the options of the calibration.
-        run: a function that runs the method on views.
+        problem: the problem as it was stated, without values that the method chose.
+        free: indices of the parameters that the method has estimated.
     """
     observations, state = estimate.observations, estimate.state
-    miss = residuals.compute_misses(state, observations, options.model, options.cost)
+    miss = residuals.compute_misses(state, observations, problem.model, problem.cost)
     predicted = observations.uv - miss
     rng = np.random.default_rng(0)
     steps = []
     for _ in range(_DRAWS):
         noise = rng.normal(scale=np.sqrt(estimate.sigma2), size=predicted.shape)
         with suppress(CalibrationError):
-            drawn = run(replace(observations, uv=predicted + noise))
-            steps.append(_measure_step(state, drawn))
+            views = replace(observations, uv=predicted + noise)
+            drawn = replace(problem, observations=views, max_iterations=0)
+            start = drawn.method.initialise(drawn)
+            drawn = replace(drawn, held=start.held)
+            found = drawn.method.refine(drawn, start.state, None).solution.state
+            steps.append(_measure_step(state, found))
     if len(steps) <= _DRAWS // 2:
         steps = [np.full_like(steps[0] if steps else _measure_step(state, state), np.nan)] * 2
-    free, P = options.free, len(state.params)
+    P = len(state.params)
     scatter = np.array(steps)
     scatter -= scatter.mean(axis=0)
     camera = scatter[:, free].T @ scatter[:, free] / (len(scatter) - 1)

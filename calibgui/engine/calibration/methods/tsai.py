@@ -67,9 +67,9 @@ import scipy
 
 from calibgui.engine.arrays import Array
 from calibgui.engine.calibration.methods.method import (
-    Given,
     Initialisation,
     Method,
+    Problem,
     hold_parameters,
     keep_start,
     refine_by_bundle_adjustment,
@@ -312,28 +312,28 @@ def describe_scatter(views: list[ViewEstimate]) -> str:
     )
 
 
-def _find_centre(given: Given, held: Mapping[str, float | None]) -> Array:
+def _find_centre(problem: Problem, held: Mapping[str, float | None]) -> Array:
     """Return the middle of the image, or the held coordinates of the centre."""
     wanted = [held.get(name) for name in ("cx", "cy")]
     return np.array(
         [
             middle if value is None else value
-            for middle, value in zip(frames.centre_of_array(given.size), wanted, strict=True)
+            for middle, value in zip(frames.centre_of_array(problem.size), wanted, strict=True)
         ]
     )
 
 
-def _start_from_radial_alignment(given: Given) -> Initialisation:
+def _start_from_radial_alignment(problem: Problem) -> Initialisation:
     """Make one camera from both stages of all views, with a remark on their scatter."""
-    observations, held = given.observations, given.held
-    centre = _find_centre(given, held)
+    observations, held = problem.observations, problem.held
+    centre = _find_centre(problem, held)
     views = estimate_views(observations, centre)
     f, kappa1 = combine_views(views, observations, centre, held.get("fx"))
-    lens = find_model(given.model)
+    lens = find_model(problem.model)
     params = np.concatenate([[f, f], centre, [kappa1 * f**2], lens.defaults[1:]])
     nothing = np.empty((0, 3, 3)), np.empty((0, 3))
-    camera = hold_parameters(State(params, *nothing), given.model, held, {})
-    poses = estimate_poses(Camera(given.size, camera.state.params, given.model), observations)
+    camera = hold_parameters(State(params, *nothing), problem.model, held, {})
+    poses = estimate_poses(Camera(problem.size, camera.state.params, problem.model), observations)
     if not np.isfinite(poses.R).all():
         raise StartError(
             "The lens that Tsai's method finds does not see all corners.",
@@ -342,16 +342,16 @@ def _start_from_radial_alignment(given: Given) -> Initialisation:
     return Initialisation(poses, camera.held, (describe_scatter(views),))
 
 
-def initialise_from_radial_alignment(given: Given) -> Initialisation:
+def initialise_from_radial_alignment(problem: Problem) -> Initialisation:
     """Make one camera as a start, on whose views nothing is remarked.
 
     Raises:
         StartError: if no view tells a focal length.
     """
-    return _start_from_radial_alignment(given)._replace(remarks=())
+    return _start_from_radial_alignment(problem)._replace(remarks=())
 
 
-def _initialise_closed_form(given: Given) -> Initialisation:
+def _initialise_closed_form(problem: Problem) -> Initialisation:
     """Make one camera whose fy is fx and whose centre is held.
 
     A value that is wanted for fy does not count: it follows fx, which may be held.
@@ -360,14 +360,14 @@ def _initialise_closed_form(given: Given) -> Initialisation:
         CalibrationError: if a parameter is to be estimated that the closed form does not give.
         StartError: if no view tells a focal length.
     """
-    freed = [name for name in _TIED if name not in given.held]
+    freed = [name for name in _TIED if name not in problem.held]
     if freed:
         raise CalibrationError(
             f"The method 'tsai-closed-form' cannot estimate {', '.join(freed)}.",
             "Use the method 'tsai', which refines its result.",
         )
-    held = {name: value for name, value in given.held.items() if name != "fy"}
-    found = _start_from_radial_alignment(replace(given, held=held))
+    held = {name: value for name, value in problem.held.items() if name != "fy"}
+    found = _start_from_radial_alignment(replace(problem, held=held))
     return found._replace(held={**found.held, "fy": float(found.state.params[1])})
 
 

@@ -79,9 +79,9 @@ from calibgui.engine.calibration.methods.alternation import (
     remark_unfinished_alternation,
 )
 from calibgui.engine.calibration.methods.method import (
-    Given,
     Initialisation,
     Method,
+    Problem,
     check_ideal_lens,
     hold_parameters,
     keep_start,
@@ -140,7 +140,7 @@ def _multiply_out(hi: Array, hj: Array) -> Array:
     )
 
 
-def initialise_in_closed_form(given: Given) -> Initialisation:
+def initialise_in_closed_form(problem: Problem) -> Initialisation:
     """Make camera and poses in closed form (3.1), with an ideal lens.
 
     A skew that is held makes gamma = 0 a constraint of the closed form; every other parameter that
@@ -149,13 +149,13 @@ def initialise_in_closed_form(given: Given) -> Initialisation:
     Raises:
         StartError: if no camera makes the views' homographies.
     """
-    views, width = len(given.observations.uv), given.size[0]
-    held = {**dict.fromkeys(_list_parameters_left_open(views)), **given.held}
-    cx, cy = frames.centre_of_array(given.size).tolist()
+    views, width = len(problem.observations.uv), problem.size[0]
+    held = {**dict.fromkeys(_list_parameters_left_open(views)), **problem.held}
+    cx, cy = frames.centre_of_array(problem.size).tolist()
     origin = np.zeros(2) if views > 1 else np.array([cx, cy])
     N = np.array([[1, 0, -origin[0]], [0, 1, -origin[1]], [0, 0, width]]) / width
-    image = apply_homography(N, given.observations.uv)
-    H = fit_closest_homography(given.observations.xy, image, given.observations.mask)
+    image = apply_homography(N, problem.observations.uv)
+    H = fit_closest_homography(problem.observations.xy, image, problem.observations.mask)
     A = solve_for_intrinsics(H, np.array([True, "skew" not in held, True, views > 1, views > 1]))
     if A is None:
         raise StartError(
@@ -167,9 +167,9 @@ def initialise_in_closed_form(given: Given) -> Initialisation:
     params = np.array([alpha, beta, u0, v0, 0.0, 0.0, 0.0, 0.0, gamma / alpha])
     defaults = {"cx": cx, "cy": cy, "skew": 0.0}
     pending = State(params, np.zeros((0, 3, 3)), np.zeros((0, 3)))  # held values move the poses
-    values = hold_parameters(pending, given.model, held, defaults).held
+    values = hold_parameters(pending, problem.model, held, defaults).held
     G = np.linalg.inv(N @ _make_matrix(params)) @ H
-    R, T = poses_from_homographies(G, np.ones(2), given.observations.xy[:, 0])
+    R, T = poses_from_homographies(G, np.ones(2), problem.observations.xy[:, 0])
     return Initialisation(State(params, R, T), values)
 
 
@@ -184,15 +184,15 @@ def _make_matrix(params: Array) -> Array:
     return np.array([[fx, fx * params[_SKEW], cx], [0.0, fy, cy], [0.0, 0.0, 1.0]])
 
 
-def _initialise_ideal_lens(given: Given) -> Initialisation:
+def _initialise_ideal_lens(problem: Problem) -> Initialisation:
     """Make camera and poses in closed form, and refuse a lens that is not ideal.
 
     Raises:
         CalibrationError: if a coefficient of the distortion is to be estimated, or is not 0.
         StartError: as `initialise_in_closed_form`.
     """
-    check_ideal_lens(given, "Zhang's closed form", _DISTORTION)
-    return initialise_in_closed_form(given)
+    check_ideal_lens(problem, "Zhang's closed form", _DISTORTION)
+    return initialise_in_closed_form(problem)
 
 
 def estimate_radial_terms(state: State, observations: Observations, terms: IntArray) -> State:

@@ -32,10 +32,11 @@ import numpy as np
 
 from calibgui.engine.arrays import Array, BoolArray, IntArray, Size
 from calibgui.engine.calibration.initialisation import closed_form
+from calibgui.engine.calibration.methods.method import Problem
 from calibgui.engine.calibration.observations import Observations
-from calibgui.engine.calibration.options import Options
 from calibgui.engine.calibration.partial.reparametrisation import Quantities, reparametrise
 from calibgui.engine.calibration.refinement import covariances, residuals
+from calibgui.engine.calibration.refinement.covariances import Estimate
 from calibgui.engine.calibration.refinement.levenberg_marquardt import (
     Solution,
     StartError,
@@ -48,7 +49,6 @@ from calibgui.engine.calibration.refinement.planar_pose_ambiguity import (
 from calibgui.engine.calibration.refinement.residuals import NormalAt, State
 from calibgui.engine.calibration.refinement.schur import eliminate_poses
 from calibgui.engine.calibration.result import Assumption, Cost, Status
-from calibgui.engine.calibration.result_assembly import Estimate
 from calibgui.engine.camera.models import find_model
 from calibgui.engine.geometry import frames
 from calibgui.engine.geometry.planar_pose import poses_from_homographies
@@ -97,33 +97,33 @@ class PartialEstimate(NamedTuple):
 
 
 def estimate_partially(
-    observations: Observations, originals: IntArray, options: Options, known: Array
+    observations: Observations, originals: IntArray, problem: Problem, known: Array
 ) -> PartialEstimate | None:
     """Estimate what the views determine; None if that is not even their poses.
 
     Args:
         observations: the views.
         originals: (K,) index of the first view that each one copies, or its own: copies count once.
-        options: the options of the calibration.
+        problem: the problem, with values for what is held.
         known: (P,) the camera's parameters as far as they are known, for another start.
     """
-    free, names = options.free, options.names
+    free, names = problem.free, problem.parameters
     distinct, copy = np.unique(originals, return_inverse=True)
     part = observations.select_views(distinct)
     fits = [
         fit
-        for q in _list_starts(options, known)
-        if (fit := _solve_and_choose(part, options, q)) is not None
+        for q in _list_starts(problem, known)
+        if (fit := _solve_and_choose(part, problem, q)) is not None
     ]
     if not fits:
         return None
     fit = min(
         fits,
-        key=lambda fit: (not _has_ordinary_focal_length(fit, options), fit.solution.normal.cost),
+        key=lambda fit: (not _has_ordinary_focal_length(fit, problem), fit.solution.normal.cost),
     )
     solution, quantities, q = (
         fit.solution,
-        Quantities.for_options(options),
+        Quantities.of_problem(problem),
         fit.solution.state.params,
     )
     held = ~np.isin(free, fit.estimated)
@@ -131,7 +131,7 @@ def estimate_partially(
     camera, by_noise = (J @ c @ J.T for c in compute_consider_covariances(fit.S, fit.prior, held))
     state = State(quantities.to_params(q), solution.state.R[copy], solution.state.T[copy])
     normal = residuals.build_stage_two(
-        observations, options.model, options.cost, options.scale, free
+        observations, problem.model, problem.cost, problem.scale, free
     )(state)
     status = Status.PARTIAL if solution.status is Status.CONVERGED else solution.status
     spread = covariances.compute_pose_covariances(eliminate_poses(normal), camera, fit.sigma2)
@@ -144,32 +144,32 @@ def estimate_partially(
     return PartialEstimate(estimate, tuple(assumptions))
 
 
-def _list_starts(options: Options, known: Array) -> list[Array]:
+def _list_starts(problem: Problem, known: Array) -> list[Array]:
     """List the values (P,) of q to start from.
 
     They are the nominal ones, and the same with the ratio of focal lengths that is known: a plane
     tilted far away looks like one seen with another ratio.
     """
-    quantities = Quantities.for_options(options)
-    nominal = _make_nominal(options)
+    quantities = Quantities.of_problem(problem)
+    nominal = _make_nominal(problem)
     other = nominal.copy()
     other[1 - quantities.base] = quantities.from_params(known)[1 - quantities.base]
     return [nominal, other]
 
 
-def _solve_and_choose(part: Observations, options: Options, q: Array) -> _Fit | None:
+def _solve_and_choose(part: Observations, problem: Problem, q: Array) -> _Fit | None:
     """Solve and choose assumptions in turns, with everything assumed at first.
 
     Args:
         part: the views.
-        options: the options of the calibration.
+        problem: the problem, with values for what is held.
         q: (P,) the quantities to start from.
     """
-    quantities, free = Quantities.for_options(options), options.free
+    quantities, free = Quantities.of_problem(problem), problem.free
 
-    def build_problem(views: Observations, free: IntArray, cost: Cost = options.cost) -> NormalAt:
+    def build_problem(views: Observations, free: IntArray, cost: Cost = problem.cost) -> NormalAt:
         every = np.arange(len(q))
-        normal_at = residuals.build_stage_two(views, options.model, cost, options.scale, every)
+        normal_at = residuals.build_stage_two(views, problem.model, cost, problem.scale, every)
         return reparametrise(normal_at, quantities, free)
 
     def build_registration(views: Observations, free: IntArray) -> NormalAt:
@@ -178,7 +178,7 @@ def _solve_and_choose(part: Observations, options: Options, q: Array) -> _Fit | 
     flat = replace(part, xy=part.xy[..., :2])
     M = closed_form.fit_homographies(flat, q[2:4], 0.0)
     state = State(q, *poses_from_homographies(M, quantities.to_params(q)[:2], flat.xy[:, 0]))
-    nominal, assumed = _make_nominal(options), free
+    nominal, assumed = _make_nominal(problem), free
     for turn in range(_MAX_ROUNDS):
         estimated = np.setdiff1d(free, assumed)
         try:
@@ -191,7 +191,7 @@ def _solve_and_choose(part: Observations, options: Options, q: Array) -> _Fit | 
             return None
         sigma2 = max(sigma2, _MIN_NOISE**2)
         S = eliminate_poses(build_problem(part, free)(solution.state)).S / sigma2
-        prior = _compute_priors(quantities, solution.state.params, options.size)[free]
+        prior = _compute_priors(quantities, solution.state.params, problem.size)[free]
         chosen = free[choose_assumed(S, prior)]
         if turn >= _ROUNDS_WITH_RELEASE:
             chosen = np.union1d(chosen, assumed)
@@ -203,25 +203,25 @@ def _solve_and_choose(part: Observations, options: Options, q: Array) -> _Fit | 
     return _Fit(solution, estimated, S, prior, sigma2)
 
 
-def _has_ordinary_focal_length(fit: _Fit, options: Options) -> bool:
+def _has_ordinary_focal_length(fit: _Fit, problem: Problem) -> bool:
     """Return whether the focal length is one that cameras have."""
-    f = fit.solution.state.params[Quantities.for_options(options).base] / options.size[0]
+    f = fit.solution.state.params[Quantities.of_problem(problem).base] / problem.size[0]
     return bool(_MIN_FOCAL < f < _MAX_FOCAL)
 
 
-def find_poorly_known(params: Array, covariance: Array, options: Options) -> list[str]:
+def find_poorly_known(params: Array, covariance: Array, problem: Problem) -> list[str]:
     """Find the focal lengths and coordinates of the centre known hardly better than beforehand.
 
     Args:
         params: (P,) the camera's parameters.
         covariance: covariance of the free parameters.
-        options: the options of the calibration.
+        problem: the problem, with values for what is held.
     """
-    prior = np.append(_PRIOR_FOCAL * params[:2], [_PRIOR_CENTRE * options.size[0]] * 2)
-    limit = dict(zip(options.names[:4], prior / np.sqrt(_MIN_VARIANCE_RATIO), strict=True))
+    prior = np.append(_PRIOR_FOCAL * params[:2], [_PRIOR_CENTRE * problem.size[0]] * 2)
+    limit = dict(zip(problem.parameters[:4], prior / np.sqrt(_MIN_VARIANCE_RATIO), strict=True))
     sigma = np.sqrt(np.diag(covariance))
-    names = [options.names[i] for i in options.free]
-    return [n for n, s in zip(names, sigma, strict=True) if n in limit and s > limit[n]]
+    known = zip(problem.free_parameters, sigma, strict=True)
+    return [n for n, s in known if n in limit and s > limit[n]]
 
 
 def choose_assumed(S: Array, prior: Array) -> IntArray:
@@ -280,15 +280,15 @@ def _solve(
         return solution
 
 
-def _make_nominal(options: Options) -> Array:
+def _make_nominal(problem: Problem) -> Array:
     """Make q (P,) of an ordinary camera: f of an image width, square pixels, no distortion."""
-    cx, cy = frames.centre_of_array(options.size).tolist()
-    held, width = options.held, float(options.size[0])
+    cx, cy = frames.centre_of_array(problem.size).tolist()
+    held, width = problem.settings.fixed, float(problem.size[0])
     nominal = {"fx": held.get("fy", width), "fy": held.get("fx", width), "cx": cx, "cy": cy}
-    lens = find_model(options.model)
+    lens = find_model(problem.model)
     nominal |= dict(zip(lens.names, lens.defaults, strict=True)) | dict(held)
-    return Quantities.for_options(options).from_params(
-        np.array([nominal[name] for name in options.names])
+    return Quantities.of_problem(problem).from_params(
+        np.array([nominal[name] for name in problem.parameters])
     )
 
 

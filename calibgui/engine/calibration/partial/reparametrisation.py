@@ -16,7 +16,7 @@ from typing import NamedTuple
 import numpy as np
 
 from calibgui.engine.arrays import Array, IntArray
-from calibgui.engine.calibration.options import Options
+from calibgui.engine.calibration.methods.method import Problem
 from calibgui.engine.calibration.refinement.residuals import NormalAt, State
 from calibgui.engine.calibration.refinement.schur import NormalEquations
 from calibgui.engine.camera.models import find_model
@@ -31,11 +31,11 @@ class Quantities(NamedTuple):
     """(P - 4,) power of f in each coefficient; 0 for a coefficient that is held as it is."""
 
     @classmethod
-    def for_options(cls, options: Options) -> Quantities:
-        """Return the quantities for some options: parameters that are held stay as they are."""
-        powers = np.array(find_model(options.model).powers, dtype=np.float64)
-        powers[~np.isin(np.arange(4, len(options.names)), options.free)] = 0.0
-        return cls(int("fy" in options.held and "fx" not in options.held), powers)
+    def of_problem(cls, problem: Problem) -> Quantities:
+        """Return the quantities of a problem: parameters that are held stay as they are."""
+        powers = np.array(find_model(problem.model).powers, dtype=np.float64)
+        powers[~np.isin(np.arange(4, len(problem.parameters)), problem.free)] = 0.0
+        return cls(int("fy" in problem.held and "fx" not in problem.held), powers)
 
     def to_params(self, q: Array) -> Array:
         """Convert q (P,) to the camera's parameters (P,)."""

@@ -29,7 +29,10 @@ import numpy as np
 import scipy
 
 from calibgui.engine.arrays import Array
-from calibgui.engine.calibration.observations import slice_views
+from calibgui.engine.boards.shape import BoardShape
+from calibgui.engine.calibration.observations import Observations, slice_views
+from calibgui.engine.calibration.refinement.levenberg_marquardt import Solution
+from calibgui.engine.calibration.refinement.residuals import BoardMotion, State
 from calibgui.engine.calibration.refinement.schur import (
     NormalEquations,
     Reduced,
@@ -58,6 +61,37 @@ class Precision(NamedTuple):
     """Parameters whose standard deviations are not to be believed."""
     reduced: Reduced
     """The normal equations of the shared parameters."""
+
+
+class Estimate(NamedTuple):
+    """A solution with its covariances."""
+
+    solution: Solution
+    state: State
+    """Camera and poses, without the unknowns of a board shape."""
+    observations: Observations
+    """The views, with the corners where the estimated board has them."""
+    sigma2: float
+    """Variance of one residual coordinate, in the cost's px^2."""
+    camera_covariance: Array
+    """(P, P) covariance of the camera's free parameters."""
+    pose_covariances: Array
+    """(K, 6, 6) covariances of the solver's local (w, tau)."""
+    noise_covariance: Array
+    """(P, P) covariance of the camera's free parameters from the corners' noise alone."""
+    undetermined: tuple[Undetermined, ...] = ()
+    """Parameters whose standard deviations are not to be believed."""
+    board_shape: BoardShape | None = None
+    shape_unknowns: float = 0.0
+    """Number of unknowns of an estimated board shape that the views know of."""
+    board_motion: BoardMotion | None = None
+    """Motion of the corners of an estimated board with the camera's parameters."""
+    board_shape_error: float = 0.0
+    """See ``Calibration.board_shape_error``."""
+    lens_error: float = 0.0
+    """See ``Calibration.lens_error``."""
+    overdispersion: float = 0.0
+    """See ``Calibration.overdispersion``."""
 
 
 def estimate_variance(cost: float, corners: int, unknowns: float) -> float:
@@ -146,6 +180,15 @@ def _invert_scaled(scaled: Array) -> tuple[Array, float]:
     values, vectors = np.linalg.eigh(scaled)
     kept = values > _MIN_INFORMATION
     return vectors[:, kept] / values[kept] @ vectors[:, kept].T, float(values[0])
+
+
+def make_estimate(solution: Solution, observations: Observations, precision: Precision) -> Estimate:
+    """Make the estimate of a solution whose board has the shape that it was given."""
+    sigma2, camera, undetermined, reduced = precision
+    poses = compute_pose_covariances(reduced, camera, sigma2)
+    return Estimate(
+        solution, solution.state, observations, sigma2, camera, poses, camera, undetermined
+    )
 
 
 def compute_pose_covariances(reduced: Reduced, shared: Array, sigma2: float) -> Array:

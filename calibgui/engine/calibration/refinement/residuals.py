@@ -127,12 +127,32 @@ Blocks = tuple[Array, Array, Array, Array, Array, Array]
 """U, W, V, the shared gradient, the poses' gradients and the views' costs of `NormalEquations`."""
 
 
-def compute_image_residuals(state: State, views: Observations, lens: Lens) -> Linearised:
+def compute_image_residuals(state: State, views: Observations, model: str) -> Linearised:
     """Compute predicted minus measured corners in the image, px; NaN without a prediction."""
+    found = Linearised(*linearise_image_residuals(state, views, model))
+    for view in _find_given_up(found.residual):
+        readable = linearise_image_residuals.reference(
+            state.select_views(view), views.select_views(view), model
+        )
+        for whole, part in zip(found, readable, strict=True):
+            whole[view] = part
+    return found
+
+
+def _has_compiled_lens(_state: State, _views: Observations, model: str) -> bool:
+    """Return whether `linearise_image_residuals` has a kernel for a lens model."""
+    return model in COMPILED_LENSES
+
+
+@with_kernel("normal_equations", "linearise_image_residuals", _has_compiled_lens)
+def linearise_image_residuals(
+    state: State, views: Observations, model: str
+) -> tuple[Array, Array, Array]:
+    """Compute the fields of `compute_image_residuals`; the kernel gives up whole views."""
     rotated, point = place_points(state, views.xy)
-    predicted = project(point, state.params, lens)
+    predicted = project(point, state.params, find_model(model))
     by_pose = _differentiate_by_pose(predicted.by_ray, rotated)
-    return Linearised(predicted.points - views.uv, predicted.by_params, by_pose)
+    return predicted.points - views.uv, predicted.by_params, by_pose
 
 
 def compute_reference_residuals(
@@ -174,15 +194,15 @@ def compute_reference_residuals(
 
 
 def linearise_residuals(
-    state: State, observations: Observations, views: slice, lens: Lens, cost: Cost, scale: float
+    state: State, observations: Observations, views: slice, model: str, cost: Cost, scale: float
 ) -> Linearised:
     """Compute residuals of a slice of the views with derivatives, whitened; zero for padding."""
     part = observations.select_views(views)
     if cost is Cost.IMAGE:
-        result = compute_image_residuals(state.select_views(views), part, lens)
+        result = compute_image_residuals(state.select_views(views), part, model)
     else:
         result = compute_reference_residuals(
-            state.select_views(views), part, lens, scale, cost is Cost.PAPER
+            state.select_views(views), part, find_model(model), scale, cost is Cost.PAPER
         )
     weight = part.whitening
     if weight is None:
@@ -249,7 +269,7 @@ def prepare_blocks(
         return prepare_local_blocks(observations, lens, free)
 
     def linearise(state: State, views: slice) -> Linearised:
-        return linearise_residuals(state, observations, views, lens, cost, scale)
+        return linearise_residuals(state, observations, views, model, cost, scale)
 
     return partial(_accumulate_blocks, linearise, free)
 
@@ -315,7 +335,7 @@ def compute_view_products(
     parts = []
     for views in slice_views(len(state.R)):
         r, by_params, by_pose = linearise_residuals(
-            state, observations, views, find_model(model), Cost.IMAGE, 1.0
+            state, observations, views, model, Cost.IMAGE, 1.0
         )
         by_camera = by_params[..., free]
         if following is not None:

@@ -53,7 +53,7 @@ def whiten_observations(observations: Observations, tau2: float = 0.0) -> Observ
     return replace(observations, whitening=whitening, tau2=tau2)
 
 
-def estimate_model_variance(observations: Observations, residual: Array, unknowns: int) -> float:
+def estimate_model_variance(observations: Observations, residual: Array, unknowns: float) -> float:
     """Estimate tau^2, px^2; 0 without covariances or redundancy.
 
     Args:

@@ -45,6 +45,7 @@ class Lucchese(PlaneLens):
     names = ("k1", "k2", "k3", "p1", "p2", "p3")
     powers = (2, 4, 6, 1, 1, 2)
     asymmetric = ("p1", "p2", "p3")
+    odd_along = (("p1",), ("p2",))
     closed_form_factor = 1.0
 
     def __init__(self, radius_in_pixels: bool = False) -> None:

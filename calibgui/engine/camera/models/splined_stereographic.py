@@ -203,6 +203,15 @@ class SplinedStereographic(Lens):
         pull = np.eye(2) + (_TANGENTIAL - 1) * across[:, :, None] * across[:, None]
         return np.asarray(_PULL * corners / len(u) * pull)
 
+    def mirror(self, k: Array, along: tuple[bool, bool]) -> Array:
+        """Return the coefficients of the mirrored lens: its control points change places."""
+        shifts = k.reshape(self.Ny, self.Nx, 2)
+        if along[0]:
+            shifts = shifts[:, ::-1] * [-1.0, 1.0]
+        if along[1]:
+            shifts = shifts[::-1] * [1.0, -1.0]
+        return np.asarray(shifts.ravel())
+
     def fit_to_rays(self, rays: Array, d: Array) -> Array:
         """Fit the surface to image points of rays, by linear least squares.
 

@@ -13,19 +13,24 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import numpy.typing as npt
 
 from calibgui.engine.arrays import Array, BoolArray, GreyImage, GridSize, IntArray, compute_median
-from calibgui.engine.boards.april_grid import MAX_GAP_BETWEEN_SQUARES, AprilGrid
-from calibgui.engine.detection import grid_map
-from calibgui.engine.detection import region_of_interest as region
+from calibgui.engine.boards.april_grid import MAX_GAP_BETWEEN_SQUARES, AprilGrid, TagLayout
+from calibgui.engine.corner_fit import verification, x_corner_fit
+from calibgui.engine.corner_fit.board_priors import ScatteredPriors
+from calibgui.engine.corner_fit.robust_fit import fit_robustly
+from calibgui.engine.corner_fit.x_corner_fit import XCornerFit
 from calibgui.engine.detection.apriltags.grid_tags import (
     GridTagFinder,
     GridTags,
     find_grid_tags,
 )
 from calibgui.engine.detection.apriltags.outlined_corners import (
+    MAX_PLACING_DISTANCE,
     has_corner_squares,
     locate_outlined_corners,
 )
@@ -40,29 +45,23 @@ from calibgui.engine.detection.charuco.corners_between_markers import (
     predict_places,
     require_enough_corners,
 )
-from calibgui.engine.detection.checkerboard import board_ends, saddle, verification, x_corner_fit
-from calibgui.engine.detection.checkerboard.corner_template import (
-    OrientedCorners,
-    estimate_template_of,
-)
-from calibgui.engine.detection.checkerboard.near_priors import NearPriors
-from calibgui.engine.detection.checkerboard.undisturbed_fit import fit_undisturbed
-from calibgui.engine.detection.checkerboard.x_corner_fit import XCornerFit
-from calibgui.engine.detection.corners import Corners, RejectedCorner
+from calibgui.engine.detection.charuco.markers import Markers
 from calibgui.engine.detection.detector_io import (
     check_grey_levels,
     convert_for_reading,
     invert_levels,
     list_rejected_corners,
 )
-from calibgui.engine.detection.lattice import MAX_DEVIATION, Lattice
 from calibgui.engine.errors import NoBoardError, UnknownPartError
+from calibgui.engine.features import saddle
+from calibgui.engine.features.corner_template import OrientedCorners, estimate_template_of
+from calibgui.engine.features.corners import Corners, RejectedCorner
+from calibgui.engine.features.lattice import MAX_DEVIATION, Lattice
+from calibgui.engine.lattices import board_ends, grid_map
+from calibgui.engine.lattices import region_of_interest as region
 
 _MIN_MAPPED_CORNERS = 4
 """Number of corners up to which none is left out of their map: it follows any four."""
-_MAX_PLACING_DISTANCE = 1.6
-"""Greatest distance of a corner from the centre of the nearest tag that was read, sides of a tag:
-that of the corners of its neighbours."""
 _MAX_SPACING_DIFFERENCE = 0.05
 """Greatest difference of the measured gap from the stated one, sides of a tag."""
 _MAX_BLUR = 1 / 3
@@ -89,12 +88,12 @@ def find_april_grid(
     levels = convert_for_reading(grey)
     finder = GridTagFinder(levels, searched)
     negative = GridTagFinder(levels, searched, finder)
-    found = find_grid_tags([finder, negative], pattern, grid_size)
-    if found is None:
+    grid_tags = find_grid_tags([finder, negative], pattern, grid_size)
+    if grid_tags is None:
         if pattern == AprilGrid() and grid_size is None:
             raise _describe_nothing()  # there is no board whatever were stated
         raise _explain_missing_board(levels, grid_size, finder)
-    read, which = found
+    read, which = grid_tags
     return _locate_corners(grey, levels, read, which == 1, pattern, grid_size, outline, method)
 
 
@@ -102,12 +101,14 @@ def _explain_missing_board(
     levels: GreyImage, grid_size: GridSize | None, finder: GridTagFinder
 ) -> NoBoardError:
     """Return the error that says what an image, in 8 bits, shows instead of the stated board."""
-    found = find_grid_tags([finder], AprilGrid(), None)
-    if found is None:
+    grid_tags = find_grid_tags([finder], AprilGrid(), None)
+    if grid_tags is None:
         return _describe_nothing()
-    tag_print, tags = found[0]
+    tag_print, tags = grid_tags[0]
     cols, rows = tags.layout.cols, _count_rows(tags.squares)
     order = "top row down" if tags.layout.from_top else "bottom row up"
+    first = int(tags.numbers.min())
+    order += f", with no number below {first}" if first else ""
     has_squares = has_corner_squares(levels, tags, tag_print.border / tag_print.side)
     stated = "" if grid_size is None else f", not {grid_size[0]} x {grid_size[1]} corners"
     return NoBoardError(
@@ -115,7 +116,8 @@ def _explain_missing_board(
         f" numbered from the {order}, of at least {rows} rows and exactly {cols} columns of tags,"
         f" two corners each{stated}, {'with' if has_squares else 'without'} dark squares between"
         " the tags.",
-        "State the board like this, or leave out what can be read.",
+        "State the board like this, the number of its first tag if that is not 0, or leave out what"
+        " can be read.",
     )
 
 
@@ -144,14 +146,16 @@ def _locate_corners(
     method: str,
 ) -> Corners:
     """Locate the corners of a board whose tags were read in `levels`, the image in 8 bits."""
+    if stated.first_tag is None and (first := _tell_first_tag(read[1], grid_size, grey, outline)):
+        read = read[0], _number_from(read[1], first)
     tag_print, tags = read
     rows, cols = _count_rows(tags.squares), tags.layout.cols
     if grid_size is not None:
         if 2 * rows > grid_size[0]:
             raise _explain_missing_board(levels, grid_size, GridTagFinder(levels, None))
         rows = grid_size[0] // 2
-    first = np.array([0 if tags.layout.from_top else rows - 1, 0])
-    on_board = tags.squares + first
+    start = np.array([0 if tags.layout.from_top else rows - 1, 0])
+    on_board = tags.squares + start
     gap = min(1 / tags.side - 1, 1.0)  # as measured
     size = 2 * rows, 2 * cols
     border = tag_print.border / tag_print.side
@@ -173,7 +177,7 @@ def _locate_corners(
     else:
         dark_tags = invert_levels(levels) if is_inverted else levels
         gap = measure_gap_of_tags(on_board, tags.corners, gap)
-        uv, fit, rejected = _fit_outlines(grey, dark_tags, read, size, first, gap)
+        uv, fit, rejected = _fit_outlines(grey, dark_tags, read, size, start, gap)
         lattice = Lattice(uv, dark=not is_inverted)
         gap = measure_gap(lattice.uv, gap)
     require_enough_corners(lattice)
@@ -186,10 +190,45 @@ def _locate_corners(
             f"The gap between the tags is {gap:.3f} of their side, not {stated.spacing:g}.",
             "State gap and side as measured, or leave the gap out.",
         )
-    seen = AprilGrid(
-        tag_print.family, round(gap, 5), tag_print.border, tags.layout.from_top, has_squares
+    measured = AprilGrid(
+        tag_print.family,
+        round(gap, 5),
+        tag_print.border,
+        tags.layout.from_top,
+        has_squares,
+        tags.layout.first or stated.first_tag,
     )
-    return assemble_corners(grey, lattice, fit, outline, rejected, seen)
+    return assemble_corners(grey, lattice, fit, outline, rejected, measured)
+
+
+def _tell_first_tag(
+    tags: Markers[TagLayout], grid_size: GridSize | None, grey: GreyImage, outline: Array | None
+) -> int:
+    """Tell the number of the first tag of a board from tags that were read as if it were 0.
+
+    It is another one if as many rows are seen as the board has, and higher ones than it would have;
+    or, of a board of any size, if the image shows that there are no tags before those read, which
+    otherwise were hidden: more rows of them than are seen.
+    """
+    row = np.abs(tags.squares[:, 0])
+    lowest, seen = int(row.min()), int(np.ptp(row)) + 1
+    if grid_size is not None:
+        is_other = 2 * (lowest + seen) > grid_size[0] == 2 * seen
+    else:
+        beside = tags.squares[row == lowest] + [-1 if tags.layout.from_top else 1, 0]
+        missing = replace(tags, squares=beside)
+        uv, _ = predict_places(
+            missing.board_corners.reshape(-1, 2), tags.board_corners, tags.corners
+        )
+        is_bare = outline is None and bool(board_ends.are_in_image(uv, grey.shape).all())
+        is_other = is_bare and lowest >= seen
+    return lowest * tags.layout.cols if is_other else 0
+
+
+def _number_from(tags: Markers[TagLayout], first: int) -> Markers[TagLayout]:
+    """Return tags on a board whose first one has the number `first`."""
+    layout = tags.layout._replace(first=first)
+    return replace(tags, layout=layout, squares=layout.locate_squares(tags.numbers))
 
 
 def _estimate_pull_across_gaps(
@@ -201,7 +240,7 @@ def _estimate_pull_across_gaps(
     Raises:
         UnknownPartError: the tags are blurred into each other.
     """
-    steps, _ = NearPriors(_locate_places(lattice, gap), gap).estimate_geometry(fit.uv)
+    steps, _ = ScatteredPriors(_locate_places(lattice, gap), gap).estimate_geometry(fit.uv)
     blurs = fit.blur / np.sqrt(np.abs(np.linalg.det(steps)))
     if compute_median(blurs) > _MAX_BLUR:
         raise UnknownPartError(
@@ -238,7 +277,7 @@ def _fit_outlines(
     order = np.lexsort(grid.T[::-1])
     grid, fit = grid[order], fit.select(order)
     places = AprilGrid(spacing=gap).locate_points(grid.astype(np.float64))
-    steps, _ = NearPriors(places, 2 * gap).estimate_geometry(fit.uv)
+    steps, _ = ScatteredPriors(places, 2 * gap).estimate_geometry(fit.uv)
     length = np.linalg.norm(steps, axis=2).min(axis=1)
     good = _find_regular_corners(places, fit.uv, length, np.ones(len(grid), dtype=np.bool_))
     rejected += list_rejected_corners(fit.uv[~good], "off place")
@@ -275,8 +314,8 @@ def _predict_corners(
     around = np.array([(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)])
     on_board = (1 + gap) * squares[:, None, ::-1] + around
     uv, distance = predict_places(places, on_board, corners)
-    seen = (distance < _MAX_PLACING_DISTANCE) & board_ends.are_in_image(uv, image.shape)
-    uv[~seen] = np.nan
+    is_expected = (distance < MAX_PLACING_DISTANCE) & board_ends.are_in_image(uv, image.shape)
+    uv[~is_expected] = np.nan
     uv = uv.reshape(*grid_size, 2)
     for (row, col), quad in zip(squares.tolist(), corners, strict=True):
         block = uv[2 * row : 2 * row + 2, 2 * col : 2 * col + 2]
@@ -289,7 +328,7 @@ def _refine_corners(image: GreyImage, predicted: Lattice, gap: float, border: fl
     the map of the others expects them; those that have none there either are left out."""
     found, start = predicted.found, predicted.uv[predicted.found]
     places = _locate_places(predicted, gap)
-    steps, _ = NearPriors(places, 2 * min(border, gap / 2)).estimate_geometry(start)
+    steps, _ = ScatteredPriors(places, 2 * min(border, gap / 2)).estimate_geometry(start)
     length = np.linalg.norm(steps, axis=2).min(axis=1)
     uv, good = saddle.refine_saddles(
         image, start, saddle.choose_weight_sigma(length), _MAX_SHIFT * length
@@ -321,7 +360,7 @@ def _verify_corners(
     """
     found = lattice.found
     places, uv = _locate_places(lattice, gap), lattice.uv[found]
-    steps, _ = NearPriors(places, unit).estimate_geometry(uv)
+    steps, _ = ScatteredPriors(places, unit).estimate_geometry(uv)
     parity = np.argwhere(found).sum(axis=1) % 2 == 1
     corners = OrientedCorners(uv, steps[:, 0], steps[:, 1], lattice.dark ^ parity)
     good, _ = estimate_template_of(corners, image).match(image, *corners)
@@ -371,12 +410,12 @@ def _fit_corners(
     while True:
         require_enough_corners(lattice)
         found, uv = lattice.found, lattice.uv[lattice.found]
-        fit, displacement = fit_undisturbed(
+        fit, displacement = fit_robustly(
             lattice,
             lambda part: _fit_all_corners(image, part, gap, unit),
             lambda part: _locate_places(part, gap)[:, ::-1] / unit,
         )
-        described = verification.find_described_corners(fit, lattice, None, displacement)
+        described = verification.find_described_corners(fit, lattice, displacement)
         near = verification.find_tolerable_displacements(displacement, lattice)
         good = described & near
         if good.all():
@@ -391,6 +430,6 @@ def _fit_all_corners(
     image: GreyImage, lattice: Lattice, gap: float, unit: float
 ) -> tuple[XCornerFit, BoolArray]:
     """Fit the model at all corners, see `FitCorners`."""
-    priors = NearPriors(_locate_places(lattice, gap), unit)
+    priors = ScatteredPriors(_locate_places(lattice, gap), unit)
     fit = x_corner_fit.fit_x_corners(image, lattice, priors=priors)
     return fit, verification.find_suspect_corners(fit.board_residual)

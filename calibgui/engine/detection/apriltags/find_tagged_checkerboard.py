@@ -22,7 +22,6 @@ import numpy.typing as npt
 from calibgui.engine.arrays import Array, GreyImage, GridSize, IntArray
 from calibgui.engine.boards.april_grid import MAX_BORDER
 from calibgui.engine.boards.tagged_checkerboard import TaggedCheckerboard, count_tagged_squares
-from calibgui.engine.detection import region_of_interest as region
 from calibgui.engine.detection.apriltags.tag_places import PlacedTags, place_tags
 from calibgui.engine.detection.apriltags.tag_reader import (
     TagPrint,
@@ -38,20 +37,21 @@ from calibgui.engine.detection.apriltags.tagged_corners import (
 )
 from calibgui.engine.detection.charuco.assembly import assemble_corners
 from calibgui.engine.detection.charuco.lattice_placement import MarkedBoard, place_by_marks
-from calibgui.engine.detection.checkerboard.numbering import turn_lattice
-from calibgui.engine.detection.checkerboard.pyramid_search import (
+from calibgui.engine.detection.detector_io import check_grey_levels, invert_levels
+from calibgui.engine.errors import NoBoardError
+from calibgui.engine.features.corners import Corners
+from calibgui.engine.features.lattice import Lattice, compute_filled_share, cut_middle
+from calibgui.engine.features.saddle import refine_lattice
+from calibgui.engine.lattices import region_of_interest as region
+from calibgui.engine.lattices.numbering import turn_lattice
+from calibgui.engine.lattices.pyramid_search import (
+    MIN_JUDGED_CORNERS,
     Candidate,
     find_candidates,
     find_same,
 )
-from calibgui.engine.detection.checkerboard.saddle import refine_lattice
-from calibgui.engine.detection.checkerboard.thresholds import THRESHOLDS
-from calibgui.engine.detection.corners import Corners
-from calibgui.engine.detection.detector_io import check_grey_levels, invert_levels
-from calibgui.engine.detection.lattice import Lattice, compute_filled_share, cut_middle
-from calibgui.engine.errors import NoBoardError
 
-_PLAIN = 1 / 8
+_BARE_REACH = 1 / 8
 """How far from the corners nothing is printed, squares: the narrowest border of a tag, one of the
 eight cells of t36h11."""
 _MAX_LOOKED_AT, _MIN_SEEN_SHARE = 256, 0.5
@@ -81,7 +81,7 @@ def find_tagged_checkerboard(
 
     def is_other(lattice: Lattice, _: int) -> bool:
         nonlocal may_show_tags
-        if may_show_tags or len(lattice) < THRESHOLDS.search.min_judged_corners:
+        if may_show_tags or len(lattice) < MIN_JUDGED_CORNERS:
             return False
         looked_at = lattice
         if grid_size is None or not are_tags_stated:
@@ -91,7 +91,7 @@ def find_tagged_checkerboard(
         may_show_tags = _may_show_tags(grey, make_negative, looked_at, pattern)
         return not may_show_tags
 
-    for candidates in find_candidates(grey, searched, plain=_PLAIN, is_other=is_other):
+    for candidates in find_candidates(grey, searched, bare_reach=_BARE_REACH, is_other=is_other):
         for candidate in candidates:
             if find_same(candidate, tried):
                 continue
@@ -128,7 +128,7 @@ def _may_show_tags(
     there to tell; the arguments are those of `_identify_board`."""
     if len(lattice) < _MIN_SEEN_SHARE * _MAX_LOOKED_AT:
         return True
-    refined, _ = refine_lattice(grey, lattice, plain=_PLAIN)
+    refined, _ = refine_lattice(grey, lattice, bare_reach=_BARE_REACH)
     prints = list_prints(pattern.family, pattern.border)
     return any(
         len(reader.read(tag_print).which)
@@ -315,10 +315,10 @@ def _locate_corners(
 ) -> Corners:
     """Refine, verify and fit the corners of an identified board, and those beside them."""
     tag_print = TagPrint(str(pattern.family), pattern.border or 1)
-    plain = tag_print.border / tag_print.side
-    lattice, rejected = refine_tagged_corners(grey, board, plain)
+    bare_reach = tag_print.border / tag_print.side
+    lattice, rejected = refine_tagged_corners(grey, board, bare_reach)
     fit = None
     if method == "edges":
-        lattice, fit, failing = fit_tagged_corners(grey, lattice, pattern, plain)
+        lattice, fit, failing = fit_tagged_corners(grey, lattice, pattern, bare_reach)
         rejected += failing
     return assemble_corners(grey, lattice, fit, outline, rejected, pattern)

@@ -33,15 +33,14 @@ from calibgui.engine.detection.charuco.marker_growth import (
     grow_markers,
     tell_rows_apart,
 )
+from calibgui.engine.detection.charuco.marker_reader import MAX_COARSE_SIDE
 from calibgui.engine.detection.charuco.markers import Markers, drop_repeated, identify_board
-from calibgui.engine.detection.checkerboard import saddle
 from calibgui.engine.detection.detector_io import invert_levels
 from calibgui.engine.detection.print_samples import PrintSample, QuadSearch
-from calibgui.engine.detection.region_of_interest import are_inside
+from calibgui.engine.features import saddle
 from calibgui.engine.images.sampling import sample_image
+from calibgui.engine.lattices.region_of_interest import are_inside
 
-_MAX_COARSE_SIDE = 1600
-"""Longer side of the image in which tags are looked for first, px."""
 _MIN_SIDE = 0.48
 """Least side of a tag over the distance of two, as measured: the gap of an AprilGrid is at most as
 wide, which is 0.5."""
@@ -118,7 +117,7 @@ class GridTagFinder:
     def _levels(self) -> list[GreyImage]:
         """The image, or its negative, and its halved copies, made once they are searched."""
         levels = [invert_levels(self._image) if self._is_negative else self._image]
-        while max(levels[-1].shape) > _MAX_COARSE_SIDE:
+        while max(levels[-1].shape) > MAX_COARSE_SIDE:
             levels.append(opencv.halve_image(levels[-1]))
         return levels
 
@@ -172,21 +171,21 @@ class GridTagFinder:
         may be tags."""
         image, level = self._levels[0], self._levels[depth]
         if depth == len(self._levels) - 1:
-            found = self._search_of_coarsest.detect_dark_quads(is_quick=is_sample)
+            quads = self._search_of_coarsest.detect_dark_quads(is_quick=is_sample)
         elif is_sample:
             if depth not in self._samples:
                 self._samples[depth] = PrintSample(self._levels[depth + 1])
-            found = self._samples[depth].detect_dark_quads(level, _smooth)
+            quads = self._samples[depth].detect_dark_quads(level, _smooth)
         else:
-            found = opencv.detect_dark_quads(_smooth(level), is_quick=True)
-        found = _reach_paper(level, _widen(found, _OUTLINE_INSET))
+            quads = opencv.detect_dark_quads(_smooth(level), is_quick=True)
+        quads = _reach_paper(level, _widen(quads, _OUTLINE_INSET))
         most = _MAX_SAMPLED if is_sample else _MAX_READ
-        found = _select_dark_borders(level, found, np.inf, most)
-        found = _refine_quads(image, (found + 0.5) * 2**depth - 0.5)
-        found = _select_dark_borders(image, found, _MAX_BRIGHT_SHARE, most)
+        quads = _select_dark_borders(level, quads, np.inf, most)
+        quads = _refine_quads(image, (quads + 0.5) * 2**depth - 0.5)
+        quads = _select_dark_borders(image, quads, _MAX_BRIGHT_SHARE, most)
         if self._outline is not None:
-            found = found[are_inside(self._outline, found.mean(axis=1))]
-        return found
+            quads = quads[are_inside(self._outline, quads.mean(axis=1))]
+        return quads
 
     @cached_property
     def _search_of_coarsest(self) -> QuadSearch:
@@ -212,10 +211,10 @@ def find_grid_tags(
     """
     for depth in reversed(range(finders[0].depth)):
         searches = [finder.search(depth, pattern, grid_size) for finder in finders]
-        first = next(searches[0], None)
-        order = range(len(finders)) if first is not None else (*range(1, len(finders)), 0)
+        quick_look = next(searches[0], None)
+        order = range(len(finders)) if quick_look is not None else (*range(1, len(finders)), 0)
         for which in order:
-            *_, best = (first if which == 0 else None, *searches[which])
+            *_, best = (quick_look if which == 0 else None, *searches[which])
             if best is not None:
                 return best, which
     return None
@@ -243,7 +242,7 @@ def _read_board(
     for tag_print in list_prints(pattern.family, pattern.border):
         if sure_family not in (None, tag_print.family):
             continue
-        tags = _identify_tags(reader, tag_print, pattern.from_top, grid_size, outline)
+        tags = _identify_tags(reader, tag_print, pattern, grid_size, outline)
         if tags is None:
             continue
         right = _describe_tags(tag_print).rate_markers(reader.image, tags)[0]
@@ -259,7 +258,7 @@ def _read_board(
 def _identify_tags(
     reader: TagReader,
     tag_print: TagPrint,
-    from_top: bool | None,
+    pattern: AprilGrid,
     grid_size: GridSize | None,
     outline: Array | None,
 ) -> Markers[TagLayout] | None:
@@ -270,14 +269,22 @@ def _identify_tags(
         return None
     turned = (np.arange(4) + tags.turns[:, None]) % 4
     numbers, corners = drop_repeated(tags.numbers, reader.quads[tags.which[:, None], turned])
+    on_board = numbers >= (pattern.first_tag or 0)
+    numbers, corners = numbers[on_board], corners[on_board]
     is_open = grid_size is None and _is_sure(tag_print)
-    known = _ALL_LAYOUTS if is_open else _list_likely_layouts(numbers, corners)
-    stated = known if grid_size is None else list_layouts(grid_size[1] // 2, None)
-    allowed = [layout for layout in stated if from_top in (None, layout.from_top)]
+    likely = _ALL_LAYOUTS if is_open else _list_likely_layouts(numbers, corners)
+    stated = likely if grid_size is None else list_layouts(grid_size[1] // 2, None)
+    first = pattern.first_tag or 0
+    known, allowed = (
+        [layout._replace(first=first) for layout in layouts if order in (None, layout.from_top)]
+        for layouts, order in ((likely, None), (stated, pattern.from_top))
+    )
     readings = identify_board(numbers, corners, allowed, known) if allowed else []
     if not readings:
         return None
-    count = None if grid_size is None else grid_size[0] * grid_size[1] // 4
+    count = None
+    if grid_size is not None and pattern.first_tag is not None:
+        count = first + grid_size[0] * grid_size[1] // 4
     readings = grow_markers(
         reader.image,
         readings,
@@ -367,20 +374,22 @@ def _refine_quads(image: GreyImage, quads: Array) -> Array:
     1360 that had saddle points none."""
     side = np.linalg.norm(quads - np.roll(quads, 1, axis=1), axis=2).min(axis=1)
     sigma, limit = np.clip(_REFINING_SIGMA * side, *_SIGMA_LIMITS), _MAX_REFINING_SHIFT * side
-    moved, left = quads.copy(), np.arange(len(quads))
+    moved, remaining = quads.copy(), np.arange(len(quads))
     for corners in ([0], [2], [1, 3]):  # most that lack one are done with after the first
-        start, count = quads[left][:, corners], len(corners)
+        start, count = quads[remaining][:, corners], len(corners)
         uv, good = saddle.refine_saddles(
             image,
             start.reshape(-1, 2),
-            np.repeat(sigma[left], count),
-            np.repeat(limit[left], count),
+            np.repeat(sigma[remaining], count),
+            np.repeat(limit[remaining], count),
         )
-        moved[left[:, None], corners] = uv.reshape(start.shape)
-        left = left[good.reshape(-1, count).all(axis=1)]
-        if not len(left):
+        moved[remaining[:, None], corners] = uv.reshape(start.shape)
+        remaining = remaining[good.reshape(-1, count).all(axis=1)]
+        if not len(remaining):
             return quads
-    refined = left[rate_borders(image, moved[left]) <= rate_borders(image, quads[left])]
+    refined = remaining[
+        rate_borders(image, moved[remaining]) <= rate_borders(image, quads[remaining])
+    ]
     out = quads.copy()
     out[refined] = moved[refined]
     return out
@@ -392,8 +401,8 @@ def _reach_paper(image: GreyImage, quads: Array) -> Array:
     broad border it finds the inner side of that seam, too."""
 
     def sample_sides(by: float) -> Array:
-        first = _widen(quads, by)
-        places = first + _PLACES_ALONG * (np.roll(first, -1, axis=1) - first)
+        widened = _widen(quads, by)
+        places = widened + _PLACES_ALONG * (np.roll(widened, -1, axis=1) - widened)
         return np.asarray(sample_image(image, places).mean(axis=(0, 2)))
 
     is_inside = sample_sides(_BEYOND) - sample_sides(-_BEYOND) < opencv.DARKER

@@ -36,7 +36,7 @@ import numpy as np
 
 from calibgui.engine import kernels
 from calibgui.engine.arrays import Array, BoolArray, FloatImage, GreyImage, IntArray
-from calibgui.engine.detection.edge_intensity import EdgeIntensity, compute_edge
+from calibgui.engine.features.edge_intensity import EdgeIntensity, compute_edge
 
 _BAND_BLURS, _BAND_MARGIN = 2.3, 0.7
 """Half width of the band that is read along an edge: blurs, and px in addition."""
@@ -187,14 +187,14 @@ def _measure_distances(model: OutlineModel, uv: IntArray) -> tuple[FloatImage, F
 def _find_own_pixels(model: OutlineModel, share: FloatImage, d: FloatImage, edge: int) -> BoolArray:
     """Return which pixels (k, P) lie in the band of an edge and in that of none before it."""
     length, bands = model.measure_edges()[0], model.measure_bands().astype(np.float32)
-    own = np.ones(d[:, 0].shape, dtype=np.bool_)
+    is_own = np.ones(d[:, 0].shape, dtype=np.bool_)
     for which in range(edge + 1):
         out, inside = bands[:, which].T[..., None]
         beyond = out / length[:, which, None].astype(np.float32)
         within = (d[:, which] >= -out) & (d[:, which] <= inside)
         within &= abs(share[:, which] - 0.5) <= 0.5 + beyond
-        own &= within if which == edge else ~within
-    return own
+        is_own &= within if which == edge else ~within
+    return is_own
 
 
 def _compute_columns(

@@ -16,9 +16,12 @@ import numpy as np
 import scipy
 
 from calibgui.engine.arrays import Array, GreyImage, compute_median
+from calibgui.engine.corner_fit.corner_noise import (
+    CORRELATION_REACH,
+    MIN_CORRELATION_REACH,
+    compute_growth,
+)
 from calibgui.engine.detection.apriltags.outline_model import OutlineModel
-from calibgui.engine.detection.checkerboard.corner_noise import compute_growth
-from calibgui.engine.detection.checkerboard.fit_thresholds import FIT_THRESHOLDS
 from calibgui.engine.images.sampling import sample_image
 
 _MARGIN = 0.15
@@ -32,7 +35,7 @@ _MIN_BLUR = 0.75
 """Least blur of tags that are looked at, px: where edges are sharper what is interpolated between
 pixels is wrong in step with them. Without JPEG a growth of 1.7 showed with a blur of 0.6 px, up to
 58 with none but the pixel's."""
-_MAX_TAGS = 8
+MAX_TAGS = 8
 """Number of tags that are looked at, spread over the board."""
 
 
@@ -53,7 +56,7 @@ def estimate_outline_growth(image: GreyImage, model: OutlineModel, noise: Array)
     at = np.flatnonzero((reach >= _MIN_REACH_BLURS * blur) & (blur > _MIN_BLUR))
     if not len(at):
         return 1.0
-    at = at[np.unique(np.linspace(0, len(at) - 1, _MAX_TAGS).astype(np.int64))]
+    at = at[np.unique(np.linspace(0, len(at) - 1, MAX_TAGS).astype(np.int64))]
     model, reach, noise = model.select(at), reach[at], noise[at]
     length = model.measure_edges()[0]
     usual = float(compute_median(length.ravel()))
@@ -67,8 +70,7 @@ def estimate_outline_growth(image: GreyImage, model: OutlineModel, noise: Array)
     both = np.stack([scores, np.broadcast_to(known, scores.shape)], axis=2)
     area = (1 - 2 * _MARGIN) * length / (lines - 1) * (2 * reach / (_SAMPLES - 1))[:, None]
     both *= area[..., None, None]
-    limits = FIT_THRESHOLDS.noise
-    farthest = max(limits.min_correlation_reach, limits.correlation_reach * usual / 2)
+    farthest = max(MIN_CORRELATION_REACH, CORRELATION_REACH * usual / 2)
     # The fit leaves nothing of what all lines of an edge have in common.
     farthest = min(farthest, lines / 3)
     return compute_growth(both.reshape(-1, 2, 2, lines), np.repeat(noise, 2), farthest)

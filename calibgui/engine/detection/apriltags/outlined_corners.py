@@ -20,9 +20,15 @@ from calibgui.engine.arrays import (
     compute_median,
 )
 from calibgui.engine.boards.april_grid import AprilGrid, TagLayout
-from calibgui.engine.detection import grid_map
+from calibgui.engine.corner_fit import verification
+from calibgui.engine.corner_fit.verification import MAX_DISPLACEMENT, MAX_RELATIVE_DISPLACEMENT
 from calibgui.engine.detection.apriltags.grid_tags import GridTags
 from calibgui.engine.detection.apriltags.tag_gap import measure_gap_of_tags
+from calibgui.engine.detection.apriltags.tag_ink_spread import (
+    SIGMA_OF_MEDIAN,
+    measure_corner_moves,
+    move_edges_outwards,
+)
 from calibgui.engine.detection.apriltags.tag_outlines import (
     AROUND,
     TagOutlines,
@@ -30,25 +36,19 @@ from calibgui.engine.detection.apriltags.tag_outlines import (
     follow_shaded_outlines,
 )
 from calibgui.engine.detection.apriltags.tag_reader import draw_tags, verify_tags
-from calibgui.engine.detection.apriltags.tag_spread import (
-    SIGMA_OF_MEDIAN,
-    measure_corner_moves,
-    move_edges_outwards,
-)
 from calibgui.engine.detection.charuco.assembly import FittedCorners
 from calibgui.engine.detection.charuco.corners_between_markers import predict_places
 from calibgui.engine.detection.charuco.markers import Markers
-from calibgui.engine.detection.checkerboard import board_ends, verification
-from calibgui.engine.detection.checkerboard.thresholds import THRESHOLDS
-from calibgui.engine.detection.corners import RejectedCorner, find_usable_covariances
 from calibgui.engine.detection.detector_io import list_rejected_corners
 from calibgui.engine.errors import NoBoardError
+from calibgui.engine.features.corners import RejectedCorner, find_usable_covariances
 from calibgui.engine.geometry import homography
 from calibgui.engine.images.sampling import make_mesh, sample_image
+from calibgui.engine.lattices import board_ends, grid_map
 
-_MAX_PLACING_DISTANCE = 1.6
+MAX_PLACING_DISTANCE = 1.6
 """Greatest distance of a tag's corners from the middle of the nearest one that was read at which it
-is looked for, sides of a tag, less the gap: that of its neighbours."""
+is looked for, sides of a tag; that of outlines has the gap in addition."""
 _MAX_SQUARE_LEVEL = 0.95
 """Greatest median level in the middle of dark squares, over that of the paper between two tags and
 from that of their ink. Sharp it is 0, and 1 of paper; on rendered boards under blurs up to 0.9 of
@@ -224,9 +224,8 @@ def _find_displaced_tags(corners: FittedCorners, grid: IntArray, gap: float) -> 
         return np.zeros(len(grid) // 4, dtype=np.bool_)
     sound = corners.select(~suspect)
     off = _measure_displacements(corners.uv, grid, sound.uv, grid[~suspect], gap)
-    limits = THRESHOLDS.verification
     usual = np.sqrt(np.mean(off[~suspect] ** 2))
-    farthest = max(limits.max_relative_displacement * usual, limits.max_displacement)
+    farthest = max(MAX_RELATIVE_DISPLACEMENT * usual, MAX_DISPLACEMENT)
     return np.asarray((suspect & (off > farthest)).reshape(-1, 4).any(axis=1))
 
 
@@ -258,7 +257,7 @@ def _list_tags(
         (1 + gap) * which[:, None, ::-1] + AROUND for which in (tags.squares, squares)
     )
     uv, distance = predict_places(wanted.reshape(-1, 2), on_board, tags.corners)
-    near = (distance.reshape(-1, 4) < _MAX_PLACING_DISTANCE + gap).all(axis=1)
+    near = (distance.reshape(-1, 4) < MAX_PLACING_DISTANCE + gap).all(axis=1)
     quads = uv.reshape(-1, 4, 2)
     near &= board_ends.are_in_image(uv, levels.shape).reshape(-1, 4).all(axis=1)
     numbers, squares, quads = numbers[near], squares[near], quads[near]

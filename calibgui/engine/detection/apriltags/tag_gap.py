@@ -17,8 +17,8 @@ from __future__ import annotations
 import numpy as np
 
 from calibgui.engine.arrays import Array, IntArray, compute_lengths, compute_median
-from calibgui.engine.detection.grid_map import fit_radial_homography
 from calibgui.engine.errors import NoBoardError
+from calibgui.engine.lattices.grid_map import fit_radial_homography
 
 _CORNERS = np.array([(0, 0), (0, 1), (1, 1), (1, 0)])
 """(4, 2) rows and columns of the corners of a tag from its upper left one."""

@@ -24,7 +24,7 @@ import numpy as np
 
 from calibgui.engine import kernels
 from calibgui.engine.arrays import Array, GreyImage, IntArray, compute_median
-from calibgui.engine.detection import grid_map
+from calibgui.engine.corner_fit.x_corner_model import MAX_SHARP_BLUR, MIN_BLUR
 from calibgui.engine.detection.apriltags.outline_model import (
     LAST,
     NEXT,
@@ -34,10 +34,11 @@ from calibgui.engine.detection.apriltags.outline_model import (
 )
 from calibgui.engine.detection.apriltags.outline_noise import estimate_outline_growth
 from calibgui.engine.detection.apriltags.tag_gap import measure_gap_of_tags
-from calibgui.engine.detection.detector_io import estimate_least_noise
-from calibgui.engine.detection.grid_map import RadialHomography
+from calibgui.engine.features.pixel_noise import estimate_least_noise
 from calibgui.engine.geometry import homography
 from calibgui.engine.images.sampling import make_mesh, sample_image
+from calibgui.engine.lattices import grid_map
+from calibgui.engine.lattices.grid_map import RadialHomography
 
 _MAX_FREE_STEPS, _LAST_STEPS = 8, 2
 """Numbers of steps, each tag by itself, and with the bows that the lens of all tags gives them."""
@@ -69,10 +70,6 @@ addition. With 1.5 blurs corners of tags of 40 px under a blur of 2 px lay 0.06 
 than 0.01."""
 _MIN_BAND_BLURS = 1.0
 """Least half width of the band that is read along an edge, blurs."""
-_MIN_BLUR = 0.3
-"""Least blur, px: that of the pixel alone is 0.29."""
-_MAX_SHARP_BLUR = 0.6
-"""Median blur below which the pixel's own shape matters, px."""
 _USUAL_BOW = 0.05
 """Standard deviation of bows before anything is known of the lens, lengths of the edge."""
 _USUAL_CORRELATION, _MAX_CORRELATION = 0.5, 0.95
@@ -229,7 +226,7 @@ def _estimate_start(image: GreyImage, corners: Array, border: float, gap: float)
         ends, offset, variance = _measure_profiles(image, model, near)
         model = _move_edges(model, offset)
         variance = (variance[:, :2] + variance[:, 2:]) / 2
-        blurs = np.clip(np.sqrt(np.maximum(variance, 0)), _MIN_BLUR, near[:, None] / 2)
+        blurs = np.clip(np.sqrt(np.maximum(variance, 0)), MIN_BLUR, near[:, None] / 2)
         near = np.minimum(near, _NEAR_BLURS * blurs.max(axis=1) + _NEAR_MARGIN)
     levels = np.zeros((len(corners), 2, 3))
     levels[..., 0] = ends
@@ -445,17 +442,17 @@ def _take_steps(
     """
     n = len(model.corners)
     equations, square = np.empty((n, UNKNOWNS, UNKNOWNS)), np.empty(n)
-    left = np.arange(n)
+    moving = np.arange(n)
     for _ in range(steps):
-        is_sharp = bool(compute_median(model.blurs.ravel()) < _MAX_SHARP_BLUR)
-        some = model.select(left)
+        is_sharp = bool(compute_median(model.blurs.ravel()) < MAX_SHARP_BLUR)
+        some = model.select(moving)
         products = accumulate_normal_equations(image, some, is_sharp)
-        after, equations[left], square[left] = _take_step(
-            some, products, prior.select(left), noise[left]
+        after, equations[moving], square[moving] = _take_step(
+            some, products, prior.select(moving), noise[moving]
         )
-        model = model.put(left, after)
-        left = left[abs(after.corners - some.corners).max(axis=(1, 2)) > enough]
-        if not len(left):
+        model = model.put(moving, after)
+        moving = moving[abs(after.corners - some.corners).max(axis=(1, 2)) > enough]
+        if not len(moving):
             break
     return model, equations, square
 
@@ -491,7 +488,7 @@ def _take_step(
     count = N[:, 10, 10] + N[:, 13, 13] + 2 * N[:, 10, 13]
     square = np.maximum(square, 0.0) / np.maximum(count - UNKNOWNS, 1)
     blurs = model.blurs
-    changed = np.clip(step[:, 8:10], np.maximum(-blurs / 3, _MIN_BLUR - blurs), blurs / 2)
+    changed = np.clip(step[:, 8:10], np.maximum(-blurs / 3, MIN_BLUR - blurs), blurs / 2)
     stepped = replace(
         model,
         corners=model.corners + np.clip(step[:, :8], -1.0, 1.0).reshape(-1, 4, 2),

@@ -24,6 +24,7 @@ from calibgui.engine.arrays import (
 from calibgui.engine.boards.april_grid import MAX_BORDER
 from calibgui.engine.boards.apriltags import FAMILIES, load_family
 from calibgui.engine.detection.charuco.marker_cells import find_dark_cells, measure_cells
+from calibgui.engine.detection.charuco.marker_growth import MIN_RIGHT_STEPS
 from calibgui.engine.images.sampling import make_mesh, sample_image
 
 _MAX_BRIGHT_BORDER_SHARE = 0.2
@@ -43,9 +44,6 @@ _MAX_BRIGHT_RING_SHARE = 0.6
 for those along two sides if the quadrilateral is not refined yet."""
 _RING = np.pad(np.zeros((_SAMPLES - 2, _SAMPLES - 2), dtype=np.bool_), 1, constant_values=True)
 """(samples, samples) True for the outermost places."""
-_MIN_RIGHT_STEPS = 0.85
-"""Least share of the steps between a tag's cells that have the sign that its number says. Where
-there is no tag half of them have, and of 50 so many never."""
 
 
 class TagPrint(NamedTuple):
@@ -148,7 +146,7 @@ def verify_tags(
 ) -> BoolArray:
     """Verify which quadrilaterals (n, 4, 2) px show the tags of given numbers (n,), upright, by the
     steps between neighbouring cells: in part of a shadow no level parts dark cells from bright."""
-    return rate_tags(image, quads, tag_print, numbers) > _MIN_RIGHT_STEPS
+    return rate_tags(image, quads, tag_print, numbers) > MIN_RIGHT_STEPS
 
 
 def rate_tags(image: GreyImage, quads: Array, tag_print: TagPrint, numbers: IntArray) -> Array:

@@ -9,11 +9,11 @@ import numpy as np
 
 from calibgui.engine.arrays import Array, BoolArray, GreyImage, IntArray
 from calibgui.engine.boards.pattern import Pattern
-from calibgui.engine.detection import region_of_interest as region
-from calibgui.engine.detection.checkerboard import harris
-from calibgui.engine.detection.checkerboard.x_corner_fit import XCornerFit
-from calibgui.engine.detection.corners import Corners, RejectedCorner
-from calibgui.engine.detection.lattice import Lattice
+from calibgui.engine.corner_fit.x_corner_fit import XCornerFit
+from calibgui.engine.features import harris
+from calibgui.engine.features.corners import Corners, RejectedCorner
+from calibgui.engine.features.lattice import Lattice
+from calibgui.engine.lattices import region_of_interest as region
 
 
 class FittedCorners(NamedTuple):

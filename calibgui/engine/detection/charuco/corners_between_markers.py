@@ -17,16 +17,17 @@ import scipy
 
 from calibgui.engine.arrays import Array, BoolArray, GreyImage, GridSize
 from calibgui.engine.boards.charuco import MarkerLayout
-from calibgui.engine.detection.charuco.mark_removal import Marks, fit_without_marks
+from calibgui.engine.corner_fit import verification
+from calibgui.engine.corner_fit.robust_fit import fit_robustly
+from calibgui.engine.corner_fit.x_corner_fit import XCornerFit
+from calibgui.engine.detection.charuco.marker_subtraction import Marks, fit_without_marks
 from calibgui.engine.detection.charuco.markers import Markers
 from calibgui.engine.detection.charuco.thresholds import CHARUCO_THRESHOLDS
-from calibgui.engine.detection.checkerboard import saddle, verification
-from calibgui.engine.detection.checkerboard.undisturbed_fit import fit_undisturbed
-from calibgui.engine.detection.checkerboard.x_corner_fit import XCornerFit
-from calibgui.engine.detection.corners import RejectedCorner
 from calibgui.engine.detection.detector_io import list_rejected_corners
-from calibgui.engine.detection.lattice import Lattice
 from calibgui.engine.errors import NoBoardError, UnknownPartError
+from calibgui.engine.features import saddle
+from calibgui.engine.features.corners import RejectedCorner
+from calibgui.engine.features.lattice import Lattice
 from calibgui.engine.geometry import homography
 
 _MARKERS_PER_CORNER = 4
@@ -82,14 +83,14 @@ def predict_corners(
 
 
 def refine_corners(
-    image: GreyImage, predicted: Lattice, plain: float, *, by_markers: bool = False
+    image: GreyImage, predicted: Lattice, bare_reach: float, *, by_markers: bool = False
 ) -> tuple[Lattice, list[RejectedCorner]]:
     """Move corners to their saddle points and verify their places and colours.
 
     Args:
         image: (h, w) grey levels.
         predicted: where the corners are predicted.
-        plain: how far from its edges a square is of one colour, squares.
+        bare_reach: how far from its edges a square is of one colour, squares.
         by_markers: True if markers beside the corners predict them.
 
     Returns:
@@ -107,17 +108,17 @@ def refine_corners(
         tried = tried.select(known)
         spacing = tried.spacing()[known]
         uv, converged = tried.uv.copy(), known.copy()
-        sigma = saddle.choose_weight_sigma(2 * plain * spacing)
+        sigma = saddle.choose_weight_sigma(2 * bare_reach * spacing)
         uv[known], converged[known] = saddle.refine_saddles(image, uv[known], sigma, spacing / 4)
         moved = Lattice(uv, tried.dark).select(converged)
         require_enough_corners(moved)
-        lattice = moved.select(verification.find_sound_corners(moved, image, plain, marked))
+        lattice = moved.select(verification.find_sound_corners(moved, image, bare_reach, marked))
     lost = predicted.found & ~lattice.found
     return lattice, list_rejected_corners(predicted.uv[lost], "off place or colours")
 
 
 def refine_and_extend_corners(
-    image: GreyImage, predicted: Lattice, plain: float
+    image: GreyImage, predicted: Lattice, bare_reach: float
 ) -> tuple[Lattice, list[RejectedCorner]]:
     """Move corners to their saddle points, verify them, and try the places beside them, and beside
     these.
@@ -125,14 +126,14 @@ def refine_and_extend_corners(
     Args:
         image: (h, w) grey levels.
         predicted: the lattice of the whole board, with the corners seen.
-        plain: how far from its edges a square is of one colour, squares.
+        bare_reach: how far from its edges a square is of one colour, squares.
 
     Raises:
         NoBoardError: if too few corners are left.
     """
-    lattice, rejected = refine_corners(image, predicted, plain)
+    lattice, rejected = refine_corners(image, predicted, bare_reach)
     for _ in range(_MAX_ROUNDS):
-        more, lost = refine_corners(image, lattice, plain)
+        more, lost = refine_corners(image, lattice, bare_reach)
         if len(more) <= len(lattice):
             break
         lattice, rejected = more, lost
@@ -158,11 +159,9 @@ def fit_corners(
     rejected: list[RejectedCorner] = []
     for _ in range(_MAX_FITS):
         require_enough_corners(lattice)
-        fit, displacement = fit_undisturbed(
-            lattice, lambda part: _fit_all_corners(image, part, marks)
-        )
+        fit, displacement = fit_robustly(lattice, lambda part: _fit_all_corners(image, part, marks))
         found, uv = lattice.found, lattice.uv[lattice.found]
-        described = verification.find_described_corners(fit, lattice, None, displacement)
+        described = verification.find_described_corners(fit, lattice, displacement)
         near = verification.find_tolerable_displacements(displacement, lattice)
         good = described & near
         if good.all():

@@ -22,27 +22,9 @@ import numpy.typing as npt
 
 from calibgui.engine.arrays import Array, BoolArray, GreyImage, GridSize
 from calibgui.engine.boards.charuco import Charuco, MarkerLayout
-from calibgui.engine.detection import region_of_interest as region
+from calibgui.engine.corner_fit.x_corner_fit import XCornerFit
 from calibgui.engine.detection.charuco.assembly import assemble_corners
-from calibgui.engine.detection.charuco.corners_between_markers import (
-    fit_corners,
-    predict_corners,
-    refine_and_extend_corners,
-    refine_corners,
-    require_enough_corners,
-)
-from calibgui.engine.detection.charuco.few_corners import fit_few_corners, locate_few_corners
-from calibgui.engine.detection.charuco.lattice_placement import (
-    MarkedBoard,
-    is_too_large,
-    measure_margin,
-    place_by_marks,
-)
-from calibgui.engine.detection.charuco.mark_removal import Marks
-from calibgui.engine.detection.charuco.marker_candidates import draw_markers
-from calibgui.engine.detection.charuco.marker_reader import MarkerReader, ReadBoard
-from calibgui.engine.detection.charuco.markers import Markers
-from calibgui.engine.detection.charuco.stated_board import (
+from calibgui.engine.detection.charuco.board_identification import (
     contradict,
     count_rows,
     explain_missing_board,
@@ -51,22 +33,39 @@ from calibgui.engine.detection.charuco.stated_board import (
     read_board,
     read_markers,
 )
-from calibgui.engine.detection.charuco.thresholds import CHARUCO_THRESHOLDS
-from calibgui.engine.detection.checkerboard import board_ends
-from calibgui.engine.detection.checkerboard.pyramid_search import (
-    Candidate,
-    find_candidates,
-    find_same,
+from calibgui.engine.detection.charuco.corners_between_markers import (
+    fit_corners,
+    predict_corners,
+    refine_and_extend_corners,
+    refine_corners,
+    require_enough_corners,
 )
-from calibgui.engine.detection.checkerboard.x_corner_fit import XCornerFit
-from calibgui.engine.detection.corners import Corners, RejectedCorner
+from calibgui.engine.detection.charuco.isolated_corners import (
+    fit_isolated_corners,
+    locate_isolated_corners,
+)
+from calibgui.engine.detection.charuco.lattice_placement import (
+    MarkedBoard,
+    is_too_large,
+    measure_margin,
+    place_by_marks,
+)
+from calibgui.engine.detection.charuco.marker_candidates import draw_markers
+from calibgui.engine.detection.charuco.marker_reader import MarkerReader, ReadBoard
+from calibgui.engine.detection.charuco.marker_subtraction import Marks
+from calibgui.engine.detection.charuco.markers import Markers
+from calibgui.engine.detection.charuco.thresholds import CHARUCO_THRESHOLDS
 from calibgui.engine.detection.detector_io import check_grey_levels
-from calibgui.engine.detection.lattice import Lattice
 from calibgui.engine.errors import NoBoardError, UnknownPartError
+from calibgui.engine.features.corners import Corners, RejectedCorner
+from calibgui.engine.features.lattice import Lattice
+from calibgui.engine.lattices import board_ends
+from calibgui.engine.lattices import region_of_interest as region
+from calibgui.engine.lattices.pyramid_search import Candidate, find_candidates, find_same
 
 _FEW_CORNERS = 0.5
 """Share of a board's corners up to which all of its markers are read together."""
-_PLAIN = 1 / 8
+_BARE_REACH = 1 / 8
 """Distance from the corners within which nothing is printed, squares: the margin of markers of 3/4
 of a square."""
 _SIDES = (0.75, 0.6)
@@ -120,10 +119,10 @@ def find_charuco(
     grey = check_grey_levels(image)
     outline = None if roi is None else region.check_outline(roi)
     readers = open_readers(grey, outline)
-    found = _find_fitted_board(grey, pattern, grid_size, outline, readers, method)
-    if found is None:
+    fitted = _find_fitted_board(grey, pattern, grid_size, outline, readers, method)
+    if fitted is None:
         raise explain_missing_board(pattern, readers, grid_size)
-    board, fit = found
+    board, fit = fitted
     corners = assemble_corners(grey, board.lattice, fit, outline, board.rejected, board.pattern)
     if not board.first:
         return corners
@@ -152,7 +151,7 @@ def _find_fitted_board(
         failure = error
     few = None
     if grid_size is not None:
-        few = _find_few_corners(grey, pattern, grid_size, readers, method)
+        few = _find_isolated_corners(grey, pattern, grid_size, readers, method)
     if few is None and failure is not None:
         raise failure
     return few
@@ -172,7 +171,7 @@ def _fit_board(grey: GreyImage, board: _FoundBoard, method: str) -> _FittedBoard
     return board, fit
 
 
-def _find_few_corners(
+def _find_isolated_corners(
     grey: GreyImage, pattern: Charuco, grid_size: GridSize, readers: list[MarkerReader], method: str
 ) -> _FittedBoard | None:
     """Find corners between markers that were read, two of which are enough, where they are too few
@@ -192,13 +191,13 @@ def _locate_between(
     is_inverted: bool,
     method: str,
 ) -> _FittedBoard | None:
-    """Locate the corners between markers that were read; see `_find_few_corners`."""
+    """Locate the corners between markers that were read; see `_find_isolated_corners`."""
     if len(board.readings) > 1 or contradict(board.readings[0], pattern, grid_size) is not None:
         return None
     markers, fit = board.readings[0], None
-    lattice = locate_few_corners(grey, markers, grid_size, is_inverted=is_inverted)
+    lattice = locate_isolated_corners(grey, markers, grid_size, is_inverted=is_inverted)
     if method == "edges":
-        lattice, fit = fit_few_corners(grey, lattice, _measure_plain_part(markers))
+        lattice, fit = fit_isolated_corners(grey, lattice, _measure_plain_part(markers))
     if not len(lattice):
         return None
     return _describe_board(board.dictionary, pattern, markers, lattice, []), fit
@@ -240,10 +239,10 @@ def _find_by_markers(
     Raises:
         NoBoardError: if they are of another board, or tell too few of its corners.
     """
-    found = read_board(pattern, readers, grid_size)
-    if found is None:
+    identified = read_board(pattern, readers, grid_size)
+    if identified is None:
         return None
-    read, is_inverted = found
+    read, is_inverted = identified
     located = _choose_reading(grey, read.readings, grid_size, is_inverted=is_inverted)
     lattice, rejected = located.lattice, located.rejected
     board = _describe_board(read.dictionary, pattern, located.markers, lattice, rejected)
@@ -284,14 +283,14 @@ def _find_by_lattice(
     def is_other(lattice: Lattice, _: int) -> bool:
         return is_too_large(lattice, grid_size)
 
-    for candidates in find_candidates(grey, searched, plain=_PLAIN, is_other=is_other):
+    for candidates in find_candidates(grey, searched, bare_reach=_BARE_REACH, is_other=is_other):
         for candidate in candidates:
             if find_same(candidate, tried):
                 continue
             tried.append(candidate)
-            found = _place_on_boards(grey, candidate.lattice, boards, pattern.marker)
-            if found is not None:
-                return found
+            placed = _place_on_boards(grey, candidate.lattice, boards, pattern.marker)
+            if placed is not None:
+                return placed
     return None
 
 
@@ -303,16 +302,16 @@ def _place_on_boards(
 ) -> _FoundBoard | None:
     """Place a lattice on the first of some boards whose markers it shows, and locate its corners;
     the markers' `side`, squares, is measured where it is not stated."""
-    for board, seen in boards:
+    for board, described in boards:
         placed = place_by_marks(grey, lattice, board)
         if placed is None:
             continue
         marks = board.marks
         if side is None:
             marks = marks._replace(margin=measure_margin(grey, placed, board))
-            seen = replace(seen, marker=1 - 2 * marks.margin)
+            described = replace(described, marker=1 - 2 * marks.margin)
         refined, rejected = refine_and_extend_corners(grey, placed, marks.margin)
-        return _FoundBoard(refined, rejected, seen, marks)
+        return _FoundBoard(refined, rejected, described, marks)
     return None
 
 
@@ -324,8 +323,8 @@ def _list_stated_boards(
         for side in _SIDES if pattern.marker is None else (pattern.marker,):
             marks = _list_marks(dictionary, layout, side, grid_size)
             for first_dark in (layout.first_dark, not layout.first_dark):
-                seen = Charuco(dictionary, side, not layout.first_dark)
-                yield MarkedBoard(grid_size, first_dark, marks), seen
+                described = Charuco(dictionary, side, not layout.first_dark)
+                yield MarkedBoard(grid_size, first_dark, marks), described
 
 
 def _list_marks(dictionary: str, layout: MarkerLayout, side: float, grid_size: GridSize) -> Marks:
@@ -350,8 +349,8 @@ def _locate_corners(
     """
     size = _find_size(markers, grid_size)
     predicted = predict_corners(markers, size, grey, is_inverted=is_inverted)
-    plain = _measure_plain_part(markers)
-    lattice, rejected = refine_corners(grey, predicted, plain, by_markers=True)
+    bare_reach = _measure_plain_part(markers)
+    lattice, rejected = refine_corners(grey, predicted, bare_reach, by_markers=True)
     missing = predicted.found & ~lattice.found & _are_whole_in_image(predicted, grey)
     return _LocatedBoard(markers, lattice, missing, rejected)
 

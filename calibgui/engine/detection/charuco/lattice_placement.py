@@ -20,11 +20,11 @@ from typing import NamedTuple
 import numpy as np
 
 from calibgui.engine.arrays import Array, GreyImage, GridSize, IntArray
-from calibgui.engine.detection.charuco.mark_removal import Marks
 from calibgui.engine.detection.charuco.marker_cells import measure_cells
 from calibgui.engine.detection.charuco.marker_growth import list_differences
-from calibgui.engine.detection.checkerboard.numbering import turn_lattice
-from calibgui.engine.detection.lattice import Lattice
+from calibgui.engine.detection.charuco.marker_subtraction import Marks
+from calibgui.engine.features.lattice import Lattice
+from calibgui.engine.lattices.numbering import turn_lattice
 
 _MIN_SQUARES = 5
 """Least number of squares that are read together."""

@@ -19,12 +19,12 @@ from calibgui.engine.arrays import Array, BoolArray, GreyImage, IntArray
 from calibgui.engine.detection.charuco.corners_between_markers import predict_places
 from calibgui.engine.detection.charuco.marker_cells import measure_cells
 from calibgui.engine.detection.charuco.markers import Layout, Markers
-from calibgui.engine.detection.checkerboard import board_ends
-from calibgui.engine.detection.region_of_interest import are_inside
+from calibgui.engine.lattices import board_ends
+from calibgui.engine.lattices.region_of_interest import are_inside
 
-_MIN_RIGHT_STEPS = 0.85
-"""Least share of the steps between a marker's cells that have the sign that its number says. Where
-there is no marker half of them have, and of 50 so many never."""
+MIN_RIGHT_STEPS = 0.85
+"""Least share of the steps between the cells of a marker or tag that have the sign that its number
+says. Where there is none half of them have, and of 50 so many never."""
 _MIN_RELATIVE_SWING = 0.25
 """Least height of these steps over the median of the markers that were read as quadrilaterals:
 the noise of plain paper has the right signs once in a thousand times."""
@@ -204,7 +204,7 @@ def _read_by_steps(
     may_be = _match_places(wanted.squares, places)
     numbers = np.where(may_be, share, -np.inf).argmax(axis=1)
     right, height = prints.rate(seen, numbers)
-    good = np.flatnonzero((right > _MIN_RIGHT_STEPS) & (height > least))
+    good = np.flatnonzero((right > MIN_RIGHT_STEPS) & (height > least))
     return replace(wanted, numbers=numbers).select(good)
 
 

@@ -22,7 +22,6 @@ import numpy as np
 from calibgui.engine import opencv
 from calibgui.engine.arrays import Array, GreyImage, IntArray
 from calibgui.engine.boards.charuco import MARKER_LAYOUTS, MarkerLayout, dictionary_family
-from calibgui.engine.detection import region_of_interest as region
 from calibgui.engine.detection.charuco.marker_candidates import MarkerCandidates, draw_markers
 from calibgui.engine.detection.charuco.marker_growth import (
     MARKER_NEIGHBOURS,
@@ -34,10 +33,11 @@ from calibgui.engine.detection.charuco.marker_growth import (
 from calibgui.engine.detection.charuco.markers import Markers, are_some_near, identify_board
 from calibgui.engine.detection.charuco.thresholds import CHARUCO_THRESHOLDS
 from calibgui.engine.detection.print_samples import PrintSample, QuadSearch
-from calibgui.engine.detection.region_of_interest import are_inside
+from calibgui.engine.lattices import region_of_interest as region
+from calibgui.engine.lattices.region_of_interest import are_inside
 
-_MAX_COARSE_SIDE = 1600
-"""Longer side of the image in which markers are looked for first, px."""
+MAX_COARSE_SIDE = 1600
+"""Longer side of the image in which markers or tags are looked for first, px."""
 _FAMILIES = (
     *(f"DICT_{k}X{k}" for k in (4, 5, 6, 7)),
     "DICT_ARUCO_ORIGINAL",
@@ -80,7 +80,7 @@ class MarkerReader:
             positive: the reader of the image that `image` is the negative of, if it is one.
         """
         self._levels = [image]
-        while max(self._levels[-1].shape) > _MAX_COARSE_SIDE:
+        while max(self._levels[-1].shape) > MAX_COARSE_SIDE:
             self._levels.append(opencv.halve_image(self._levels[-1]))
         self._outline = None if outline is None else region.enlarge_outline(outline)
         self._positive = positive

@@ -1,10 +1,5 @@
-"""The detector of checkerboards, told in reading order.
+"""The detector of checkerboards.
 
-``find_checkerboard`` is the entry. The search: ``pyramid_search`` goes through the levels of the
-image; in each ``x_junctions`` finds X-junctions, ``neighbour_graph`` joins them to lattices,
-``prefilter`` drops those that cannot be boards and ``lattice_growth`` extends the others. Then
-``board_refinement`` makes boards of them: ``saddle`` and ``x_corner_fit`` locate the corners, and
-``verification`` and ``a_contrario`` decide whether they are a board's. ``numbering`` gives them
-their rows and columns. The limits that the search and the verification ask for are in
-``thresholds``.
+``find_checkerboard`` is the entry. It searches for lattices that may be boards,
+``board_refinement`` makes boards of them, and ``descriptions`` tells what was seen if none is one.
 """

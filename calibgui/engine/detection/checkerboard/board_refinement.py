@@ -3,8 +3,8 @@
 A candidate of the search (`pyramid_search`) is taken apart where boards hang together
 (`board_separation`). The corners of each part move to their saddle points at full resolution; its
 gaps are tried again, what fails is dropped (`verification`), and the edge model is fitted to the
-rest (`undisturbed_fit`). Where corners are missing, that is done once more without the pixels that
-are dead (`dead_pixels`). What remains must not be explained by chance (`a_contrario`).
+rest (`robust_fit`). Where corners are missing, that is done once more without the pixels that
+are dead (`pixel_noise`). What remains must not be explained by chance (`a_contrario`).
 """
 
 from __future__ import annotations
@@ -14,27 +14,24 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from calibgui.engine.arrays import GreyImage, GridSize
-from calibgui.engine.detection.checkerboard import a_contrario, board_ends, verification
-from calibgui.engine.detection.checkerboard.board_separation import cut_at_seam, separate_boards
-from calibgui.engine.detection.checkerboard.dead_pixels import repair_dead_pixels
-from calibgui.engine.detection.checkerboard.prefilter import Refusal, find_objection
-from calibgui.engine.detection.checkerboard.pyramid_search import Candidate
-from calibgui.engine.detection.checkerboard.saddle import refine_lattice
-from calibgui.engine.detection.checkerboard.thresholds import THRESHOLDS
-from calibgui.engine.detection.checkerboard.undisturbed_fit import (
-    fit_plain_corners,
-    fit_undisturbed,
-)
-from calibgui.engine.detection.checkerboard.x_corner_fit import XCornerFit
-from calibgui.engine.detection.corners import RejectedCorner
+from calibgui.engine.corner_fit import verification
+from calibgui.engine.corner_fit.robust_fit import fit_plain_corners, fit_robustly
+from calibgui.engine.corner_fit.x_corner_fit import XCornerFit
 from calibgui.engine.detection.detector_io import list_rejected_corners
-from calibgui.engine.detection.lattice import (
+from calibgui.engine.features.corners import RejectedCorner
+from calibgui.engine.features.lattice import (
     Lattice,
     compute_filled_share,
     drop_isolated_and_crop,
     is_large_enough,
 )
-from calibgui.engine.detection.pixel_noise import estimate_pixel_noise
+from calibgui.engine.features.pixel_noise import estimate_pixel_noise, repair_dead_pixels
+from calibgui.engine.features.saddle import refine_lattice
+from calibgui.engine.lattices import a_contrario, board_ends
+from calibgui.engine.lattices.board_separation import separate_boards
+from calibgui.engine.lattices.lattice_growth import MIN_FILLED_IN_TEXTURE
+from calibgui.engine.lattices.prefilter import TOO_BLURRED, Refusal, find_objection
+from calibgui.engine.lattices.pyramid_search import Candidate
 
 _MAX_GAP_ROUNDS = 16
 """Number of times that gaps are tried again; each time next to the corners that are found."""
@@ -67,19 +64,13 @@ class RefinedBoard:
         return float(np.nansum(self.lattice.spacing()[self.lattice.found] * contrast))
 
 
-def is_refused(results: list[RefinedBoard | Refusal]) -> bool:
-    """Return whether nothing of a candidate is a board."""
-    return all(isinstance(result, Refusal) for result in results)
-
-
 def verify_parts(
-    grey: GreyImage, candidate: Candidate, grid_size: GridSize | None, method: str
+    grey: GreyImage, candidate: Candidate, method: str, grid_size: GridSize | None = None
 ) -> list[RefinedBoard | Refusal]:
-    """Take a candidate apart where it is cut by a crease or a seam, and verify the parts."""
+    """Take a candidate apart where it is cut by a crease, and verify the parts."""
     results = [
-        result
+        _verify_lattice(grey, part, candidate.others, method, grid_size)
         for part in separate_boards(candidate.lattice, grey)
-        for result in _verify_seamed(grey, part, candidate.others, grid_size, method)
     ]
     if len(results) == 1:
         return results
@@ -90,53 +81,37 @@ def verify_parts(
     ]
 
 
-def _verify_seamed(
-    grey: GreyImage, lattice: Lattice, others: int, grid_size: GridSize | None, method: str
-) -> list[RefinedBoard | Refusal]:
-    """Return the boards that a lattice is, or why it is none: more than one where boards lie edge
-    to edge, unless together they are of the stated size, as one that is printed on several sheets.
-    """
-    board = _verify_lattice(grey, lattice, others, method)
-    if isinstance(board, Refusal) or board.fit is None:
-        return [board]
-    if grid_size is not None and sorted(grid_size) == sorted(board.lattice.shape):
-        return [board]
-    uv, fit = board.lattice.uv.copy(), board.fit
-    uv[board.lattice.found] = fit.uv
-    fitted = Lattice(uv, board.lattice.dark)
-    parts = cut_at_seam(fitted, fit.residual / fit.contrast)
-    if parts is None:
-        return [board]
-    return [
-        result for part in parts for result in _verify_seamed(grey, part, others, grid_size, method)
-    ]
-
-
 def _verify_lattice(
-    grey: GreyImage, lattice: Lattice, others: int, method: str
+    grey: GreyImage, lattice: Lattice, others: int, method: str, grid_size: GridSize | None
 ) -> RefinedBoard | Refusal:
     """Return the board that a lattice is, beside `others` junctions in the image, or why it is
     none."""
-    board = _refine_repaired(grey, lattice, method)
+    board = _refine_repaired(grey, lattice, method, grid_size)
     if isinstance(board, Refusal) or a_contrario.is_meaningful(board.lattice.found, others):
         return board
     return Refusal(board.lattice.shape, a_contrario.BY_CHANCE)
 
 
-def _refine_repaired(grey: GreyImage, lattice: Lattice, method: str) -> RefinedBoard | Refusal:
+def _refine_repaired(
+    grey: GreyImage, lattice: Lattice, method: str, grid_size: GridSize | None
+) -> RefinedBoard | Refusal:
     """Refine a lattice, of whose corners dead pixels must not cost any; see `refine_board`."""
-    board = refine_board(grey, lattice, method)
+    board = refine_board(grey, lattice, method, grid_size=grid_size)
     if isinstance(board, Refusal) or (board.lattice.found.all() and not board.rejected):
         return board
     repaired = repair_dead_pixels(grey, board.lattice)
     if repaired is None:
         return board
-    again = refine_board(repaired, lattice, method)
+    again = refine_board(repaired, lattice, method, grid_size=grid_size)
     return board if isinstance(again, Refusal) or len(again) <= len(board) else again
 
 
 def refine_board(
-    grey: GreyImage, lattice: Lattice, method: str, plain: float = 0.5
+    grey: GreyImage,
+    lattice: Lattice,
+    method: str,
+    bare_reach: float = 0.5,
+    grid_size: GridSize | None = None,
 ) -> RefinedBoard | Refusal:
     """Refine a lattice at full resolution and verify it.
 
@@ -147,25 +122,26 @@ def refine_board(
         grey: (h, w) grey levels.
         lattice: corners good to 2 px.
         method: one of `METHODS`.
-        plain: how far from the corners nothing is printed in the squares and on their edges.
+        bare_reach: how far from the corners nothing is printed in the squares and on their edges.
+        grid_size: rows and columns of the board, if stated.
 
     Returns:
         The board without the corners that fail, or why the lattice is none.
     """
-    is_sparse = compute_filled_share(lattice) < THRESHOLDS.search.min_filled_in_texture
-    seen = lattice
+    is_sparse = compute_filled_share(lattice) < MIN_FILLED_IN_TEXTURE
+    sound = lattice
     for _ in range(_MAX_GAP_ROUNDS):
-        if is_sparse and (objection := find_objection(seen, grey, plain=plain)):
+        if is_sparse and (objection := find_objection(sound, grey, bare_reach=bare_reach)):
             # To try so many gaps again, as textures have, takes several times as long.
             return Refusal(lattice.shape, objection)
-        filled = verification.fill_gaps(seen, grey.shape)
-        refined, at_saddle = refine_lattice(grey, filled, plain=plain)
+        filled = verification.fill_gaps(sound, grey.shape)
+        refined, at_saddle = refine_lattice(grey, filled, bare_reach=bare_reach)
         if method == "saddle":
             refined = refined.select(at_saddle)
-        good = verification.find_sound_corners(refined, grey, plain)
-        if np.count_nonzero(good) <= len(seen):
+        good = verification.find_sound_corners(refined, grey, bare_reach)
+        if np.count_nonzero(good) <= len(sound):
             break
-        seen = refined.select(good)
+        sound = refined.select(good)
     if not verification.is_credible(int(np.count_nonzero(lattice.found & ~good)), len(lattice)):
         return Refusal(lattice.shape, _TOO_MANY_FAIL)
     without_saddle = lattice.found & ~refined.found
@@ -174,7 +150,9 @@ def refine_board(
         *list_rejected_corners(lattice.uv[without_saddle], "no saddle point"),
         *list_rejected_corners(lattice.uv[unsound], "off place or colours"),
     ]
-    return _fit_board(grey, drop_isolated_and_crop(refined.select(good)), rejected, method, plain)
+    return _fit_board(
+        grey, drop_isolated_and_crop(refined.select(good)), rejected, method, bare_reach, grid_size
+    )
 
 
 def _fit_board(
@@ -182,7 +160,8 @@ def _fit_board(
     lattice: Lattice,
     rejected: list[RejectedCorner],
     method: str,
-    plain: float,
+    bare_reach: float,
+    grid_size: GridSize | None,
 ) -> RefinedBoard | Refusal:
     """Verify a refined lattice as a whole and, unless the method is "saddle", fit the edge model.
 
@@ -194,7 +173,8 @@ def _fit_board(
         lattice: refined corners.
         rejected: corners rejected so far, to which those rejected here are added.
         method: one of `METHODS`.
-        plain: how far from the corners nothing is printed.
+        bare_reach: how far from the corners nothing is printed.
+        grid_size: rows and columns of the board, if stated.
 
     Returns:
         The board, or why the lattice is none.
@@ -203,19 +183,21 @@ def _fit_board(
     for _ in range(_MAX_ROUNDS):
         if not is_large_enough(lattice):
             return Refusal(shape, "too few of its corners are sound")
-        lattice = verification.drop_broken_lines(lattice, grey)
+        if not verification.lies_on_smooth_map(lattice):
+            return Refusal(shape, _NO_GRID)
+        lattice = board_ends.drop_stray_lines(lattice, grey)
         if not is_large_enough(lattice):
             return Refusal(shape, _NO_GRID)
-        if objection := find_objection(lattice, grey, plain=plain):
+        if objection := find_objection(lattice, grey, True, bare_reach, grid_size):
             return Refusal(lattice.shape, objection)
         if method == "saddle":
             return RefinedBoard(lattice, tuple(rejected), None)
-        fit, displacement = fit_undisturbed(
-            lattice, lambda part: fit_plain_corners(grey, part, plain)
+        fit, displacement = fit_robustly(
+            lattice, lambda part: fit_plain_corners(grey, part, bare_reach)
         )
         if verification.are_edges_too_wide(fit):
-            return Refusal(lattice.shape, verification.TOO_BLURRED)
-        described = verification.find_described_corners(fit, lattice, None, displacement)
+            return Refusal(lattice.shape, TOO_BLURRED)
+        described = verification.find_described_corners(fit, lattice, displacement)
         residual = verification.compare_residuals(fit.residual, fit.contrast)
         described &= ~verification.find_doubtful_lines(lattice, residual, displacement)
         near = verification.find_tolerable_displacements(displacement, lattice)
@@ -227,7 +209,7 @@ def _fit_board(
                 and verification.has_step_edges(fit, is_alone=True, noise=noise)
             )
             if not is_board:
-                return Refusal(lattice.shape, verification.TOO_BLURRED)
+                return Refusal(lattice.shape, TOO_BLURRED)
             return RefinedBoard(lattice, tuple(rejected), fit.widen(displacement))
         failed += int(np.count_nonzero(~described))
         if not verification.is_credible(failed, int(np.count_nonzero(described)) + failed):

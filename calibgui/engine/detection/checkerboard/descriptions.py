@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 from calibgui.engine.arrays import GreyImage, GridSize
-from calibgui.engine.detection.checkerboard import board_ends
-from calibgui.engine.detection.checkerboard.prefilter import OBJECTIONS_TO_CIRCLES, Refusal
-from calibgui.engine.detection.lattice import Lattice
+from calibgui.engine.camera.image_circle import ImageCircle
 from calibgui.engine.errors import NoBoardError
+from calibgui.engine.features.lattice import Lattice
+from calibgui.engine.lattices import board_ends
+from calibgui.engine.lattices.prefilter import LIKE_DOTS, OBJECTIONS_TO_CIRCLES, Refusal
 
-_STATE_SIZE = "State the number of inner corners, rows x columns, or leave it out."
+_CHECK_SIZE = (
+    "Check the stated number of inner corners, rows x columns, or leave it out; if it is right,"
+    " take the picture again with nothing on the board's outermost squares."
+)
 
 
 class OtherSizeError(NoBoardError):
@@ -16,18 +20,18 @@ class OtherSizeError(NoBoardError):
 
 
 def describe_other_sizes(
-    grey: GreyImage, boards: list[Lattice], grid_size: GridSize
+    grey: GreyImage, boards: list[Lattice], grid_size: GridSize, circle: ImageCircle | None
 ) -> OtherSizeError:
     """Return an error that says what was found instead of the stated board."""
     sizes = [tuple(sorted(board.shape)) for board in boards]
     stated = f"not {grid_size[0]} x {grid_size[1]}"
     if len(sizes) > 1:
         seen = ", ".join(f"{rows} x {cols}" for rows, cols in sizes)
-        return OtherSizeError(f"The boards here have {seen} inner corners, {stated}.", _STATE_SIZE)
-    least = "" if all(board_ends.find_ends(boards[0], grey)) else "at least "
+        return OtherSizeError(f"The boards here have {seen} inner corners, {stated}.", _CHECK_SIZE)
+    least = "" if all(board_ends.find_ends(boards[0], grey, circle)) else "at least "
     rows, cols = sizes[0]
     return OtherSizeError(
-        f"This board has {least}{rows} x {cols} inner corners, {stated}.", _STATE_SIZE
+        f"This board has {least}{rows} x {cols} inner corners, {stated}.", _CHECK_SIZE
     )
 
 
@@ -43,6 +47,11 @@ def describe_refusal(refusal: Refusal) -> NoBoardError:
             "For a grid of circles, or a board with markers, choose that pattern. For a"
             f" checkerboard, {hint[:1].lower()}{hint[1:]}"
         )
+    if refusal.reason == LIKE_DOTS:
+        hint = (
+            "If it is one of uneven squares, state its number of inner corners, rows x columns."
+            f" Else {hint[:1].lower()}{hint[1:]}"
+        )
     return NoBoardError(
         f"What looks like a checkerboard of {rows} x {cols} inner corners is not trusted:"
         f" {refusal.reason}.",
@@ -54,7 +63,8 @@ def describe_misfit(grid_size: GridSize) -> NoBoardError:
     """Return an error that says that nothing was found at the marked points."""
     return NoBoardError(
         f"No board of {grid_size[0]} x {grid_size[1]} inner corners fits the four marked points.",
-        "Mark the four outermost inner corners, in order around the board. " + _STATE_SIZE,
+        "Mark the four outermost inner corners, in order around the board, and check their stated"
+        " number, rows x columns.",
     )
 
 

@@ -25,31 +25,31 @@ import scipy
 
 from calibgui.engine.arrays import Array, GreyImage, GridSize
 from calibgui.engine.boards.checkerboard import CHECKERBOARD, Checkerboard, checkerboard_symmetry
-from calibgui.engine.detection import region_of_interest as region
-from calibgui.engine.detection.checkerboard import board_ends, descriptions, harris, verification
+from calibgui.engine.camera.image_circle import ImageCircle
+from calibgui.engine.corner_fit import verification
+from calibgui.engine.detection.checkerboard import descriptions
 from calibgui.engine.detection.checkerboard.board_refinement import (
     RefinedBoard,
-    is_refused,
     refine_board,
     verify_parts,
 )
-from calibgui.engine.detection.checkerboard.numbering import (
+from calibgui.engine.detection.detector_io import check_grey_levels, list_rejected_corners
+from calibgui.engine.errors import NoBoardError
+from calibgui.engine.features import harris
+from calibgui.engine.features.corners import METHODS, Corners, OtherBoard
+from calibgui.engine.features.lattice import MIN_CORNERS, MIN_LINES, Lattice
+from calibgui.engine.features.saddle import refine_lattice
+from calibgui.engine.images.image_circle_search import find_image_circle
+from calibgui.engine.lattices import board_ends
+from calibgui.engine.lattices import region_of_interest as region
+from calibgui.engine.lattices.numbering import (
     Numbering,
     is_relative,
     list_numberings,
     place_corners,
 )
-from calibgui.engine.detection.checkerboard.prefilter import Refusal
-from calibgui.engine.detection.checkerboard.pyramid_search import (
-    Candidate,
-    find_candidates,
-    find_same,
-)
-from calibgui.engine.detection.checkerboard.saddle import refine_lattice
-from calibgui.engine.detection.corners import METHODS, Corners, OtherBoard
-from calibgui.engine.detection.detector_io import check_grey_levels, list_rejected_corners
-from calibgui.engine.detection.lattice import MIN_CORNERS, MIN_LINES, Lattice
-from calibgui.engine.errors import NoBoardError
+from calibgui.engine.lattices.prefilter import Refusal
+from calibgui.engine.lattices.pyramid_search import Candidate, find_candidates, find_same
 
 
 def find_checkerboard(
@@ -89,9 +89,10 @@ def find_checkerboard(
         raise ValueError(f"a board needs {MIN_LINES} x {MIN_LINES} inner corners, not {grid_size}")
     grey = check_grey_levels(image)
     outline = None if roi is None else region.check_outline(roi)
+    circle = find_image_circle(grey)
     others: list[RefinedBoard] = []
     try:
-        board, others = _find_wanted_board(grey, grid_size, outline, method)
+        board, others = _find_wanted_board(grey, grid_size, outline, method, circle)
     except NoBoardError as error:
         if outline is None or grid_size is None:
             raise
@@ -101,7 +102,7 @@ def find_checkerboard(
                 raise
             raise descriptions.describe_misfit(grid_size) from None
         board = marked
-    numberings = _sort_numberings(grey, board.lattice, grid_size, outline)
+    numberings = _sort_numberings(grey, board.lattice, grid_size, outline, circle)
     corners = assemble_corners(grey, board, numberings, outline, others)
     if grid_size is None and outline is None:
         continuation = descriptions.describe_continuation(grey, board.lattice)
@@ -111,7 +112,11 @@ def find_checkerboard(
 
 
 def _find_wanted_board(
-    grey: GreyImage, grid_size: GridSize | None, outline: Array | None, method: str
+    grey: GreyImage,
+    grid_size: GridSize | None,
+    outline: Array | None,
+    method: str,
+    circle: ImageCircle | None,
 ) -> tuple[RefinedBoard, list[RefinedBoard]]:
     """Find the board of the strongest edges among those that may be of the stated size; what goes
     on around another is none, see `_choose_board`.
@@ -123,34 +128,32 @@ def _find_wanted_board(
         NoBoardError: there is no board; an `OtherSizeError` if there are boards of other sizes.
     """
     boards: list[RefinedBoard] = []
-    wanted, others = None, boards
     tried: dict[Candidate, list[RefinedBoard | Refusal]] = {}
-    unwanted: list[Candidate] = []  # those of `tried` that are no boards of that size
+    earlier: list[Candidate] = []  # those of `tried` that coarser levels showed
     refused: list[Refusal] = []
     searched = None if outline is None else region.enlarge_outline(outline)
     may_be_wanted = cache(
-        lambda board: grid_size is None or _may_have_size(grey, board.lattice, grid_size)
+        lambda board: grid_size is None or _may_have_size(grey, board.lattice, grid_size, circle)
     )
-    for candidates in find_candidates(grey, searched, on_refusal=refused.append):
+    for candidates in find_candidates(
+        grey, searched, on_refusal=refused.append, grid_size=grid_size
+    ):
         for candidate in candidates:
             if candidate not in tried:
-                same = find_same(candidate, unwanted)
+                same = find_same(candidate, earlier)
                 tried[candidate] = (
-                    verify_parts(grey, candidate, grid_size, method)
+                    verify_parts(grey, candidate, method, grid_size)
                     if same is None
                     else tried[same]
                 )
         results = (result for candidate in candidates for result in tried[candidate])
         boards = [board for board in results if isinstance(board, RefinedBoard)]
         if chosen := _choose_board(grey, boards, may_be_wanted):
-            wanted, others = chosen, [board for board in boards if board is not chosen]
-            if not board_ends.may_surround_a_board(wanted.lattice, grey):
-                break
-        unwanted += [each for each in candidates if chosen is None or is_refused(tried[each])]
-    if wanted is not None:
-        return wanted, others
+            return chosen, [board for board in boards if board is not chosen]
+        earlier += candidates
     if boards and grid_size is not None:
-        raise descriptions.describe_other_sizes(grey, [each.lattice for each in boards], grid_size)
+        lattices = [each.lattice for each in boards]
+        raise descriptions.describe_other_sizes(grey, lattices, grid_size, circle)
     refusals = [each for results in tried.values() for each in results if isinstance(each, Refusal)]
     for stage in (refusals, refused):  # what came farther is likelier to be meant
         if stage:
@@ -212,7 +215,7 @@ def find_marked_board(
     lattice, missing = max(parts, key=lambda part: len(part[0]))
     if len(lattice) < max(MIN_CORNERS, lattice.found.size // 2):
         return None
-    board = refine_board(grey, lattice, method)
+    board = refine_board(grey, lattice, method, grid_size=grid_size)
     if isinstance(board, Refusal):
         return None
     distance, _ = scipy.spatial.cKDTree(board.lattice.uv[board.lattice.found]).query(missing)
@@ -221,12 +224,14 @@ def find_marked_board(
     return replace(board, rejected=(*board.rejected, *rejected))
 
 
-def _may_have_size(grey: GreyImage, lattice: Lattice, grid_size: GridSize) -> bool:
+def _may_have_size(
+    grey: GreyImage, lattice: Lattice, grid_size: GridSize, circle: ImageCircle | None
+) -> bool:
     """Return whether a lattice may be a board of the stated size, or a part of it.
 
     It may be smaller only along an axis at one end of which the board was not seen to end.
     """
-    top, right, bottom, left = board_ends.find_ends(lattice, grey)
+    top, right, bottom, left = board_ends.find_ends(lattice, grey, circle)
     whole = (top and bottom, left and right)
     return any(
         all(
@@ -238,7 +243,11 @@ def _may_have_size(grey: GreyImage, lattice: Lattice, grid_size: GridSize) -> bo
 
 
 def _sort_numberings(
-    grey: GreyImage, lattice: Lattice, grid_size: GridSize | None, outline: Array | None
+    grey: GreyImage,
+    lattice: Lattice,
+    grid_size: GridSize | None,
+    outline: Array | None,
+    circle: ImageCircle | None,
 ) -> list[Numbering]:
     """Return a lattice's numberings, the preferred first.
 
@@ -247,7 +256,8 @@ def _sort_numberings(
     if grid_size is None or sorted(grid_size) == sorted(lattice.shape):
         numberings = list_numberings(lattice, grid_size)
     else:
-        numberings = list_numberings(lattice, grid_size, board_ends.find_ends(lattice, grey))
+        ends = board_ends.find_ends(lattice, grey, circle)
+        numberings = list_numberings(lattice, grid_size, ends)
     if outline is not None:
         numberings.sort(key=lambda each: not region.starts_at(each.lattice, outline[0]))
     return numberings

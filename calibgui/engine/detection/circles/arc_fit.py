@@ -121,5 +121,5 @@ def _fit_shift(
     others = [kept & (_SECTOR != sector) for sector in np.unique(_SECTOR[kept])]
     shifts = np.array([np.linalg.lstsq(A[each], b[each])[0][:2] for each in others]) - fit[:2]
     variance = np.sum(off[kept] ** 2) / max(np.count_nonzero(kept) - 3, 1)
-    alone = variance * np.linalg.inv(A[kept].T @ A[kept])[:2, :2]
-    return fit, alone + (1 - 1 / len(others)) * shifts.T @ shifts
+    of_shift = variance * np.linalg.inv(A[kept].T @ A[kept])[:2, :2]
+    return fit, of_shift + (1 - 1 / len(others)) * shifts.T @ shifts

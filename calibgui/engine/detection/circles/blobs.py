@@ -15,7 +15,7 @@ import scipy
 from calibgui.engine import kernels, opencv
 from calibgui.engine.arrays import Array, BoolArray, GreyImage
 from calibgui.engine.detection.circles.thresholds import CIRCLE_THRESHOLDS
-from calibgui.engine.detection.pixel_noise import estimate_noise_at
+from calibgui.engine.features.pixel_noise import estimate_noise_at
 from calibgui.engine.images.sampling import make_mesh
 
 FOG_SHARE = 1 / 16

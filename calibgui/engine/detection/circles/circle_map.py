@@ -32,7 +32,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from calibgui.engine.arrays import Array
-from calibgui.engine.detection.grid_map import (
+from calibgui.engine.lattices.grid_map import (
     RadialHomography,
     compute_polynomial_terms,
     fit_radial_homography,

@@ -16,7 +16,6 @@ import numpy.typing as npt
 from calibgui.engine import opencv
 from calibgui.engine.arrays import Array, GridSize
 from calibgui.engine.boards.circle_grid import Circles
-from calibgui.engine.detection import region_of_interest as region
 from calibgui.engine.detection.circles.blobs import (
     MIN_DIFFERENCE,
     find_blobs,
@@ -27,6 +26,7 @@ from calibgui.engine.detection.circles.grid_labelling import LabelledGrid, label
 from calibgui.engine.detection.circles.partial_grid import place_part
 from calibgui.engine.detection.circles.thresholds import CIRCLE_THRESHOLDS
 from calibgui.engine.errors import NoBoardError
+from calibgui.engine.lattices import region_of_interest as region
 
 _MAX_COARSE_SIDE = 1200
 """Longer side of the image in which the grid is looked for first, px."""
@@ -95,8 +95,6 @@ def find_grid(
         if grid is None:
             continue
         is_stated = grid.is_full and grid.places.shape == grid_size
-        if largest is not None and not is_stated and largest.has_all_of(grid):
-            continue
         at = grid.place_points(points)
         beyond = find_continuation(
             at, search.photograph, asymmetric=pattern.asymmetric, are_bright=search.is_negative
@@ -180,7 +178,7 @@ def _place_part(
 ) -> CoarseGrid | None:
     """Place the part of a grid that one of the searches has shown, with its points (n, 2) px: the
     first whose place is certain, or else the first."""
-    first: CoarseGrid | None = None
+    uncertain: CoarseGrid | None = None
     for search, points in searches:
         placed = place_part(
             points,
@@ -194,8 +192,8 @@ def _place_part(
             grid = CoarseGrid(centres, placed.in_view, True, placed.is_certain)
             if placed.is_certain:
                 return grid
-            first = first or grid
-    return first
+            uncertain = uncertain or grid
+    return uncertain
 
 
 class _FoundGrid(NamedTuple):
@@ -215,10 +213,6 @@ class _FoundGrid(NamedTuple):
             if self.grid.is_full
             else 2 * int(np.count_nonzero(self.beyond.is_seen_at)) - places
         )
-
-    def has_all_of(self, grid: LabelledGrid) -> bool:
-        """Return whether another grid is of the same size and has no more circles."""
-        return self.grid.places.shape == grid.places.shape and len(self.grid) >= len(grid)
 
 
 def _is_needless(

@@ -20,7 +20,7 @@ from calibgui.engine.arrays import Array, BoolArray, IntArray, compute_median
 from calibgui.engine.boards.circle_grid import Circles, list_grid_indices
 from calibgui.engine.detection.circles.blobs import FOG_SHARE
 from calibgui.engine.detection.circles.thresholds import CIRCLE_THRESHOLDS
-from calibgui.engine.detection.lattice import estimate_steps, predict_places
+from calibgui.engine.features.lattice import estimate_steps, predict_places
 from calibgui.engine.images.sampling import sample_image
 
 _CELL_MIDDLES = np.array([(0.5, 0.5), (0.5, -0.5), (-0.5, 0.5), (-0.5, -0.5)])
@@ -132,15 +132,15 @@ def look_around(
     lines = _find_lines(
         np.argwhere(beyond) + cells.first - places[0], xy - xy[0], asymmetric=asymmetric
     )
-    own = tuple((places - cells.first).T)
-    is_seen = cells.are_discs[own]
+    of_grid = tuple((places - cells.first).T)
+    is_seen = cells.are_discs[of_grid]
     is_plain = _find_plain(cells)[beyond]
     lengths = np.repeat(np.ptp(xy, axis=0) + 1, 2) / (2 if asymmetric else 1)
     in_view = [bool(2 * np.count_nonzero(line) > n) for line, n in zip(lines, lengths, strict=True)]
     return Continuation(
-        np.where(np.isfinite(uv), uv, np.where(is_seen[:, None], cells.at[own], np.nan)),
+        np.where(np.isfinite(uv), uv, np.where(is_seen[:, None], cells.at[of_grid], np.nan)),
         is_seen,
-        is_sampled[own],
+        is_sampled[of_grid],
         tuple(bool(2 * np.count_nonzero(is_disc[line]) > np.count_nonzero(line)) for line in lines),
         not all(line.any() for line in lines),
         any(is_disc[line].any() for line in lines),

@@ -124,11 +124,11 @@ def estimate_rise(seen: SeenLevels, uv: Array) -> Array:
     middle = [
         np.nanmedian(np.where(is_known, light, np.nan)[:, of], axis=1) for of in is_of[0].T > 0
     ]
-    left = light - np.where(is_ink, middle[0][:, None], middle[1][:, None])
+    rest = light - np.where(is_ink, middle[0][:, None], middle[1][:, None])
     for most in _LIGHT_DEVIATIONS:
-        w = (is_known / sigma / (1 + (left / most) ** 2))[..., None]
+        w = (is_known / sigma / (1 + (rest / most) ** 2))[..., None]
         fit = np.linalg.pinv(w * terms) @ (w * light[..., None])
-        left = light - (terms @ fit)[..., 0]
+        rest = light - (terms @ fit)[..., 0]
     return np.asarray(fit[:, :2, 0] / scale[:, None])
 
 

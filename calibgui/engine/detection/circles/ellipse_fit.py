@@ -31,11 +31,15 @@ import scipy
 
 from calibgui.engine import kernels
 from calibgui.engine.arrays import Array, BoolArray, GreyImage, IntArray
+from calibgui.engine.corner_fit.x_corner_model import MIN_BLUR
 from calibgui.engine.detection.circles.defocus import SeenLevels, estimate_rise, read_levels
 from calibgui.engine.detection.circles.thresholds import CIRCLE_THRESHOLDS
-from calibgui.engine.detection.detector_io import estimate_least_noise
-from calibgui.engine.detection.edge_intensity import compute_edge
-from calibgui.engine.detection.pixel_noise import estimate_noise_at, find_readable
+from calibgui.engine.features.edge_intensity import compute_edge
+from calibgui.engine.features.pixel_noise import (
+    estimate_least_noise,
+    estimate_noise_at,
+    find_readable,
+)
 from calibgui.engine.images.sampling import sample_image
 
 _BAND_HALF_WIDTHS = (3.0, 2.3)
@@ -49,8 +53,6 @@ _HOPELESS_MISFIT = 0.6
 blur is not found yet has 0.5 at most, what is no disc 1.6 to 12."""
 _MAX_RELATIVE_STEP = 0.3
 """Greatest change of S in one step, over itself."""
-_MIN_BLUR = 0.3
-"""Least blur, px: that of the pixel alone is 0.29."""
 _MAX_PIXELS_AT_ONCE = 400_000
 """Number of pixels looked at at once."""
 _UNKNOWNS = 8
@@ -422,7 +424,7 @@ def _limit_step(step: Array, x: Array) -> Array:
     bounded = step.copy()
     bounded[_C] = np.clip(step[_C], -2.0, 2.0)
     bounded[_BLUR] = np.clip(
-        step[_BLUR], np.maximum(-x[_BLUR] / 3, _MIN_BLUR - x[_BLUR]), x[_BLUR] / 2
+        step[_BLUR], np.maximum(-x[_BLUR] / 3, MIN_BLUR - x[_BLUR]), x[_BLUR] / 2
     )
     # S may change by a part of itself in every direction, lest it lose its sign: along the longer
     # axis of a slender ellipse it is much smaller than its entries.

@@ -25,7 +25,6 @@ import numpy.typing as npt
 from calibgui.engine.arrays import Array, BoolArray, GreyImage, GridSize, IntArray, compute_median
 from calibgui.engine.boards.circle_grid import Circles, list_grid_indices
 from calibgui.engine.boards.pattern import Symmetry
-from calibgui.engine.detection import region_of_interest as region
 from calibgui.engine.detection.circles import ellipse_fit
 from calibgui.engine.detection.circles.arc_fit import fit_arcs
 from calibgui.engine.detection.circles.circle_map import fit_circle_map
@@ -34,11 +33,12 @@ from calibgui.engine.detection.circles.continuation import find_continuation
 from calibgui.engine.detection.circles.defocus import find_apart, is_size_told
 from calibgui.engine.detection.circles.ellipse_fit import EllipseFit
 from calibgui.engine.detection.circles.thresholds import CIRCLE_THRESHOLDS
-from calibgui.engine.detection.corners import Corners, find_usable_covariances
 from calibgui.engine.detection.detector_io import check_grey_levels, list_rejected_corners
-from calibgui.engine.detection.lattice import Lattice
 from calibgui.engine.errors import NoBoardError
+from calibgui.engine.features.corners import Corners, find_usable_covariances
+from calibgui.engine.features.lattice import Lattice
 from calibgui.engine.images.reading import stretch_levels
+from calibgui.engine.lattices import region_of_interest as region
 
 _SAMPLE = 40
 """Number of circles, spread over the grid, that are fitted before all of a grid of more than twice
@@ -102,21 +102,21 @@ def find_circles(
     grey = check_grey_levels(image)
     outline = None if roi is None else region.check_outline(roi)
     levels = stretch_levels(grey)
-    found = find_grid(pattern, levels, grid_size, outline)
-    coarse = found.centres
+    coarse_grid = find_grid(pattern, levels, grid_size, outline)
+    coarse = coarse_grid.centres
     is_counted = grid_size is None and outline is None
     grid_size = coarse.shape[0], coarse.shape[1]
     grid = list_grid_indices(grid_size)
     all_xy = pattern.locate_points(grid.astype(np.float64))
-    first = _number_circles(pattern, coarse, all_xy, outline)
-    is_seen = np.isfinite(first[:, 0])
-    first, xy = first[is_seen], all_xy[is_seen]
-    fit = _fit_circles(grey, first, xy, pattern)
-    verified = _verify_circles(fit, xy, grey, found.in_view)
+    estimate = _number_circles(pattern, coarse, all_xy, outline)
+    is_seen = np.isfinite(estimate[:, 0])
+    estimate, xy = estimate[is_seen], all_xy[is_seen]
+    fit = _fit_circles(grey, estimate, xy, pattern)
+    verified = _verify_circles(fit, xy, grey, coarse_grid.in_view)
     verified = _add_arcs(verified, fit, xy, grey, pattern)
     if fit.is_out_of_focus:
-        verified = _check_defocus(verified, fit, xy, found.in_view, pattern)
-    if found.is_part and np.count_nonzero(verified.good) < CIRCLE_THRESHOLDS.min_grid_circles:
+        verified = _check_defocus(verified, fit, xy, coarse_grid.in_view, pattern)
+    if coarse_grid.is_part and np.count_nonzero(verified.good) < CIRCLE_THRESHOLDS.min_grid_circles:
         raise _distrust(_TOO_MANY_FAIL)
     _check_diameter(pattern, 2 * verified.radius)
     order, ambiguity = _number_by_marks(verified, grid_size, pattern.symmetry(grid_size))
@@ -129,17 +129,19 @@ def find_circles(
         beyond = find_continuation(
             coarse, levels, asymmetric=pattern.asymmetric, are_bright=fit.are_bright
         )
-        doubts += [_OPEN] * beyond.is_open + [_BESIDE] * (found.has_strays and beyond.has_discs)
+        doubts += [_OPEN] * beyond.is_open + [_BESIDE] * (
+            coarse_grid.has_strays and beyond.has_discs
+        )
     is_border_trusted = np.all(np.ptp(places[is_good], axis=0) + 1 == grid_size)
-    if not (is_seen.all() or found.is_part or is_border_trusted):
+    if not (is_seen.all() or coarse_grid.is_part or is_border_trusted):
         doubts.append(_UNSEEN)
-    if not found.is_placed:
+    if not coarse_grid.is_placed:
         doubts.append(_UNPLACED)
     return Corners(
         shape=grid_size,
         grid=places[is_good],
         uv=verified.uv[good],
-        estimate=first[good],
+        estimate=estimate[good],
         cov=verified.covariance[good],
         ambiguity=ambiguity,
         roi=region.find_outline(Lattice(whole, dark=True)) if outline is None else outline,
@@ -257,9 +259,11 @@ def _number_by_marks(
         return np.arange(len(circles.good)), symmetry
     orders = _list_turns(grid_size, symmetry)
     marks = [tuple(np.flatnonzero(circles.are_marks[order]).tolist()) for order in orders]
-    first = min(marks)
-    left = {1: Symmetry.NONE, 2: Symmetry.HALF_TURN, 4: Symmetry.QUARTER_TURN}[marks.count(first)]
-    return orders[marks.index(first)], left
+    least = min(marks)
+    open_turns = {1: Symmetry.NONE, 2: Symmetry.HALF_TURN, 4: Symmetry.QUARTER_TURN}[
+        marks.count(least)
+    ]
+    return orders[marks.index(least)], open_turns
 
 
 def _verify_circles(fit: EllipseFit, xy: Array, image: GreyImage, count: int) -> _VerifiedCircles:
@@ -298,10 +302,10 @@ def _verify_circles(fit: EllipseFit, xy: Array, image: GreyImage, count: int) ->
         circle_map = fit_circle_map(xy[good], uv[good], are_exact=True)
         J = circle_map.differentiate(xy)
         spread = np.linalg.solve(J, np.linalg.solve(J, fit.spread).transpose(0, 2, 1))
-        own = np.sqrt(np.sqrt(np.maximum(np.linalg.det(spread), 0.0)))
-        radius = float(np.median(own[good]))
-        are_marks = abs(own / radius - 1) > limits.min_mark_radius_difference
-        radii = np.where(are_marks, own, radius)
+        own_radii = np.sqrt(np.sqrt(np.maximum(np.linalg.det(spread), 0.0)))
+        radius = float(np.median(own_radii[good]))
+        are_marks = abs(own_radii / radius - 1) > limits.min_mark_radius_difference
+        radii = np.where(are_marks, own_radii, radius)
         uv = fit.uv - circle_map.compute_centre_bias(xy, radii)
         off = np.linalg.solve(J, (uv - circle_map.locate(xy))[..., None])[..., 0]
         shape = np.abs(spread / radii[:, None, None] ** 2 - np.eye(2)).max(axis=(1, 2))
@@ -344,8 +348,8 @@ def _add_arcs(
     uv, covariance, good = circles.uv.copy(), circles.covariance.copy(), good.copy()
     uv[added], good[added] = (arcs.uv - bias[tried])[is_added], True
     # What is left of a disturbance draws many ways alike, as the distance from the map tells.
-    own = np.sum(aside**2, axis=1)[:, None, None] / 2 * np.eye(2) + arcs.covariance
-    covariance[added] = own[is_added]
+    widened = np.sum(aside**2, axis=1)[:, None, None] / 2 * np.eye(2) + arcs.covariance
+    covariance[added] = widened[is_added]
     return replace(circles, good=good, uv=uv, covariance=covariance)
 
 
@@ -392,11 +396,11 @@ def _find_agreeing(xy: Array, uv: Array, variance: Array) -> BoolArray:
     agreeing = np.ones(len(xy), dtype=bool)
     while np.count_nonzero(agreeing) > _MIN_FREEDOM:
         circle_map = fit_circle_map(xy[agreeing], uv[agreeing], are_exact=True)
-        left = 1 - circle_map.compute_leverages(xy[agreeing])
-        if left.sum() < _MIN_FREEDOM:
+        freedom = 1 - circle_map.compute_leverages(xy[agreeing])
+        if freedom.sum() < _MIN_FREEDOM:
             return agreeing
-        left = np.maximum(left, _MIN_LEFT)
-        off = np.sum((uv[agreeing] - circle_map.locate(xy[agreeing])) ** 2, axis=1) / left
+        freedom = np.maximum(freedom, _MIN_LEFT)
+        off = np.sum((uv[agreeing] - circle_map.locate(xy[agreeing])) ** 2, axis=1) / freedom
         usual = np.median(off) / (2 * np.log(2))
         pitch2 = abs(np.linalg.det(circle_map.differentiate(xy[agreeing])))
         most = _MAX_DISAGREEMENT**2 * np.maximum(usual, variance[agreeing])
@@ -426,18 +430,18 @@ def _widen_covariances(xy: Array, uv: Array, covariance: Array) -> Array:
     is_near = np.ones(len(xy), dtype=np.bool_)
     for _ in range(_SCATTER_ROUNDS):
         circle_map = fit_circle_map(xy[is_near], uv[is_near], are_exact=True)
-        left = np.ones(len(xy))
-        left[is_near] = 1 - circle_map.compute_leverages(xy[is_near])
-        freedom = 2 * left[is_near].sum()
+        own_freedom = np.ones(len(xy))
+        own_freedom[is_near] = 1 - circle_map.compute_leverages(xy[is_near])
+        freedom = 2 * own_freedom[is_near].sum()
         if freedom < _MIN_FREEDOM:
             break
-        left = np.maximum(left, _MIN_LEFT)
-        off2 = np.sum((uv - circle_map.locate(xy)) ** 2, axis=1) / left
+        own_freedom = np.maximum(own_freedom, _MIN_LEFT)
+        off2 = np.sum((uv - circle_map.locate(xy)) ** 2, axis=1) / own_freedom
         usual = compute_median(off2[is_near] / stated[is_near]) / (2 * np.log(2))
         most = 1 + _MAX_SCATTER_SIGMAS * _SIGMA_OF_MEDIAN * np.sqrt(2 / freedom)
         scatter = float((usual - 1) * np.mean(stated[is_near])) if usual > most else 0.0
         was_near, is_near = is_near, off2 < _MAX_SCATTER**2 * (stated + scatter)
-        aside2 = np.where(is_near, 0.0, off2 / left)
+        aside2 = np.where(is_near, 0.0, off2 / own_freedom)
         if (is_near == was_near).all():
             break
     return covariance + (scatter + aside2 / 2)[:, None, None] * np.eye(2)

@@ -110,10 +110,6 @@ def label_grid(
             tried.append(lattice.list_places())
             if len(lattice.points) < fewest:
                 continue
-            if grid_size is not None:
-                stated = _cut_stated_grid(lattice, grid_size, asymmetric=asymmetric)
-                if stated is not None:
-                    return stated
             grids = list(_cut_grids(lattice, grid_size, asymmetric=asymmetric))
             if any(len(grid) >= fewest and not grid.is_continued for grid in grids) and not any(
                 grid.is_full for grid in grids
@@ -174,14 +170,14 @@ def _is_continued(grid: LabelledGrid, points: Array, *, asymmetric: bool) -> boo
     where it goes on, and they are many. Something hides what would join them. In the middle of the
     cells of a symmetric grid they belong to an asymmetric one, turned."""
     limits = CIRCLE_THRESHOLDS
-    own = grid.points
-    others = np.delete(points, own, axis=0)
-    if len(others) <= limits.max_continued_share * len(own):
+    members = grid.points
+    others = np.delete(points, members, axis=0)
+    if len(others) <= limits.max_continued_share * len(members):
         return False
     rows, cols = grid.places.shape
     xy = _list_places((rows, cols), asymmetric=asymmetric).astype(np.float64)
     to_board = homography.fit_homography(
-        points[own], xy[grid.places.ravel() >= 0], np.ones(len(own))
+        points[members], xy[grid.places.ravel() >= 0], np.ones(len(members))
     )
     at = homography.apply_homography(to_board, others)
     reach = limits.continued_lines
@@ -190,7 +186,7 @@ def _is_continued(grid: LabelledGrid, points: Array, *, asymmetric: bool) -> boo
     lattice = np.column_stack([x + y, x - y]) / (2 if asymmetric else 1)
     off = np.abs(lattice - np.rint(lattice)).max(axis=1)
     continuing = int(np.count_nonzero(off < limits.max_continuation_error))
-    return continuing > max(limits.max_continued_share * len(own), len(off) / 2)
+    return continuing > max(limits.max_continued_share * len(members), len(off) / 2)
 
 
 def _rank_grid(grid_size: GridSize | None, grid: LabelledGrid) -> tuple[int, int, bool, int]:
@@ -202,8 +198,8 @@ def _rank_grid(grid_size: GridSize | None, grid: LabelledGrid) -> tuple[int, int
 
 def _find_nearest(tree: scipy.spatial.cKDTree, to: Array, count: int) -> list[int]:
     """Find the points nearest to a position, the nearest first."""
-    found: list[int] = np.asarray(tree.query(to, k=count)[1]).tolist()
-    return found
+    nearest: list[int] = np.asarray(tree.query(to, k=count)[1]).tolist()
+    return nearest
 
 
 def _start_lattices(
@@ -255,32 +251,6 @@ def _list_places(grid_size: GridSize, *, asymmetric: bool) -> IntArray:
     """List (x, y) of a grid's circles (n, 2), row by row."""
     m, n = np.indices(grid_size).reshape(2, -1)
     return np.column_stack([2 * n + m % 2 if asymmetric else n, m])
-
-
-def _cut_stated_grid(
-    lattice: PointLattice, grid_size: GridSize, *, asymmetric: bool
-) -> LabelledGrid | None:
-    """Cut the full grid of the stated size out of a lattice in the first basis and turn that has
-    one and not more, as a larger grid has; None if there is no such."""
-    places = _list_places(grid_size, asymmetric=asymmetric)
-    if len(lattice.points) < len(places):
-        return None
-    for sheared in _shear_places(lattice, asymmetric=asymmetric):
-        for turn in _TURNS:
-            xy = sheared @ turn.T
-            xy -= xy.min(axis=0)
-            size = xy.max(axis=0) + 1
-            starts = xy[(xy + places.max(axis=0) < size).all(axis=1)]
-            point_at = np.full(size, -1, dtype=np.int64)
-            point_at[tuple(xy.T)] = lattice.points
-            for needed in (places[[-1]], places):  # one tells most of those that have not all
-                found = point_at[tuple((starts[:, None] + needed).transpose(2, 0, 1))]
-                is_full = (found >= 0).all(axis=1)
-                starts = starts[is_full]
-            if len(starts) == 1:
-                left_out = len(lattice.points) - len(places)
-                return LabelledGrid(found[is_full].reshape(grid_size), left_out)
-    return None
 
 
 def _cut_grids(

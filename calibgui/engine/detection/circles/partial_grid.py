@@ -74,8 +74,8 @@ def place_part(
         is_joined = _is_joined(box >= 0, asymmetric=asymmetric)
         if not (is_large and is_joined) or (np.array(box.shape[::-1]) > shape).any():
             continue
-        first = np.argwhere(box >= 0)[0]
-        xy = np.argwhere((np.indices(box.shape).sum(axis=0) - first.sum()) % per_circle == 0)
+        corner = np.argwhere(box >= 0)[0]
+        xy = np.argwhere((np.indices(box.shape).sum(axis=0) - corner.sum()) % per_circle == 0)
         index = box[tuple(xy.T)]
         uv = np.where((index >= 0)[:, None], points[index], np.nan)
         part = _Part(

@@ -10,8 +10,8 @@ import numpy as np
 
 from calibgui.engine.arrays import Array, BoolArray, GreyImage
 from calibgui.engine.boards.puzzleboard import DOT_DIAMETER
-from calibgui.engine.detection.lattice import Lattice, estimate_steps
 from calibgui.engine.detection.puzzleboard.place_decoding import Dots
+from calibgui.engine.features.lattice import Lattice, estimate_steps
 from calibgui.engine.images.sampling import sample_image
 
 _DOT_SAMPLES = DOT_DIAMETER / 4 * np.array([(0, 0), (1, 0), (-1, 0), (0, 1), (0, -1)])

@@ -17,20 +17,20 @@ import numpy as np
 
 from calibgui.engine.arrays import Array, BoolArray, GreyImage, IntArray
 from calibgui.engine.boards.puzzleboard import DOT_DIAMETER
-from calibgui.engine.detection import grid_map
+from calibgui.engine.corner_fit.x_corner_fit import fit_x_corners
 from calibgui.engine.detection.blurred_print import add_blurred_cells, subtract_change
-from calibgui.engine.detection.checkerboard.corner_template import orient_corners
-from calibgui.engine.detection.checkerboard.edge_profiles import measure_edge_profiles
-from calibgui.engine.detection.checkerboard.x_corner_fit import fit_x_corners
-from calibgui.engine.detection.lattice import Lattice
 from calibgui.engine.detection.puzzleboard.dot_levels import measure_dots
 from calibgui.engine.detection.puzzleboard.place_decoding import (
     Dots,
     StatedBoard,
     find_place_of_print,
 )
+from calibgui.engine.features.corner_template import orient_corners
+from calibgui.engine.features.edge_profiles import measure_edge_profiles
+from calibgui.engine.features.lattice import Lattice
+from calibgui.engine.lattices import grid_map
 
-PLAIN = 0.8 * (1 - DOT_DIAMETER) / 2
+BARE_REACH = 0.8 * (1 - DOT_DIAMETER) / 2
 """How far from the corners squares and edges are read, squares: most of the way to the dots."""
 _MAX_SHARP_BLUR = 0.2 * (1 - DOT_DIAMETER) / 2 / 2.5
 """Greatest blur, squares, at which dots begin 2.5 standard deviations beyond what is read."""
@@ -95,7 +95,7 @@ def remove_blurred_dots(
     cleaned = _subtract_half_discs(image, half_discs, contrast, blur)
     for _ in range(_ROUNDS):
         # Without dots, even roughly, the edges tell contrast and blur much better.
-        fit = fit_x_corners(cleaned, lattice, bare_edge=PLAIN)
+        fit = fit_x_corners(cleaned, lattice, bare_edge=BARE_REACH)
         contrast[lattice.found], blur = fit.contrast, float(np.median(fit.blur))
         cleaned = _subtract_half_discs(image, half_discs, contrast, blur)
     return cleaned

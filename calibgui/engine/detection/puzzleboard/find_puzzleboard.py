@@ -15,31 +15,11 @@ import numpy.typing as npt
 from calibgui.engine.arrays import Array, GreyImage, GridSize
 from calibgui.engine.boards.pattern import Symmetry
 from calibgui.engine.boards.puzzleboard import PuzzleBoard
-from calibgui.engine.detection import region_of_interest as region
-from calibgui.engine.detection.checkerboard import a_contrario
 from calibgui.engine.detection.checkerboard.board_refinement import RefinedBoard, refine_board
 from calibgui.engine.detection.checkerboard.find_checkerboard import assemble_corners
-from calibgui.engine.detection.checkerboard.numbering import Numbering, turn_lattice
-from calibgui.engine.detection.checkerboard.prefilter import Refusal
-from calibgui.engine.detection.checkerboard.pyramid_search import (
-    Candidate,
-    find_candidates,
-    find_same,
-    is_part,
-)
-from calibgui.engine.detection.checkerboard.saddle import refine_lattice
-from calibgui.engine.detection.checkerboard.thresholds import THRESHOLDS
-from calibgui.engine.detection.corners import METHODS, Corners
 from calibgui.engine.detection.detector_io import check_grey_levels
-from calibgui.engine.detection.lattice import (
-    Lattice,
-    compute_filled_share,
-    cut_middle,
-    is_large_enough,
-    is_scattered,
-)
 from calibgui.engine.detection.puzzleboard.dot_levels import measure_dots
-from calibgui.engine.detection.puzzleboard.dot_removal import PLAIN, remove_blurred_dots
+from calibgui.engine.detection.puzzleboard.dot_removal import BARE_REACH, remove_blurred_dots
 from calibgui.engine.detection.puzzleboard.place_decoding import (
     Place,
     StatedBoard,
@@ -49,6 +29,22 @@ from calibgui.engine.detection.puzzleboard.place_decoding import (
     may_be_dots,
 )
 from calibgui.engine.errors import MirroredError, NoBoardError
+from calibgui.engine.features.corners import METHODS, Corners
+from calibgui.engine.features.lattice import (
+    Lattice,
+    compute_filled_share,
+    cut_middle,
+    is_large_enough,
+    is_part,
+    is_scattered,
+)
+from calibgui.engine.features.saddle import refine_lattice
+from calibgui.engine.lattices import a_contrario
+from calibgui.engine.lattices import region_of_interest as region
+from calibgui.engine.lattices.lattice_growth import MIN_FILLED_IN_TEXTURE
+from calibgui.engine.lattices.numbering import Numbering, turn_lattice
+from calibgui.engine.lattices.prefilter import MIN_CORNERS_TO_TELL, Refusal
+from calibgui.engine.lattices.pyramid_search import Candidate, find_candidates, find_same
 
 _MAX_SHOWN_LINES = 6
 """Greatest number of rows, and of columns, of a lattice without dots that are verified to say that
@@ -121,7 +117,7 @@ def _find_boards(
     def is_other(lattice: Lattice, depth: int) -> bool:
         return _lacks_dots(lattice, grey, depth)
 
-    for candidates in find_candidates(grey, searched, plain=PLAIN, is_other=is_other):
+    for candidates in find_candidates(grey, searched, bare_reach=BARE_REACH, is_other=is_other):
         for candidate in candidates:
             if candidate in tried:
                 continue
@@ -130,7 +126,7 @@ def _find_boards(
             if same or tried[candidate]:
                 continue
             if not candidate.is_other and _may_show_dots(candidate.lattice, grey):
-                lattice, _ = refine_lattice(grey, candidate.lattice, plain=PLAIN)
+                lattice, _ = refine_lattice(grey, candidate.lattice, bare_reach=BARE_REACH)
                 tried[candidate] = _verify_lattice(grey, lattice, candidate.others, method, stated)
             else:
                 bare.append(candidate)
@@ -145,7 +141,7 @@ def _lacks_dots(lattice: Lattice, grey: GreyImage, depth: int) -> bool:
     dots: the corners of a small one of a coarser level may be off."""
     if len(lattice) >= _MIN_SEEN_SHARE * _MAX_COMPARED:
         return not _may_show_dots(lattice, grey)
-    is_large = len(lattice) >= THRESHOLDS.prefilter.min_corners_to_tell
+    is_large = len(lattice) >= MIN_CORNERS_TO_TELL
     return depth == 0 and is_large and not are_there_dots(measure_dots(grey, lattice))
 
 
@@ -154,7 +150,7 @@ def _may_show_dots(lattice: Lattice, grey: GreyImage) -> bool:
     they are not mostly hidden, since all may be thousands."""
     middle = cut_middle(lattice, int(np.sqrt(_MAX_COMPARED / compute_filled_share(lattice))))
     part = middle if len(middle) >= _MIN_SEEN_SHARE * _MAX_COMPARED else lattice
-    return may_be_dots(measure_dots(grey, refine_lattice(grey, part, plain=PLAIN)[0]))
+    return may_be_dots(measure_dots(grey, refine_lattice(grey, part, bare_reach=BARE_REACH)[0]))
 
 
 def _find_known(lattice: Lattice, placed: list[_PlacedBoard]) -> _PlacedBoard | None:
@@ -170,7 +166,7 @@ def _verify_lattice(
 ) -> _PlacedBoard | None:
     """Return the board that a refined lattice beside `others` junctions is, None if it is none or
     may be one by chance."""
-    board = refine_board(remove_blurred_dots(grey, lattice, stated), lattice, method, PLAIN)
+    board = refine_board(remove_blurred_dots(grey, lattice, stated), lattice, method, BARE_REACH)
     if isinstance(board, Refusal) or not a_contrario.is_meaningful(board.lattice.found, others):
         return None
     place, is_mirrored = find_place_of_print(measure_dots(grey, board.lattice), stated)
@@ -185,13 +181,13 @@ def _explain_missing_board(
     if any(each.is_mirrored for each in placed):
         return MirroredError()
     # Those of many corners that are sparse are a texture's.
-    least = THRESHOLDS.search.min_filled_in_texture
+    least = MIN_FILLED_IN_TEXTURE
     seen = [each.board.lattice for each in placed if not is_scattered(each.board.lattice, least)]
     if not seen and bare:
         largest = max((each.lattice for each in bare), key=_measure_edges)
         part = cut_middle(largest, _MAX_SHOWN_LINES)  # may be hidden
         is_seen = is_large_enough(part) and compute_filled_share(part) >= least
-        if is_seen and not isinstance(refine_board(grey, part, METHODS[0], PLAIN), Refusal):
+        if is_seen and not isinstance(refine_board(grey, part, METHODS[0], BARE_REACH), Refusal):
             seen = [largest]
     if not seen:
         return NoBoardError(

@@ -10,6 +10,7 @@ from PySide6.QtCore import QT_TRANSLATE_NOOP
 from PySide6.QtWidgets import QTextBrowser, QVBoxLayout
 
 from calibgui.dataset import Result
+from calibgui.dataset.judging import recall_verdict
 from calibgui.engine.calibration import compute_correlations, make_paper_table
 from calibgui.engine.camera import Lucchese, find_model
 from calibgui.engine.geometry import PAPER_NAMES
@@ -68,13 +69,10 @@ class ResultPanel(Panel):
         calibration = result.calibration
         names = calibration.camera.names
         # Those of another result would be read as this one's.
-        self.words.setPlainText(self.tr("What is this result worth? Working…"))
-        self._work.start(
-            "",
-            lambda job: describe_calibration(result, job.check),
-            lambda sentences: self.words.setHtml(_format_html(sentences)),
-            self.failed.emit,
-        )
+        self._work.cancel()
+        self.words.setPlainText(self.tr("What this result is worth is being found out."))
+        if recall_verdict(result) is not None:
+            self.note_verdict()
         self.array_frame.show_columns(
             [
                 Column(self.tr("Parameter"), names),
@@ -107,6 +105,16 @@ class ResultPanel(Panel):
         free = [i for i, name in enumerate(names) if name not in calibration.fixed]
         matrix = compute_correlations(calibration.covariance)[np.ix_(free, free)]
         self.correlations.show_matrix([names[i] for i in free], matrix)
+
+    def note_verdict(self) -> None:
+        """Say in words what the result is worth."""
+        if (result := self._result) is not None:
+            self._work.start(
+                "",
+                lambda job: describe_calibration(result, job.check),
+                lambda sentences: self.words.setHtml(_format_html(sentences)),
+                self.failed.emit,
+            )
 
     def _remarks(self, result: Result, names: Sequence[str]) -> list[str]:
         """Return a remark on each parameter; empty for most."""

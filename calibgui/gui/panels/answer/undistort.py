@@ -12,12 +12,12 @@ from PySide6.QtWidgets import QComboBox, QHBoxLayout, QPushButton, QSpinBox, QVB
 
 from calibgui.app.calibrating.calibration import shorten_names
 from calibgui.app.outputs.resampling import Undistortion
-from calibgui.dataset import Result
+from calibgui.dataset import Result, ViewStatus
 from calibgui.engine.images import (
     FieldOfView,
     Image,
     Projection,
-    describe_lost_angles,
+    describe_hidden_angles,
     make_ideal_image,
     rectify_image,
 )
@@ -79,9 +79,11 @@ class UndistortPanel(Panel):
         self.save_one.setToolTip(
             self.tr("Write the selected image as it is shown here into a folder")
         )
-        self.save_all.setToolTip(self.tr("Write all calibrated images like this into a folder"))
+        self.save_all.setToolTip(
+            self.tr("Write all images like this into a folder, those that were left out as well")
+        )
         self.save_one.clicked.connect(lambda: self._save((self._indices[self._shown],)))
-        self.save_all.clicked.connect(lambda: self._save(self._indices))
+        self.save_all.clicked.connect(lambda: self._save(self._list_all()))
         self.images = DividedImages(self.tr("as taken"), self.tr("undistorted"))
         self.lost, self.words = ReservedLabel(3), ReservedLabel(2)
         above = QHBoxLayout()
@@ -196,8 +198,16 @@ class UndistortPanel(Panel):
 
     def _fail(self, error: Exception) -> None:
         self.images.show_images(None, None)
-        self.words.clear()
+        self.words.setText("")  # clearing it would leave what it was shortened from
         self.lost.setText(str(error))  # which has the panel's whole width: paths are long
+
+    def _list_all(self) -> tuple[int, ...]:
+        """List the views that can be written: to be rectified, one needs a pose."""
+        assert self._result is not None
+        if self.choice is None:
+            return self._indices
+        lost = (ViewStatus.UNREADABLE, ViewStatus.WRONG_SIZE)
+        return tuple(k for k, view in enumerate(self._result.views) if view.status not in lost)
 
     def _save(self, views: tuple[int, ...]) -> None:
         self.save_wanted.emit(views, self.choice)
@@ -226,7 +236,7 @@ def transform_image(
         for face, ideal in ideals.items()
     }
     after = made[""] if "" in made else unfold_cube(made)
-    return _pad_to_aspect(grey, after), after, describe_lost_angles(camera, ideals)
+    return _pad_to_aspect(grey, after), after, describe_hidden_angles(camera, ideals)
 
 
 def _pad_to_aspect(image: Grey, other: Grey) -> Grey:

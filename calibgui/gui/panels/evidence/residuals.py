@@ -9,7 +9,7 @@ from PySide6.QtWidgets import QVBoxLayout
 
 from calibgui.app.calibrating.calibration import shorten_names
 from calibgui.dataset import Result
-from calibgui.dataset.judging import judge_result
+from calibgui.dataset.judging import recall_verdict
 from calibgui.engine.assessment import (
     FAR_OFF,
     NoiseReport,
@@ -49,6 +49,8 @@ class ResidualsPanel(Panel):
         super().__init__(services)
         self._work = Latest(services.jobs, self)
         self._examined: Result | None = None
+        self._report: NoiseReport | None = None
+        """What was found out about `_examined`; None while it is examined."""
         self.plane = PlaneChoice()
         self.plane.currentIndexChanged.connect(self._refresh_now)
         self.scatter = ResidualScatter()
@@ -81,7 +83,7 @@ class ResidualsPanel(Panel):
     def _examine(self, result: Result) -> None:
         if result is self._examined:
             return
-        self._examined = result
+        self._examined, self._report = result, None
         self.verdict.setText(self.tr("Do the residuals look like noise? Working…"))
         self.verdict.explain("")
         self._work.start(
@@ -89,7 +91,7 @@ class ResidualsPanel(Panel):
             lambda job: check_residuals(
                 result.calibration, result.observations(), shorten_names(result.used), job.advance
             ),
-            lambda report: self._show_report(report, result),
+            self._show_report,
             lambda error: self.verdict.setText(str(error)),
             self._forgo,
         )
@@ -99,11 +101,18 @@ class ResidualsPanel(Panel):
         self._examined = None
         self.verdict.setText(self.tr("Whether the residuals look like noise was not examined."))
 
-    def _show_report(self, report: NoiseReport, result: Result) -> None:
+    def note_verdict(self) -> None:
+        """Name the cause of residuals that are no noise: the verdict on the result is known."""
+        if self._report is not None:
+            self._show_report(self._report)
+
+    def _show_report(self, report: NoiseReport) -> None:
         """Say what the residuals look like; what every test found is in the tooltip.
 
         One trouble makes several tests fail, so the cause is taken from the verdict.
         """
+        result, self._report = self._examined, report
+        assert result is not None
         rows = "".join(
             f"<tr><td>{_MARKS[check.passed]}&nbsp;</td><td>{escape(check.name)}&nbsp;</td>"
             f"<td>{escape(check.finding)}</td></tr>"
@@ -124,14 +133,10 @@ class ResidualsPanel(Panel):
                 )
             self.verdict.setText(text)
             return
-        self.verdict.setText(self.tr("The residuals are not just noise. Why? Working…"))
-        self._work.start(
-            self.tr("Judging the calibration"),
-            lambda job: judge_result(result, job.check),
-            self._explain,
-            lambda error: self.verdict.setText(str(error)),
-            self._forgo,
-        )
+        if (verdict := recall_verdict(result)) is None:
+            self.verdict.setText(self.tr("The residuals are not just noise. Why is being tried."))
+        else:
+            self._explain(verdict)
 
     def _explain(self, verdict: Verdict) -> None:
         """Name the cause that the verdict singles out, or none."""

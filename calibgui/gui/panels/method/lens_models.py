@@ -8,7 +8,7 @@ from PySide6.QtWidgets import QPushButton, QVBoxLayout, QWidget
 from calibgui.app.calibrating.lens_comparison import compare_lenses_again
 from calibgui.dataset import Result
 from calibgui.engine.assessment import LensChoice
-from calibgui.engine.errors import Progress
+from calibgui.gui.jobs.job import Job
 from calibgui.gui.panels.method.lens_tables import LensTables
 from calibgui.gui.panels.on_demand import OnDemandPanel, have_same_views
 from calibgui.gui.panels.services import Services
@@ -18,8 +18,8 @@ from calibgui.report.lens_choice import LensRow, describe_lens_choice, list_lens
 from calibgui.report.lens_models import describe_lens_model, get_lens_title
 from calibgui.report.numbers import format_count
 
-_SETTINGS = ("cost", "method", "plate", "plate_held", "prior_mm")
-"""Keys of a result's settings that a comparison of lens models depends on."""
+_SETTINGS = ("cost", "method", "board_shape", "is_board_shape_held", "prior")
+"""Settings of a result that a comparison of lens models depends on."""
 
 
 class LensModelsPanel(OnDemandPanel[LensChoice]):
@@ -73,7 +73,7 @@ class LensModelsPanel(OnDemandPanel[LensChoice]):
 
     def _holds_for(self, asked: Result, result: Result) -> bool:
         a, b = asked.calibration.settings, result.calibration.settings
-        alike = all(a.get(key) == b.get(key) for key in _SETTINGS)
+        alike = all(getattr(a, name) == getattr(b, name) for name in _SETTINGS)
         return alike and have_same_views(asked, result)
 
     def _invite(self, result: Result) -> str:
@@ -82,8 +82,8 @@ class LensModelsPanel(OnDemandPanel[LensChoice]):
             model
         )
 
-    def _find(self, result: Result, progress: Progress) -> LensChoice:
-        return compare_lenses_again(result, progress)
+    def _find(self, result: Result, job: Job) -> LensChoice:
+        return compare_lenses_again(result, job.advance)
 
     def _show_found(self, result: Result, found: LensChoice) -> None:  # noqa: ARG002 - of no result
         refused = [

@@ -128,13 +128,13 @@ class MethodTables(LinkedTables):
     ) -> list[Column]:
         """Make a column of values, and one of their standard deviations, shown if there is room."""
         tips = [
-            self.tr("{0} ± {1:.2g} px (1σ by the corners' noise)").format(tip, sigma)
+            self.tr("{0} ± {1:.2g} px (1σ)").format(tip, sigma)
             if math.isfinite(value)
             else self.tr("It does not estimate this. {0}").format(row.limits)
             for row, (value, sigma) in zip(rows, estimates, strict=True)
         ]
         values, sigmas = ([pair[k] for pair in estimates] for k in (0, 1))
-        deviation = self.tr("One standard deviation of {0} by the corners' noise").format(name)
+        deviation = self.tr("One standard deviation of {0}").format(name)
         return [
             Column(name, values, text, tip, tips=tips, unit="px"),
             Column(

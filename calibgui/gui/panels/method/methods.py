@@ -14,7 +14,7 @@ from calibgui.app.calibrating.method_comparison import compare_methods_again
 from calibgui.dataset import Result
 from calibgui.engine.assessment import MethodComparison
 from calibgui.engine.calibration import METHODS, Cost, recover_arguments
-from calibgui.engine.errors import Progress
+from calibgui.gui.jobs.job import Job
 from calibgui.gui.panels.method.linked_tables import LinkedTables
 from calibgui.gui.panels.method.method_tables import MethodTables
 from calibgui.gui.panels.on_demand import OnDemandPanel, have_same_views
@@ -34,6 +34,7 @@ class MethodsPanel(OnDemandPanel[MethodComparison]):
     """Tries all methods on the views of the result, and takes the one that the user chooses."""
 
     title = str(QT_TRANSLATE_NOOP("MethodsPanel", "Methods"))
+    keeps_best = True
     purpose = str(
         QT_TRANSLATE_NOOP("MethodsPanel", "All methods of calibration on the same corners.")
     )
@@ -83,8 +84,8 @@ class MethodsPanel(OnDemandPanel[MethodComparison]):
             method
         )
 
-    def _find(self, result: Result, progress: Progress) -> MethodComparison:
-        return compare_methods_again(result, progress)
+    def _find(self, result: Result, job: Job) -> MethodComparison:
+        return compare_methods_again(result, job.advance, job.check_stop)
 
     def _show_found(self, result: Result, found: MethodComparison) -> None:
         sentences = [describe_method_comparison(found, by_label=True)]

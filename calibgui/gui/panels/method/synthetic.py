@@ -20,8 +20,8 @@ from calibgui.app.calibrating.synthetic_verdict import (
 )
 from calibgui.dataset import Result
 from calibgui.engine.assessment import summarise_residuals
-from calibgui.engine.errors import Progress
 from calibgui.engine.images import Image, render_view
+from calibgui.gui.jobs.job import Job
 from calibgui.gui.panels.latest import Latest
 from calibgui.gui.panels.method.synthetic_figures import (
     Histograms,
@@ -90,9 +90,9 @@ class SyntheticPanel(OnDemandPanel[SyntheticCheck]):
     def _invite(self, result: Result) -> str:  # noqa: ARG002 - the same for all
         return self.tr("Would the method find this camera again, if it were just so?")
 
-    def _find(self, result: Result, progress: Progress) -> SyntheticCheck:
+    def _find(self, result: Result, job: Job) -> SyntheticCheck:
         noise = measure_corner_noise(result)
-        return run_synthetic_check(result, corner_noise=noise, progress=progress)
+        return run_synthetic_check(result, corner_noise=noise, progress=job.advance)
 
     def _show_found(self, result: Result, found: SyntheticCheck) -> None:  # noqa: ARG002 - holds it
         self._drawn.clear()

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from calibgui.engine.arrays import Array
-from calibgui.engine.assessment.causes.finding import Cause, Finding
 from calibgui.engine.assessment.causes.findings import list_findings
+from calibgui.engine.assessment.finding import Cause, Finding
 from calibgui.engine.boards.board import Board
 from calibgui.engine.calibration.calibrate import calibrate
 from calibgui.engine.calibration.observations import Observation
@@ -151,15 +151,6 @@ def test_few_views_of_a_stretched_board_agree_enough() -> None:
     ]
     named = list_findings(calibrate(views, camera.size), views)
     assert [finding.cause for finding in named] == [Cause.BOARD_SHAPE]
-
-
-def test_three_views_that_do_not_tell_board_and_lens_apart_are_too_few() -> None:
-    drawn = scene(barrel(), 3, seed=1).noisy(0.005, np.random.default_rng(1))
-    views = [Observation(view.uv, view.xy / [1.0005, 1.0]) for view in drawn]
-    (finding,) = found(views, fix=["p3"])
-    assert finding.cause is Cause.FEW_VIEWS
-    assert finding.message.startswith("3 views are too few to tell whether the lens model")
-    assert found(drawn, fix=["p3"]) == ()
 
 
 def test_a_bent_board_is_named_if_it_matters() -> None:

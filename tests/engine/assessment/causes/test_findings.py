@@ -10,14 +10,14 @@ import pytest
 from calibgui.engine.arrays import Array
 from calibgui.engine.assessment.action_trials import try_action
 from calibgui.engine.assessment.causes import input_errors
-from calibgui.engine.assessment.causes.finding import Cause, Finding
 from calibgui.engine.assessment.causes.findings import list_findings
 from calibgui.engine.assessment.causes.input_errors import (
     find_wrong_frame,
     screen_misplaced_corners,
 )
-from calibgui.engine.assessment.causes.side_by_side import find_two_pictures
+from calibgui.engine.assessment.causes.two_pictures import find_two_pictures
 from calibgui.engine.assessment.changes.comparison import compare_cameras
+from calibgui.engine.assessment.finding import Cause, Finding
 from calibgui.engine.calibration.calibrate import calibrate
 from calibgui.engine.calibration.observations import Observation
 from calibgui.engine.camera.camera import Camera

@@ -7,9 +7,9 @@ import pytest
 
 from calibgui.engine.arrays import BoolArray
 from calibgui.engine.assessment.causes import mixed_views
-from calibgui.engine.assessment.causes.finding import Cause
 from calibgui.engine.assessment.causes.findings import list_findings
 from calibgui.engine.assessment.causes.mixed_views import split_views
+from calibgui.engine.assessment.finding import Cause
 from calibgui.engine.assessment.residuals.systematic_errors import ViewProducts
 from calibgui.engine.calibration.calibrate import calibrate
 from calibgui.engine.calibration.observations import Observation

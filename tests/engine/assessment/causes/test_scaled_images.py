@@ -9,8 +9,10 @@ import numpy as np
 import pytest
 
 from calibgui.engine.arrays import Array
-from calibgui.engine.assessment.causes.finding import Cause, Finding
+from calibgui.engine.assessment.causes.case import prepare_case
 from calibgui.engine.assessment.causes.findings import list_findings
+from calibgui.engine.assessment.causes.scaled_images import find_scaling
+from calibgui.engine.assessment.finding import Cause, Finding
 from calibgui.engine.boards.board import Board
 from calibgui.engine.calibration.calibrate import calibrate
 from calibgui.engine.calibration.observations import Observation
@@ -20,8 +22,8 @@ from tests.engine.scenes import barrel, looking
 from tests.faults.sets import draw_rendered_set, photograph
 
 
-def find_with_errors(size: float, period: float, axis: int = 1) -> tuple[Finding, ...]:
-    """List what is found where corners are off by `size` px rms with a period, px."""
+def photograph_with_errors(size: float, period: float, axis: int = 1) -> list[Observation]:
+    """Photograph a board whose corners are off by `size` px rms with a period, px."""
     photographed = draw_rendered_set(np.random.default_rng([2, 11]), barrel())
 
     def shift(_: int, uv: Array) -> Array:
@@ -29,8 +31,13 @@ def find_with_errors(size: float, period: float, axis: int = 1) -> tuple[Finding
         moved[:, axis] += size * np.sqrt(12) * ((uv[:, axis] / period) % 1 - 0.5)
         return moved
 
-    views = photograph(photographed, shift=shift)
-    return list_findings(calibrate(views, photographed.camera.size), views)
+    return photograph(photographed, shift=shift)
+
+
+def find_with_errors(size: float, period: float, axis: int = 1) -> tuple[Finding, ...]:
+    """List what is found in such photographs."""
+    views = photograph_with_errors(size, period, axis)
+    return list_findings(calibrate(views, barrel().size), views)
 
 
 @pytest.mark.parametrize(("axis", "direction"), [(0, "across"), (1, "down")])
@@ -52,6 +59,13 @@ def test_a_period_of_two_pixels_has_several_causes() -> None:
 @pytest.mark.parametrize("period", [1.0, 47.0])
 def test_a_bias_within_each_pixel_or_over_many_is_no_scale(period: float) -> None:
     assert Cause.SCALED_IMAGES not in [f.cause for f in find_with_errors(0.5, period)]
+
+
+def test_a_period_that_explains_less_than_another_cause_is_not_named() -> None:
+    views = photograph_with_errors(0.5, 1.6)
+    case = prepare_case(calibrate(views, barrel().size), views, [str(k) for k in range(len(views))])
+    assert find_scaling(case, explained=0.5) is not None
+    assert find_scaling(case, explained=0.999) is None
 
 
 def test_errors_without_a_period_are_nothing() -> None:

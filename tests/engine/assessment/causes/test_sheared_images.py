@@ -5,8 +5,15 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from calibgui.engine.assessment.causes.finding import ActionKind, Cause
+from calibgui.engine.assessment.action import ActionKind
 from calibgui.engine.assessment.causes.findings import list_findings
+from calibgui.engine.assessment.finding import Cause
+from calibgui.engine.assessment.residuals.residual_statistics import summarise_residuals
+from calibgui.engine.assessment.residuals.systematic_errors import (
+    judge_together,
+    multiply_by_skew,
+    prepare_fit,
+)
 from calibgui.engine.assessment.verdict import Grade, judge_calibration
 from calibgui.engine.calibration.calibrate import calibrate
 from calibgui.engine.calibration.observations import Observation
@@ -37,6 +44,19 @@ def test_sheared_images_are_no_lens_and_mended_by_a_skew() -> None:
     assert list_findings(mended, views) == ()
     truth: Camera = brown()
     assert np.abs(mended.camera.params[:2] - truth.params[:2]).max() < 1.0
+
+
+def test_what_a_skew_explains_is_what_a_fit_with_it_finds() -> None:
+    views = scene(brown(), 8, seed=3).noisy(0.2, np.random.default_rng(1))
+    views = [Observation(v.uv + v.uv[:, 1:] * [0.0005, 0.0], v.xy) for v in views]
+    held = calibrate(views, VGA, model="brown-conrady", model_errors=False)
+    freed = calibrate(views, VGA, model="brown-conrady", free=["skew"], model_errors=False)
+    before, after = (summarise_residuals(each.residuals).rms for each in (held, freed))
+    share = judge_together(multiply_by_skew(prepare_fit(held, views))).share
+    by_noise = 1 / (2 * sum(len(view.uv) for view in views))  # which the share is counted beyond
+    assert share + by_noise == pytest.approx(1 - (after / before) ** 2, rel=0.03)
+    again = judge_together(multiply_by_skew(prepare_fit(freed, views)))
+    assert again.share == pytest.approx(0, abs=1e-6)
 
 
 @pytest.mark.parametrize(("name", "seed"), [("affine-print", 15), ("affine-print", 19)])

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from calibgui.engine.assessment.choices.cross_validation import CrossValidation, resect_views
+from calibgui.engine.assessment.choices.cross_validation import resect_views
 from calibgui.engine.assessment.choices.lens_choice import (
     SIMPLEST_MODEL,
     LensChoice,
@@ -18,11 +18,12 @@ from calibgui.engine.assessment.choices.lens_choice import (
     choose_lens_stepwise,
 )
 from calibgui.engine.assessment.choices.lens_trial import LensTrial
+from calibgui.engine.calibration.leave_one_out import LeftOut
 from calibgui.engine.calibration.result import Iteration
 from calibgui.engine.camera.camera import Camera
 from calibgui.engine.errors import CalibrationError, Cancelled
 from tests.engine.random_lenses import problem
-from tests.engine.scenes import VGA, barrel, brown, scene
+from tests.engine.scenes import VGA, barrel, brown, example, scene
 
 FISHEYE = Camera(VGA, [190, 191, 322, 236, -0.03, 0.004, -0.001, 0], "kannala-brandt")
 FEW = ("lucchese", "brown-conrady-4", "ucm", "kannala-brandt", "kannala-brandt-decentering")
@@ -31,7 +32,7 @@ FEW = ("lucchese", "brown-conrady-4", "ucm", "kannala-brandt", "kannala-brandt-d
 @pytest.fixture(scope="module")
 def fisheye() -> LensChoice:
     views = scene(FISHEYE, 10).noisy(0.1, np.random.default_rng(1))
-    return choose_lens(views, VGA, FEW, folds=3)
+    return choose_lens(views, VGA, FEW)
 
 
 def test_a_model_that_the_views_leave_open_is_not_solved_to_its_end() -> None:
@@ -91,7 +92,7 @@ def test_models_that_are_not_sound_are_asked_only_if_none_is(fisheye: LensChoice
     fold = replace(fisheye.trials[folding], is_valid_at_corners=False, validation=None)
     others = {"kannala-brandt": replace(fisheye.trials["kannala-brandt"], validation=None)}
     for sound in ({}, others):
-        attempt = _Attempt(views, VGA, 3, None, {})
+        attempt = _Attempt(views, VGA, None, {})
         attempt.trials = {folding: fold, **sound}
         attempt.try_lenses((folding, *sound))
         assert (attempt.trials[folding].validation is None) == bool(sound)
@@ -101,7 +102,7 @@ def test_models_that_are_not_sound_are_asked_only_if_none_is(fisheye: LensChoice
 def test_a_mild_lens_keeps_the_papers_model_after_few_trials() -> None:
     views = scene(barrel(), 8).noisy(0.1, np.random.default_rng(2))
     told: list[tuple[int, int]] = []
-    choice = choose_lens_stepwise(views, VGA, 4, lambda done, total: told.append((done, total)))
+    choice = choose_lens_stepwise(views, VGA, lambda done, total: told.append((done, total)))
     assert choice.model == SIMPLEST_MODEL
     assert len(choice.trials) + len(choice.refused) < 6
     assert told[0] == (0, told[0][1])
@@ -110,7 +111,7 @@ def test_a_mild_lens_keeps_the_papers_model_after_few_trials() -> None:
 
 def test_the_papers_model_is_enough_where_views_or_models_agree() -> None:
     views = scene(barrel(), 6).noisy(0.1, np.random.default_rng(2))
-    attempt = _Attempt(views, VGA, 3, None, {})
+    attempt = _Attempt(views, VGA, None, {})
     attempt.try_lenses((SIMPLEST_MODEL, "kannala-brandt"))
     paper, other = attempt.trials[SIMPLEST_MODEL], attempt.trials["kannala-brandt"]
     assert paper.calibration.overdispersion == 0 and attempt.is_paper_enough()
@@ -128,7 +129,7 @@ def test_coefficients_that_are_known_together_only_are_named() -> None:
     """A double sphere of a unified lens has a coefficient too many."""
     camera = Camera(VGA, [300, 300, 320, 240, 0.6], "ucm")
     views = scene(camera, 6).noisy(0.02, np.random.default_rng(3))
-    choice = choose_lens(views, VGA, ("ucm", "double-sphere"), folds=3)
+    choice = choose_lens(views, VGA, ("ucm", "double-sphere"))
     assert choice.model == "ucm"
     sphere = choice.trials.get("double-sphere")
     assert sphere is None or sphere.exchangeable in ((), (("xi", "alpha"),))
@@ -137,7 +138,7 @@ def test_coefficients_that_are_known_together_only_are_named() -> None:
 def test_coefficients_that_the_views_leave_open_are_held() -> None:
     """Numerator and denominator of a rational model do alike in five views of 68 degrees."""
     made = problem(11, "rational")
-    choice = choose_lens(made.views, made.scene.size, ("lucchese", "rational"), folds=3)
+    choice = choose_lens(made.views, made.scene.size, ("lucchese", "rational"))
     trial = choice.trials["rational"]
     assert trial.fixed
     assert set(trial.fixed) <= set(trial.calibration.fixed)
@@ -150,7 +151,7 @@ def test_a_lens_with_open_coefficients_has_to_predict_2_percent_better(fisheye: 
     assert other.left_open == ("k4",)
     for gain, kept in ((0.019, [determined]), (0.021, [determined, other])):
         better = replace(other, validation=predict(determined.held_out / (1 + gain), other))
-        kept_models = [trial.model for trial in _prefer_determined([determined, better])]
+        kept_models = [t.model for t in _prefer_determined([determined, better], [SIMPLEST_MODEL])]
         assert kept_models == [trial.model for trial in kept]
 
 
@@ -162,13 +163,15 @@ def test_coefficients_that_are_spared_count_as_determined(fisheye: LensChoice) -
     paper = replace(fisheye.trials[SIMPLEST_MODEL], fixed={"k3": 0.0})
     assert paper.left_open == ("k3",)
     near = replace(paper, validation=predict(spared.held_out, whole))
-    assert _prefer_determined([spared, near]) == [spared, near]
+    assert _prefer_determined([spared, near], [SIMPLEST_MODEL]) == [spared, near]
 
 
-def predict(held_out: float, like: LensTrial) -> CrossValidation:
-    """Return a trial's cross-validation with another error on unseen views."""
+def predict(held_out: float, like: LensTrial) -> LeftOut:
+    """Return what a trial says of unseen views, with another error."""
     assert like.validation is not None
-    return replace(like.validation, held_out=held_out)
+    times = held_out / like.held_out
+    lengths, by_view = times * like.validation.lengths, times * like.validation.by_view
+    return replace(like.validation, lengths=lengths, by_view=by_view)
 
 
 def predict_elsewhere(choice: LensChoice, camera: Camera) -> float:
@@ -220,3 +223,10 @@ def test_it_can_be_cancelled() -> None:
 
     with pytest.raises(Cancelled):
         choose_lens(scene(barrel(), 4).views, VGA, progress=cancel)
+
+
+def test_what_is_preferred_is_taken_wherever_it_is_as_good() -> None:
+    """A lens without distortion is followed by all: the first of the list is the choice."""
+    views = scene(example("pinhole"), 8).noisy(0.1, np.random.default_rng(2))
+    for names in (("kannala-brandt", "brown-conrady"), ("brown-conrady", "kannala-brandt")):
+        assert choose_lens(views, VGA, names, preferred=names).model == names[0]

@@ -145,3 +145,20 @@ def test_views_without_a_camera_and_a_wish_to_stop_end_it() -> None:
 
     with pytest.raises(Cancelled):
         compare_methods(VIEWS, VGA, progress=stop)
+    with pytest.raises(Cancelled):
+        compare_methods(VIEWS, VGA, check=stop)
+
+
+def test_a_comparison_that_is_ended_keeps_what_is_done(compared: MethodComparison) -> None:
+    tried: list[int] = []
+
+    def end_in_the_second() -> None:
+        if tried[-1] == 1:
+            raise Cancelled
+
+    ended = compare_methods(
+        VIEWS, VGA, folds=3, progress=lambda done, _: tried.append(done), check=end_in_the_second
+    )
+    assert list(ended.trials) == ["lucchese"] and not ended.lines
+    assert ended.trials["lucchese"].held_out == compared.trials["lucchese"].held_out
+    assert {*ended.refused} == {*ended.methods} - {"lucchese"}

@@ -11,7 +11,11 @@ from calibgui.engine.assessment.residuals.cause_fits import (
     fit_nothing,
     fit_own_cause,
 )
-from calibgui.engine.assessment.residuals.systematic_errors import OWN_CAUSES, prepare_fit
+from calibgui.engine.assessment.residuals.systematic_errors import (
+    make_centre_columns,
+    make_focus_columns,
+    prepare_fit,
+)
 from calibgui.engine.boards.shape import BoardShapeModel
 from calibgui.engine.calibration.calibrate import calibrate
 from calibgui.engine.calibration.observations import Observation
@@ -40,7 +44,7 @@ def test_what_a_large_cause_of_each_view_leaves_is_noise(name: str) -> None:
         views.append(Observation(uv, view.xy))
     fit = prepare_fit(calibrate(views, CAMERA.size), views)
     count = fit.degrees_of_freedom
-    found = fit_own_cause(fit, OWN_CAUSES[name])
+    found = fit_own_cause(fit, make_focus_columns if name == "focus" else make_centre_columns)
     assert found.unknowns == (10 if name == "focus" else 20)
     assert measure_rms(fit_nothing(fit).cost, count) > 4 * NOISE
     assert measure_rms(found.cost, count - found.unknowns) == pytest.approx(NOISE, rel=0.05)

@@ -11,7 +11,7 @@ import pytest
 
 from calibgui.engine.arrays import Array
 from calibgui.engine.assessment.residuals import residual_checks
-from calibgui.engine.assessment.residuals.residual_checks import check_residuals
+from calibgui.engine.assessment.residuals.residual_checks import NoiseReport, check_residuals
 from calibgui.engine.assessment.residuals.systematic_errors import prepare_fit
 from calibgui.engine.assessment.residuals.view_weights import calibrate_weighted
 from calibgui.engine.calibration.calibrate import calibrate
@@ -80,6 +80,16 @@ def _images(fault: str, rng: np.random.Generator) -> list[Array]:
     return [bent[fault if fault in bent else "none"](pose) for pose in poses]
 
 
+def list_failed(report: NoiseReport) -> list[str]:
+    return [check.name for check in report.checks if not check.passed]
+
+
+def get_advice(report: NoiseReport, name: str) -> str:
+    """What a failed test of that name advises."""
+    (failed,) = (check for check in report.checks if check.name == name and not check.passed)
+    return failed.advice
+
+
 @pytest.mark.parametrize("seed", range(3))
 @pytest.mark.parametrize(
     "fault",
@@ -95,9 +105,7 @@ def test_a_fault_is_named(fault: str, seed: int) -> None:
     ]
     held = ["k2", "k3"] if fault == "lens" else []
     report = check_residuals(calibrate(views, SIZE, fix=held), views)
-    assert not report.passed
-    assert report.cause is not None
-    assert report.cause.name == fault
+    assert fault in list_failed(report)
 
 
 def test_a_decentred_lens_is_no_moving_board() -> None:
@@ -105,8 +113,8 @@ def test_a_decentred_lens_is_no_moving_board() -> None:
     lens = replace(barrel(), params=[*barrel().params[:7], 4e-3, -3e-3, 0.0])
     views = scene(lens, 12, seed=1).noisy(0.1, np.random.default_rng(0))
     report = check_residuals(calibrate(views, SIZE, fix=["p1", "p2"]), views)
-    assert report.cause is not None
-    assert report.cause.name == "lens"
+    likeliest = min(report.checks, key=lambda check: check.criterion)
+    assert likeliest.name == "lens" and not likeliest.passed
 
 
 def test_a_lens_that_is_not_followed_is_no_bent_board() -> None:
@@ -114,16 +122,11 @@ def test_a_lens_that_is_not_followed_is_no_bent_board() -> None:
     views = scene(barrel(), 12, seed=1).noisy(0.1, np.random.default_rng(0))
     result = calibrate(views, SIZE, model="pinhole")
     report = check_residuals(result, views)
-    assert report.cause is not None
-    assert report.cause.name == "lens"
     share = {check.name: check.share for check in report.checks}
     assert share["lens"] > 0.9
     assert share["squares"] + share["bow"] + share["board"] < 0.05
     # Judged as if the lens were sound, the board explains more than half.
-    unblamed = replace(result, lens_error=0.0)
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(residual_checks, "outdoes_board", lambda _: False)
-        report = check_residuals(unblamed, views)
+    report = check_residuals(replace(result, lens_error=0.0), views)
     assert next(check.share for check in report.checks if check.name == "board") > 0.5
 
 
@@ -131,8 +134,7 @@ def test_outliers_and_rounding_are_told_apart() -> None:
     rng = np.random.default_rng(0)
     rounded = [Observation(np.round(2 * view.uv) / 2, view.xy) for view in SCENE.views]
     report = check_residuals(calibrate(rounded, SIZE), rounded)
-    assert report.cause is not None
-    assert "rounded" in report.cause.advice
+    assert "rounded" in get_advice(report, "shape")
     for spoilt in (12, 3):  # views: a few with misplaced corners are not blurred
         displaced = SCENE.noisy(0.1, rng)
         for k, view in enumerate(displaced[:spoilt]):
@@ -140,9 +142,7 @@ def test_outliers_and_rounding_are_told_apart() -> None:
             uv[rng.integers(len(uv))] += 3.0
             displaced[k] = view._replace(uv=uv)
         report = check_residuals(calibrate(displaced, SIZE), displaced)
-        assert report.cause is not None
-        assert report.cause.name == "shape"
-        assert "misplaced" in report.cause.advice
+        assert "misplaced" in get_advice(report, "shape")
 
 
 def test_corners_that_are_far_off_but_as_uncertain_are_counted() -> None:

@@ -7,6 +7,7 @@ import pytest
 
 from calibgui.engine.assessment.residuals import systematic_errors
 from calibgui.engine.assessment.residuals.cause_fits import CauseFit, fit_nothing, fit_own_cause
+from calibgui.engine.assessment.residuals.residual_causes import CAUSES, Family
 from calibgui.engine.calibration.calibrate import calibrate
 from calibgui.engine.calibration.observations import Observation
 from calibgui.engine.calibration.result import Cost
@@ -24,14 +25,17 @@ def test_every_cost_can_be_examined(cost: Cost) -> None:
     assert np.sqrt(np.mean(residual**2)) == pytest.approx(0.1, rel=0.1)
     assert SharedCauses(fit, [LENS]).explain(LENS).probability > 0.001
     without = fit_nothing(fit)
-    for columns in systematic_errors.OWN_CAUSES.values():
-        found = fit_own_cause(fit, columns).judge(without, fit.degrees_of_freedom)
-        assert found.probability > 0.001
-    smooth = systematic_errors.step_to_smooth(fit)
-    for step in (smooth, systematic_errors.step_to_lines(fit)):
-        start = CauseFit(float(np.sum(residual**2)), 0)
+    start = CauseFit(float(np.sum(residual**2)), 0)
+    for cause in CAUSES:
+        if isinstance(cause.adds, str):
+            continue
+        if cause.family is not Family.OPEN:
+            found = fit_own_cause(fit, cause.adds).judge(without, fit.degrees_of_freedom)
+            assert found.probability > 0.001
+    steps = systematic_errors.take_open_steps(fit)
+    for step in (steps.smooth, steps.lines):
         assert step.judge(start, fit.degrees_of_freedom).probability > 0.001
-    assert 1.0 <= systematic_errors.measure_dispersion(fit, smooth) < 1.5
+    assert 1.0 <= steps.dispersion < 1.5
 
 
 def test_errors_that_are_alike_along_rows_are_dispersed() -> None:
@@ -40,7 +44,7 @@ def test_errors_that_are_alike_along_rows_are_dispersed() -> None:
         shift = np.interp(view.uv[:, 1], np.arange(0, 481, 20), rng.normal(0, 0.1, 25))
         views.append(Observation(view.uv + np.column_stack([shift, 0 * shift]), view.xy))
     fit = systematic_errors.prepare_fit(calibrate(views, SIZE), views)
-    assert systematic_errors.measure_dispersion(fit, systematic_errors.step_to_smooth(fit)) > 2
+    assert systematic_errors.take_open_steps(fit).dispersion > 2
 
 
 def test_weights_divide_the_residuals() -> None:

@@ -25,11 +25,14 @@ from calibgui.engine.calibration.board_shape.uncertainty import (
 )
 from calibgui.engine.calibration.calibrate import calibrate
 from calibgui.engine.calibration.observations import Observation, pack_observations
-from calibgui.engine.calibration.refinement.covariances import measure_precision
+from calibgui.engine.calibration.refinement.covariances import (
+    Estimate,
+    make_estimate,
+    measure_precision,
+)
 from calibgui.engine.calibration.refinement.levenberg_marquardt import Solution
 from calibgui.engine.calibration.refinement.residuals import State, build_stage_two
 from calibgui.engine.calibration.result import Cost, Status
-from calibgui.engine.calibration.result_assembly import Estimate, make_estimate
 from calibgui.engine.geometry.rotations import rotation_from_vector
 from tests.engine.calibration.board_shape.test_parametrisation import (
     ACROSS,

@@ -17,7 +17,7 @@ from calibgui.engine.calibration.observations import (
     name_views,
     pack_observations,
 )
-from calibgui.engine.calibration.options import resolve_held_parameters
+from calibgui.engine.calibration.problem import resolve_held_parameters
 from calibgui.engine.camera.models import MODELS, find_model
 from tests.engine.random_lenses import example_scene
 

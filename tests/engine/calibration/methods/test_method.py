@@ -10,7 +10,11 @@ import pytest
 
 from calibgui.engine.calibration.calibrate import calibrate
 from calibgui.engine.calibration.methods.lucchese import LUCCHESE
-from calibgui.engine.calibration.methods.method import Given, Initialisation, start_from_other_model
+from calibgui.engine.calibration.methods.method import (
+    Initialisation,
+    Problem,
+    start_from_other_model,
+)
 from calibgui.engine.calibration.observations import Observation
 from calibgui.engine.calibration.result import Calibration
 from tests.engine.scenes import VGA, example, scene
@@ -23,8 +27,8 @@ def _see_fisheye() -> tuple[list[Observation], Calibration]:
     return views, calibrate(views, VGA, model="kannala-brandt")
 
 
-def _guess_nothing(given: Given) -> Initialisation:
-    raise AssertionError(f"a start of {given.model} was guessed")
+def _guess_nothing(problem: Problem) -> Initialisation:
+    raise AssertionError(f"a start of {problem.model} was guessed")
 
 
 @pytest.mark.parametrize(

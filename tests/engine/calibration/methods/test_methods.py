@@ -10,14 +10,13 @@ import pytest
 from calibgui.engine.calibration import methods
 from calibgui.engine.calibration.calibrate import calibrate
 from calibgui.engine.calibration.methods import (
-    DEFAULT_METHOD,
     METHODS,
     check_method,
     find_method,
 )
-from calibgui.engine.calibration.methods.method import Given, Initialisation, Refinement
+from calibgui.engine.calibration.methods.method import Initialisation, Problem, Refinement
 from calibgui.engine.calibration.problem import recover_arguments
-from calibgui.engine.calibration.result import Cost
+from calibgui.engine.calibration.result import DEFAULT_METHOD, Cost
 from calibgui.engine.camera.models import MODELS
 from calibgui.engine.errors import CalibrationError
 from tests.engine.scenes import VGA, barrel, scene
@@ -53,7 +52,7 @@ def test_the_default_method_leaves_no_trace_in_the_settings() -> None:
     """Results and digests of the default must stay what they were without a choice."""
     found = calibrate(VIEWS, VGA)
     named = calibrate(VIEWS, VGA, method=DEFAULT_METHOD)
-    assert "method" not in found.settings
+    assert "method" not in found.settings.encode()
     assert named.settings == found.settings
     assert named.digest == found.digest
     assert recover_arguments(found)["method"] == DEFAULT_METHOD
@@ -63,9 +62,9 @@ def test_a_further_method_is_used_and_recorded(monkeypatch: pytest.MonkeyPatch) 
     ran: list[str] = []
     own = METHODS[DEFAULT_METHOD]
 
-    def initialise(given: Given) -> Initialisation:
+    def initialise(problem: Problem) -> Initialisation:
         ran.append("initialise")
-        return own.initialise(given)
+        return own.initialise(problem)
 
     def refine(*args: object) -> Refinement:
         ran.append("refine")
@@ -82,7 +81,7 @@ def test_a_further_method_is_used_and_recorded(monkeypatch: pytest.MonkeyPatch) 
     monkeypatch.setattr(methods, "METHODS", {**METHODS, "trial": trial})
     found = calibrate(VIEWS, VGA, method="trial")
     assert ran == ["initialise", "refine"]
-    assert found.settings["method"] == "trial"
+    assert found.settings.method == "trial"
     assert recover_arguments(found)["method"] == "trial"
     assert found.digest != calibrate(VIEWS, VGA).digest
     assert find_method("trial") is trial

@@ -80,7 +80,7 @@ def test_the_sums_are_those_of_all_derivatives(monkeypatch: pytest.MonkeyPatch) 
     free = np.delete(np.arange(len(state.params)), [2, 9, 30])
 
     def linearise(state: State, views: slice) -> residuals.Linearised:
-        return residuals.linearise_residuals(state, observations, views, LENS, Cost.IMAGE, 1.0)
+        return residuals.linearise_residuals(state, observations, views, MODEL, Cost.IMAGE, 1.0)
 
     truth = residuals.accumulate_normal_equations(linearise, state, free)
     for compiled in (True, False):

@@ -7,7 +7,7 @@ import pytest
 
 from calibgui.engine.arrays import IntArray
 from calibgui.engine.calibration.observations import Observations, pack_observations
-from calibgui.engine.calibration.refinement import residuals
+from calibgui.engine.calibration.refinement import planar_pose_ambiguity, residuals
 from calibgui.engine.calibration.refinement.levenberg_marquardt import Solution, minimise
 from calibgui.engine.calibration.refinement.planar_pose_ambiguity import (
     correct_mirrored_poses,
@@ -92,6 +92,29 @@ def test_nothing_is_tried_where_perspective_is_plain(monkeypatch: pytest.MonkeyP
         lambda *_, **__: pytest.fail("tried"),
     )
     assert correct_mirrored_poses(build_problem, build_registration, observations, best) is None
+
+
+def test_the_cost_of_a_mirrored_pose_is_known_before_it_is_refined() -> None:
+    true, observations = made()
+    best = solved(observations, truth_of(true))
+    mirrored = mirror_poses(best.state, observations)
+    start = build_problem(observations, np.arange(0))(mirrored)
+    predicted = planar_pose_ambiguity._predict_costs(start)
+    refined = planar_pose_ambiguity._refine_poses(build_problem, observations, mirrored)
+    own_minimum = refined.normal.costs > 1.001 * best.normal.costs
+    assert own_minimum.sum() >= 6  # from the others it goes back
+    assert (start.costs > 1.2 * refined.normal.costs)[own_minimum].any()
+    np.testing.assert_allclose(predicted[own_minimum], refined.normal.costs[own_minimum], rtol=0.1)
+
+
+def test_a_pose_that_its_corners_leave_open_is_tried() -> None:
+    true, observations = made()
+    normal = build_problem(observations, np.arange(0))(truth_of(true))
+    predicted = planar_pose_ambiguity._predict_costs(normal._replace(V=0 * normal.V))
+    assert predicted.tolist() == [0.0] * 12
+    lost = np.where(np.arange(12) == 3, np.inf, normal.costs)
+    predicted = planar_pose_ambiguity._predict_costs(normal._replace(costs=lost))
+    assert np.isnan(predicted).tolist() == (np.arange(12) == 3).tolist()
 
 
 @pytest.mark.parametrize("seed", [363, 770, 1374])

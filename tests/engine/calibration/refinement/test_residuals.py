@@ -50,10 +50,9 @@ def made_with(model: str) -> Scene:
 
 
 def residual(model: str, cost: Cost, state: State, views: Observations) -> Linearised:
-    lens = find_model(model)
     if cost is Cost.IMAGE:
-        return compute_image_residuals(state, views, lens)
-    return compute_reference_residuals(state, views, lens, SCALE, cost is Cost.PAPER)
+        return compute_image_residuals(state, views, model)
+    return compute_reference_residuals(state, views, find_model(model), SCALE, cost is Cost.PAPER)
 
 
 @pytest.mark.parametrize(("model", "cost"), CASES)
@@ -186,7 +185,7 @@ def test_padding_weighs_nothing_and_covariances_whiten() -> None:
     views = whiten_observations(
         pack_observations([(uv, xy, cov), (made.views[1].uv[:30], xy[:30], cov[:30])])
     )
-    state, lens = truth_of(made), find_model("lucchese")
+    state, lens = truth_of(made), "lucchese"
     found = linearise_residuals(state, views, slice(0, 2), lens, Cost.IMAGE, 1.0)
     assert not found.residual[1, 30:].any()
     assert not found.by_params[1, 30:].any()
@@ -202,7 +201,5 @@ def test_a_board_behind_the_camera_has_no_image() -> None:
     state = truth_of(made)
     behind = state._replace(T=-state.T)
     assert np.isnan(
-        compute_image_residuals(
-            behind, pack_observations(made.views), find_model("lucchese")
-        ).residual
+        compute_image_residuals(behind, pack_observations(made.views), "lucchese").residual
     ).any()

@@ -22,7 +22,6 @@ from calibgui.engine.calibration.refinement.schur import (
     solve_normal_equations,
 )
 from calibgui.engine.calibration.result import Cost
-from calibgui.engine.camera.models import MODELS
 from tests.engine.calibration.refinement.test_residuals import truth_of
 from tests.engine.scenes import barrel, scene
 
@@ -35,7 +34,7 @@ COST = build_stage_two(VIEWS, "lucchese", Cost.IMAGE, 1.0, FREE)
 
 def jacobian(state: State) -> tuple[Array, Array]:
     """Dense J and r of all unknowns, written out without any block structure."""
-    found = linearise_residuals(state, VIEWS, slice(0, 5), MODELS["lucchese"], Cost.IMAGE, 1.0)
+    found = linearise_residuals(state, VIEWS, slice(0, 5), "lucchese", Cost.IMAGE, 1.0)
     K, N = found.residual.shape[:2]
     J = np.zeros((K, N, 2, len(FREE) + 6 * K))
     J[..., : len(FREE)] = found.by_params[..., FREE]

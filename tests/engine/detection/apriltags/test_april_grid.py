@@ -23,13 +23,13 @@ from calibgui.engine.detection.apriltags.outline_model import (
     accumulate_normal_equations,
 )
 from calibgui.engine.detection.apriltags.tag_gap import fit_gap, measure_gap
-from calibgui.engine.detection.corners import Corners
 from calibgui.engine.detection.find_corners import find_corners
-from calibgui.engine.detection.lattice import Lattice
 from calibgui.engine.errors import CalibrationError, NoBoardError, UnknownPartError
+from calibgui.engine.features.corners import Corners
+from calibgui.engine.features.lattice import Lattice
 from calibgui.engine.geometry.rotations import rotation_from_vector
 from calibgui.engine.images.sampling import make_mesh
-from tests.engine.detection.conftest import Scene
+from tests.engine.conftest import Scene
 from tests.scenes.perspective import photograph_pattern
 
 CAMERA = Camera((640, 480), [560.0, 562.0, 322.0, 238.0, 0.1, 0.02, 0.0, 1e-4, 0.0, 0.0])
@@ -530,3 +530,62 @@ def test_a_gap_measured_wider_than_a_tag_is_no_error_of_the_pattern() -> None:
     image = photograph_pattern((640, 480), board, 0.7, 0.8)
     with pytest.raises(NoBoardError):
         find_corners(image, pattern=AprilGrid())
+
+
+@pytest.mark.parametrize("known", ["nothing", "its size", "its size and first tag"])
+@pytest.mark.parametrize(
+    ("grid_size", "first", "from_top", "corner_squares"),
+    [
+        ((8, 10), 20, False, True),
+        ((8, 10), 100, True, True),
+        ((8, 10), 20, True, False),
+        ((6, 12), 18, False, False),
+        ((6, 12), 480, False, True),
+    ],
+)
+def test_a_second_board_is_told_by_its_first_tag(
+    grid_size: tuple[int, int], first: int, from_top: bool, corner_squares: bool, known: str
+) -> None:
+    pattern = AprilGrid("t36h11", 0.3, 2, from_top, corner_squares, first)
+    scene = replace(KALIBR, board=Board(*grid_size, 20.0, pattern))
+    size = None if known == "nothing" else grid_size
+    stated = AprilGrid(first_tag=first if "first" in known else None)
+    corners = find_corners(scene.image(), size, pattern=stated)
+    assert corners.shape == grid_size
+    assert corners.complete
+    assert isinstance(corners.pattern, AprilGrid)
+    assert corners.pattern.first_tag == first
+    assert_at_bound(scene, corners)
+
+
+def test_rows_need_not_begin_with_a_multiple_of_their_length() -> None:
+    pattern = AprilGrid("t36h11", 0.3, 2, False, True, 33)
+    scene = replace(KALIBR, board=Board(8, 10, 20.0, pattern))
+    corners = find_corners(scene.image(), pattern=AprilGrid(first_tag=33))
+    assert corners.shape == (8, 10)
+    assert_at_bound(scene, corners)
+
+
+def test_a_part_of_a_board_does_not_begin_with_its_lowest_tag() -> None:
+    """The lowest rows are covered, or not in the image."""
+    whole = find_corners(KALIBR.image(), pattern=AprilGrid())
+    end = int(whole.uv[whole.grid[:, 0] == 6, 1].min())
+    for image, grid_size in (
+        (cover_tags(KALIBR.image(), tuple(range(5, 20))), None),
+        (cover_tags(KALIBR.image(), tuple(range(10, 20))), (8, 10)),
+        (KALIBR.image()[:end], None),
+    ):
+        corners = find_corners(image, grid_size, pattern=AprilGrid())
+        assert isinstance(corners.pattern, AprilGrid)
+        assert corners.pattern.first_tag is None
+        assert corners.shape == (8, 10)
+        assert corners.grid[:, 0].min() == 0
+
+
+def test_a_board_of_another_first_tag_is_told() -> None:
+    pattern = AprilGrid("t36h11", 0.3, 2, False, True, 20)
+    image = replace(KALIBR, board=Board(8, 10, 20.0, pattern)).image()
+    with pytest.raises(NoBoardError, match="no number below 20"):
+        find_corners(image, (8, 10), pattern=AprilGrid(first_tag=0))
+    with pytest.raises(CalibrationError, match="cannot have the number -1"):
+        AprilGrid(first_tag=-1)

@@ -20,9 +20,9 @@ from calibgui.engine.detection.apriltags.tag_reader import (
     rate_borders,
     verify_tags,
 )
-from calibgui.engine.detection.checkerboard import saddle
 from calibgui.engine.detection.find_corners import find_corners
 from calibgui.engine.errors import NoBoardError
+from calibgui.engine.features import saddle
 from tests.scenes.perspective import photograph_pattern
 from tests.scenes.without_board import draw_without_board
 

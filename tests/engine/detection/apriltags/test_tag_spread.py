@@ -12,7 +12,7 @@ from calibgui.engine.boards.board import Board
 from calibgui.engine.camera.camera import Camera
 from calibgui.engine.detection.find_corners import find_corners
 from calibgui.engine.images.rendering import compute_irradiance
-from tests.engine.detection.conftest import Scene
+from tests.engine.conftest import Scene
 
 LENS = Camera((480, 360), [420.0, 420.0, 240.0, 180.0, 0.1, 0.02, 0.0, 0.0, 0.0, 0.0])
 BARE = Scene(

@@ -15,12 +15,12 @@ from calibgui.engine.boards.board import Board
 from calibgui.engine.boards.tagged_checkerboard import TaggedCheckerboard
 from calibgui.engine.camera.distortion import project_points
 from calibgui.engine.detection.apriltags import find_tagged_checkerboard
-from calibgui.engine.detection.checkerboard import pyramid_search
 from calibgui.engine.detection.find_corners import find_corners
 from calibgui.engine.errors import NoBoardError
 from calibgui.engine.images.reading import read_image
+from calibgui.engine.lattices import pyramid_search
+from tests.engine.conftest import Scene
 from tests.engine.detection.apriltags.test_april_grid import CAMERA, FISHEYE, assert_at_bound
-from tests.engine.detection.conftest import Scene
 from tests.scenes.perspective import photograph_board, photograph_pattern
 
 BOARD = Scene(

@@ -18,11 +18,11 @@ from calibgui.engine.boards.printed_pattern import PrintedRectangles
 from calibgui.engine.calibration.calibrate import calibrate
 from calibgui.engine.camera.camera import Camera
 from calibgui.engine.detection.charuco.markers import identify_board
-from calibgui.engine.detection.corners import Corners
 from calibgui.engine.detection.find_corners import find_corners
 from calibgui.engine.errors import CalibrationError, MirroredError, NoBoardError
+from calibgui.engine.features.corners import Corners
 from calibgui.engine.images.reading import read_image
-from tests.engine.detection.conftest import Scene
+from tests.engine.conftest import Scene
 from tests.scenes.perspective import photograph_pattern
 from tests.scenes.without_board import draw_without_board
 

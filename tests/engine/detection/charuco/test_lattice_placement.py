@@ -16,14 +16,14 @@ from calibgui.engine.boards.pattern import Pattern
 from calibgui.engine.boards.tagged_checkerboard import TaggedCheckerboard
 from calibgui.engine.detection.charuco import find_charuco, lattice_placement
 from calibgui.engine.detection.charuco.lattice_placement import MarkedBoard
-from calibgui.engine.detection.charuco.mark_removal import Marks
 from calibgui.engine.detection.charuco.marker_reader import MarkerReader
-from calibgui.engine.detection.checkerboard.pyramid_search import Candidate
+from calibgui.engine.detection.charuco.marker_subtraction import Marks
 from calibgui.engine.detection.find_corners import find_corners
-from calibgui.engine.detection.lattice import Lattice
 from calibgui.engine.errors import NoBoardError
+from calibgui.engine.features.lattice import Lattice
+from calibgui.engine.lattices.pyramid_search import Candidate
+from tests.engine.conftest import Scene
 from tests.engine.detection.apriltags.test_april_grid import CAMERA, assert_at_bound
-from tests.engine.detection.conftest import Scene
 from tests.scenes.without_board import draw_without_board
 
 SMALL = Scene(

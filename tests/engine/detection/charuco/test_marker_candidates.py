@@ -15,7 +15,7 @@ from calibgui.engine.boards.tagged_checkerboard import TaggedCheckerboard
 from calibgui.engine.detection.charuco.marker_candidates import MarkerCandidates
 from calibgui.engine.detection.find_corners import find_corners
 from calibgui.engine.errors import NoBoardError
-from tests.engine.detection.conftest import Scene
+from tests.engine.conftest import Scene
 from tests.scenes.perspective import photograph_pattern
 from tests.scenes.without_board import draw_without_board
 

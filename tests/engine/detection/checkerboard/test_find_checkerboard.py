@@ -18,11 +18,11 @@ from calibgui.engine.boards.tagged_checkerboard import TaggedCheckerboard
 from calibgui.engine.camera import Camera
 from calibgui.engine.camera.distortion import project_points
 from calibgui.engine.detection.checkerboard import board_refinement
-from calibgui.engine.detection.corners import Corners
 from calibgui.engine.detection.find_corners import find_corners
-from calibgui.engine.detection.lattice import Lattice
 from calibgui.engine.errors import NoBoardError
-from calibgui.engine.geometry import Pose
+from calibgui.engine.features.corners import Corners
+from calibgui.engine.features.lattice import Lattice
+from calibgui.engine.geometry import Pose, rotation_from_vector
 from calibgui.engine.images import render_view
 from calibgui.engine.images.reading import read_image
 from tests.scenes.checkerboards import draw as draw_scene
@@ -341,7 +341,9 @@ def test_what_every_level_shows_is_verified_once(
     verified: list[int] = []
     refine = board_refinement.refine_board
     monkeypatch.setattr(
-        board_refinement, "refine_board", lambda *args: verified.append(1) or refine(*args)
+        board_refinement,
+        "refine_board",
+        lambda *args, **named: verified.append(1) or refine(*args, **named),
     )
     image = photograph_pattern((1600, 1200), Board(7, 10, 26.0, pattern), 0.7, 1.0)
     with pytest.raises(NoBoardError, match=match):
@@ -408,7 +410,7 @@ def test_arguments_without_sense_are_refused(draw: Any) -> None:
     with pytest.raises(ValueError, match="method"):
         find_corners(image, method="magic")
     with pytest.raises(ValueError, match="grey levels"):
-        find_corners(np.zeros((40, 40, 3)))
+        find_corners(np.zeros((40, 40, 4)))
     with pytest.raises(ValueError, match="inner corners"):
         find_corners(image, (1, 9))
     with pytest.raises(ValueError, match="convex"):
@@ -443,3 +445,25 @@ def test_a_wide_gap_is_filled_line_by_line() -> None:
     board = board_refinement.refine_board(scene.photograph(1), ends, "edges")
     assert isinstance(board, board_refinement.RefinedBoard)
     assert len(board) == 90
+
+
+ENDOSCOPE = Camera((640, 480), [520.0, 522.0, 318.0, 242.0, 0.34, 0.29, 0.0, 0.0, 0.0, 0.0])
+
+
+@pytest.mark.parametrize("seed", [2, 5, 6, 13, 19, 30, 37, 48, 63, 97, 103, 105])
+def test_a_board_that_the_lens_cuts_is_a_part_of_the_stated_one(seed: int) -> None:
+    """The black around what an endoscope lights is not where the board ends."""
+    rng = np.random.default_rng(seed)
+    board = Board(10, 13, 3.0)
+    middle = board.points().mean(axis=0)
+    rvec = np.append(rng.uniform(-0.7, 0.7, 2), rng.uniform(-0.6, 0.6))
+    away = np.append(rng.uniform(-9, 9, 2), rng.uniform(30, 40))
+    pose = Pose(rvec, away - rotation_from_vector(rvec)[:, :2] @ middle)
+    image = render_view(ENDOSCOPE, pose, board, blur=0.7, noise=1.0, seed=seed)
+    v, u = np.mgrid[:480, :640]
+    image[np.hypot(u - 320, v - 240) > 215] = 8
+    corners = find_corners(image, board.grid_size)
+    assert corners.shape == board.grid_size
+    assert 20 < len(corners) < 130
+    truth = project_points(board.points(), ENDOSCOPE, pose)
+    assert np.linalg.norm(corners.uv[:, None] - truth, axis=2).min(axis=1).max() < 0.5

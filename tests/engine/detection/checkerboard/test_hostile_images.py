@@ -13,15 +13,12 @@ from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
 from numpy.typing import NDArray
 
-from calibgui.engine.detection.checkerboard import (
-    lattice_growth,
-    pyramid_search,
-    x_corner_fit,
-)
-from calibgui.engine.detection.checkerboard.thresholds import THRESHOLDS
+from calibgui.engine.corner_fit import x_corner_fit
 from calibgui.engine.detection.find_corners import find_corners
 from calibgui.engine.errors import NoBoardError
-from tests.engine.detection.checkerboard.conftest import random_squares
+from calibgui.engine.lattices import lattice_growth, pyramid_search
+from calibgui.engine.lattices.x_junctions import MAX_CANDIDATES
+from tests.engine.drawn_boards import random_squares
 from tests.scenes.checkerboards import draw
 from tests.scenes.conditions import Conditions
 
@@ -81,9 +78,9 @@ def test_work_is_bounded(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     levels, coarser = 4, 2
     # All but the finest may be looked at again, and the coarsest once more with those beyond it.
     assert len(candidates) <= 2 * (2 * levels - 1 + 1 + coarser)
-    assert max(candidates, default=0) <= THRESHOLDS.junctions.max_candidates
+    assert max(candidates, default=0) <= MAX_CANDIDATES
     assert len(rounds) <= 200
-    assert sum(fitted) <= 8 * THRESHOLDS.junctions.max_candidates
+    assert sum(fitted) <= 8 * MAX_CANDIDATES
 
 
 @settings(max_examples=40)

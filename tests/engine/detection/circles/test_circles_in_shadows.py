@@ -12,7 +12,7 @@ from calibgui.engine.camera.camera import Camera
 from calibgui.engine.camera.distortion import project_points
 from calibgui.engine.detection.circles import ellipse_fit
 from calibgui.engine.detection.find_corners import find_corners
-from tests.engine.detection.conftest import Scene
+from tests.engine.conftest import Scene
 
 _CAMERA = Camera((640, 480), [560.0, 562.0, 322.0, 238.0, 0.1, 0.02, 0.0, 1e-4, 0.0, 0.0])
 _PATTERNS: list[tuple[Circles, GridSize]] = [

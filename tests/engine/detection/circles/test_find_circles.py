@@ -18,10 +18,10 @@ from calibgui.engine.detection.circles import ellipse_fit, find_circles
 from calibgui.engine.detection.circles.circle_map import fit_circle_map
 from calibgui.engine.detection.circles.continuation import find_continuation
 from calibgui.engine.detection.circles.ellipse_fit import EllipseFit
-from calibgui.engine.detection.corners import Corners
 from calibgui.engine.detection.find_corners import find_corners
 from calibgui.engine.errors import CalibrationError, NoBoardError
-from tests.engine.detection.conftest import CAMERA, Scene
+from calibgui.engine.features.corners import Corners
+from tests.engine.conftest import CAMERA, Scene
 from tests.scenes.marked_circles import MarkedCircles
 from tests.scenes.without_board import draw_without_board
 

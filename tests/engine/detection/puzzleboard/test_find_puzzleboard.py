@@ -15,14 +15,14 @@ from calibgui.engine.boards.pattern import Symmetry
 from calibgui.engine.boards.puzzleboard import PuzzleBoard
 from calibgui.engine.camera.camera import Camera
 from calibgui.engine.camera.distortion import project_points
-from calibgui.engine.detection import grid_map
-from calibgui.engine.detection.corners import Corners
 from calibgui.engine.detection.find_corners import find_corners
-from calibgui.engine.detection.lattice import Lattice
 from calibgui.engine.detection.puzzleboard import dot_removal, find_puzzleboard
 from calibgui.engine.detection.puzzleboard.dot_removal import remove_blurred_dots
 from calibgui.engine.errors import NoBoardError
-from tests.engine.detection.conftest import Scene
+from calibgui.engine.features.corners import Corners
+from calibgui.engine.features.lattice import Lattice
+from calibgui.engine.lattices import grid_map
+from tests.engine.conftest import Scene
 from tests.scenes.perspective import photograph_board
 from tests.scenes.without_board import draw_without_board
 

@@ -13,6 +13,7 @@ from PySide6.QtCore import QPoint, Qt
 from pytestqt.qtbot import QtBot
 
 from calibgui.dataset import Result
+from calibgui.dataset.judging import judge_result
 from calibgui.engine.calibration.refinement.covariances import (
     compute_correlations,
     make_paper_table,
@@ -33,8 +34,9 @@ def told(shown: Shown[ResultPanel], qtbot: QtBot) -> Told:
     """Brings a result on screen and waits for its words."""
 
     def show(result: Result) -> ResultPanel:
+        judge_result(result)
         panel = shown(ResultPanel, result)
-        qtbot.waitUntil(lambda: "Working…" not in panel.words.toPlainText())
+        qtbot.waitUntil(lambda: "being found out" not in panel.words.toPlainText())
         return panel
 
     return show
@@ -97,7 +99,7 @@ def test_words_are_the_summary(told: Told, result: Result) -> None:
 def test_the_words_of_another_result_do_not_stay(told: Told, result: Result) -> None:
     panel = told(result)
     panel.show_result(made(seed=5))
-    assert panel.words.toPlainText() == "What is this result worth? Working…"
+    assert panel.words.toPlainText() == "What this result is worth is being found out."
 
 
 def test_what_is_not_determined_is_marked(told: Told, result: Result) -> None:

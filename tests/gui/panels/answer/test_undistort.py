@@ -186,6 +186,9 @@ def test_saving_names_views_and_way(panel: UndistortPanel, qtbot: QtBot) -> None
     with qtbot.waitSignal(panel.save_wanted) as signal:
         qtbot.mouseClick(panel.save_one, Qt.MouseButton.LeftButton)
     assert signal.args == [(3,), Undistortion()]
+    with qtbot.waitSignal(panel.save_wanted) as signal:
+        qtbot.mouseClick(panel.save_all, Qt.MouseButton.LeftButton)
+    assert signal.args == [tuple(range(10)), Undistortion()], "also what was left out"
     panel.way.setCurrentIndex(panel.way.findData("stereographic"))
     panel.view.setCurrentIndex(panel.view.findData(STATED_ANGLE))
     panel.angle.setValue(90)

@@ -16,7 +16,7 @@ from calibgui.app.calibrating.calibration import shorten_names
 from calibgui.dataset import Result
 from calibgui.dataset.judging import judge_result
 from calibgui.engine.arrays import Array
-from calibgui.engine.assessment.causes.finding import Cause
+from calibgui.engine.assessment.finding import Cause
 from calibgui.engine.assessment.residuals.residual_checks import NoiseReport, check_residuals
 from calibgui.engine.assessment.residuals.residual_statistics import (
     stack_residuals,
@@ -133,7 +133,10 @@ def test_the_cause_of_residuals_is_that_of_the_verdict(
     assert failed
     assert not any(check.advice in text for check in failed), "tests blame any cause"
     assert all(check.name in panel.verdict.toolTip() for check in report.checks)
+    assert "Why is being tried" in text
     findings = judge_result(found).findings
+    panel.note_verdict()
+    text = panel.verdict.text()
     assert [finding.cause for finding in findings[:1]] == [cause] * (cause is not None)
     if findings:
         assert findings[0].message in text

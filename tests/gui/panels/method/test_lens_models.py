@@ -37,7 +37,7 @@ def choice(few_views: Result) -> LensChoice:
 def compare_few(result: Result, progress: Progress | None = None) -> LensChoice:
     """Compare few lens models, which is quick."""
     views, size = result.observations(), result.calibration.camera.size
-    return choose_lens(views, size, FEW, folds=2, progress=progress)
+    return choose_lens(views, size, FEW, progress=progress)
 
 
 @pytest.fixture(autouse=True)

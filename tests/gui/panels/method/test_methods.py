@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+import time
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 from pathlib import Path
 
@@ -25,6 +26,7 @@ from calibgui.engine.errors import CalibrationError, Progress
 from calibgui.engine.numbers import format_two_digits
 from calibgui.formats import EXPORTERS
 from calibgui.gui.dialogs.export_dialog import ExportDialog
+from calibgui.gui.jobs.jobs import Jobs
 from calibgui.gui.panels.method.methods import MethodsPanel
 from calibgui.gui.widgets.tables import Table
 from calibgui.gui.window.main_window import MainWindow
@@ -58,10 +60,14 @@ def _few_methods() -> Iterator[None]:
         yield
 
 
-def compare_few(result: Result, progress: Progress | None = None) -> MethodComparison:
+def compare_few(
+    result: Result, progress: Progress | None = None, check: Callable[[], None] | None = None
+) -> MethodComparison:
     camera = result.calibration.camera
     views = result.observations()
-    return method_comparison.compare_methods(views, camera.size, camera, 2, progress=progress)
+    return method_comparison.compare_methods(
+        views, camera.size, camera, 2, progress=progress, check=check
+    )
 
 
 @pytest.fixture(scope="module")
@@ -79,6 +85,33 @@ def panel(
     panel._done(comparison)
     QApplication.processEvents()
     return panel
+
+
+def test_a_comparison_that_is_ended_keeps_the_methods_that_are_done(
+    shown: Shown[MethodsPanel],
+    few_views: Result,
+    jobs: Jobs,
+    qtbot: QtBot,
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    def compare(result: Result, progress: Progress, check: Callable[[], None]) -> MethodComparison:
+        def wait(done: int, total: int) -> None:
+            progress(done, total)
+            while done == 2 and not jobs.running[0].stopping:
+                time.sleep(0.01)
+
+        return compare_few(result, wait, check)
+
+    monkeypatch.setattr("calibgui.gui.panels.method.methods.compare_methods_again", compare)
+    panel = shown(MethodsPanel, few_views)
+    panel.run.click()
+    qtbot.waitUntil(lambda: jobs.running[0].finished == 2, timeout=20_000)
+    jobs.end(jobs.running[0])
+    qtbot.waitUntil(lambda: not jobs.running)
+    assert panel.found is not None and list(panel.found.trials) == list(FEW)[:2]
+    assert panel.tables.isVisible() and panel.run.isEnabled()
+    remarks = {row.name: row.remarks for row in panel._rows}
+    assert "stopped before it was tried" in " ".join(remarks["tsai"])
 
 
 def pick(qtbot: QtBot, panel: MethodsPanel, name: str) -> None:
@@ -262,7 +295,7 @@ def test_using_a_method_calibrates_with_it_and_is_undone_and_written(
     qtbot.waitUntil(lambda: not session.jobs.running, timeout=60_000)
     result = session.result
     assert result is not None
-    assert result.calibration.settings["method"] == "bouguet"
+    assert result.calibration.settings.method == "bouguet"
     np.testing.assert_allclose(result.calibration.camera.params, compared.params, rtol=1e-6)
     assert panel.found is not None, "it is on the same views"
 

@@ -1,0 +1,106 @@
+"""corners.vnl: the corners of a board as mrgingham writes them and mrcal takes them.
+
+    # filename x y level
+    frame00.jpg 101.5 80.2 0
+    frame01.jpg - - -
+
+Reader: mrcal-calibrate-cameras, and `read_corners_vnl`. A row is a corner in pixels of the array
+frame, and the rows of an image are the board's corners row by row. The board's rows and columns are
+not in the file. A corner at "-", at two negative places, or of a negative level or no weight was
+not found; neither was a board of which the only row is such. A corner of level L has 2^L times the
+noise of one of level 0; a `weight` in place of the level divides the noise.
+Cannot hold: the images' size, the board's rows, columns and squares.
+"""
+
+from __future__ import annotations
+
+import re
+
+import numpy as np
+
+from calibgui.dataset import CornerSet, View
+from calibgui.engine.arrays import Array, GridSize
+from calibgui.formats.corner_table import CornerText, make_board, make_view, scale_unit
+from calibgui.formats.gate import parse_number
+
+SIGNATURE = re.compile(r"^[ \t]*#[ \t]*filename[ \t]+x[ \t]+y\b", re.MULTILINE)
+"""The legend of the columns."""
+_NOISE_PX = 0.1
+"""Standard deviation of corners of level 0 or weight 1, px: a lower bound, as the solver puts what
+is beyond it down to the model, alike for all corners."""
+
+
+def read_corners_vnl(source: CornerText) -> CornerSet:
+    """Read the corners, whose weights count where they differ.
+
+    Raises:
+        CalibrationError: if a row is none of a corner, the board's size is not stated or not that
+            of the file, or the images' size is not known.
+    """
+    legend = SIGNATURE.search(source.text)
+    line = source.text[legend.start() :].partition("\n")[0] if legend else ""
+    is_weight = "weight" in line.split()
+    rows: dict[str, list[tuple[float, float, float]]] = {}
+    for number, text in enumerate(source.text.splitlines(), 1):
+        words = text.partition("#")[0].split()
+        if words:
+            rows.setdefault(words[0], []).append(_read_row(source, number, words[1:], is_weight))
+    if not rows:
+        source.fail("holds no corners.", "Write it again.")
+    tables = {image: np.array(each) for image, each in rows.items()}
+    grid_size = _check_count(source, tables)
+    sigmas = np.concatenate([table[:, 2] for table in tables.values()])
+    is_uneven = len(np.unique(sigmas[np.isfinite(sigmas)])) > 1
+    views = tuple(_make_view(image, table, grid_size, is_uneven) for image, table in tables.items())
+    return CornerSet(
+        source.find_size(tables), views, make_board(grid_size), lengths_confirmed=False
+    )
+
+
+def _read_row(
+    source: CornerText, number: int, words: list[str], is_weight: bool
+) -> tuple[float, float, float]:
+    """Return column, row and relative noise of a corner; NaN where it was not found."""
+    try:
+        values = [np.nan if word == "-" else parse_number(word) for word in words]
+        u, v, rank = [*values, 1.0 if is_weight else 0.0][:3]
+    except ValueError as error:
+        source.fail(
+            f"has no corner in line {number}: {error}.",
+            "A row is a name, x, y and perhaps a level.",
+        )
+    is_found = np.isfinite([u, v, rank]).all() and not (u < 0 and v < 0)
+    is_found &= rank > 0 if is_weight else 0 <= rank < np.inf
+    if not is_found:
+        return np.nan, np.nan, np.nan
+    return u, v, 1 / rank if is_weight else 2.0 ** min(rank, 100.0)
+
+
+def _check_count(source: CornerText, tables: dict[str, Array]) -> GridSize:
+    """Return the stated rows and columns, which every image has that has any."""
+    counts = {image: len(table) for image, table in tables.items() if len(table) > 1}
+    image, count = next(iter(counts.items()), ("", 0))
+    if source.grid_size is None:
+        sizes = [f"{n}x{count // n}" for n in range(3, count // 3 + 1) if count % n == 0]
+        listed = f" {', '.join(sizes)} have its {count} corners." if sizes else ""
+        source.fail(
+            "does not say how many rows and columns the board has.",
+            f"State them, as --board ROWSxCOLS.{listed}",
+        )
+    rows, cols = source.grid_size
+    for image, count in counts.items():
+        if count != rows * cols:
+            source.fail(
+                f"has {count} rows for {image[:100]}; a board of {rows} x {cols} has "
+                f"{rows * cols}.",
+                "State the board's rows and columns of inner corners, as --board ROWSxCOLS.",
+            )
+    return rows, cols
+
+
+def _make_view(image: str, table: Array, grid_size: GridSize, is_uneven: bool) -> View:
+    """Return the view of an image from the rows (n, 3) of `_read_row`."""
+    places = np.argwhere(np.ones(grid_size, bool))[: len(table)]
+    found = np.isfinite(table[:, 0])
+    cov = scale_unit((_NOISE_PX * table[found, 2]) ** 2) if is_uneven else None
+    return make_view(image, make_board(grid_size), places[found], table[found, :2], cov)
