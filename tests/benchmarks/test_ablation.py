@@ -102,6 +102,8 @@ def test_rules_are_listed_by_what_they_return() -> None:
     assert {"lattice.trim_lattice: nothing", "lattice.crop_lattice: as it was"} <= names
     known = Switch("", {"is_meaningful": says(True)})
     assert not any("meaningful" in each.name for each in list_rules(["a_contrario"], [known]))
+    with pytest.raises(UnknownNameError, match="no such rooms: moved"):
+        list_rules(["lattice", "moved"])
 
 
 def test_a_switch_matters_where_its_function_returns_anything_else() -> None:

@@ -9,11 +9,13 @@ from __future__ import annotations
 
 import inspect
 from collections.abc import Collection, Iterator
+from types import ModuleType
 from typing import Any
 
 from tests.benchmarks.ablation.patching import (
     Off,
     Switch,
+    UnknownNameError,
     keeps,
     list_files,
     marks_all,
@@ -31,7 +33,12 @@ def list_rules(rooms: Collection[str], besides: Collection[Switch] = ()) -> list
     Args:
         rooms: names of folders of the engine, or of files.
         besides: switches of which each function is left out.
+
+    Raises:
+        UnknownNameError: if a room is neither a folder nor a file of the engine.
     """
+    if unknown := set(rooms) - {part for file in list_files() for part in _list_rooms(file)}:
+        raise UnknownNameError(f"no such rooms: {', '.join(sorted(unknown))}")
     known = {name.rpartition(".")[2] for switch in besides for name in switch.functions}
     found = [
         (name, word, off)
@@ -42,13 +49,18 @@ def list_rules(rooms: Collection[str], besides: Collection[Switch] = ()) -> list
     return [Switch(f"{name}: {word}", {name: off}) for name, word, off in found]
 
 
+def _list_rooms(module: ModuleType) -> list[str]:
+    """List the folders and the file of a module of the engine, but of none that draws boards."""
+    _, house, *rooms = module.__name__.split(".")
+    return rooms if house == "engine" and rooms[:1] != ["boards"] else []
+
+
 def _list_functions(rooms: Collection[str]) -> Iterator[tuple[str, Any]]:
     """List the functions and methods that the files of some rooms define, by their names."""
     for module in list_files():
-        _, house, *rest = module.__name__.split(".")
-        if house != "engine" or rest[:1] == ["boards"] or not set(rest) & set(rooms):
+        if not set(_list_rooms(module)) & set(rooms):
             continue
-        file = rest[-1]
+        file = module.__name__.rpartition(".")[2]
         for name, value in vars(module).items():
             if getattr(value, "__module__", "") != module.__name__:
                 continue

@@ -8,9 +8,7 @@ from __future__ import annotations
 
 from tests.benchmarks.ablation.rules import list_rules
 
-CHARUCO = list_rules(
-    ["charuco", "print_samples", "printed_marks", "blurred_print", "stray_light", "near_priors"]
-)
+CHARUCO = list_rules(["charuco", "print_samples", "printed_marks", "blurred_print"])
 APRILGRID = list_rules(["apriltags", "print_samples", "blurred_print"])
-PUZZLEBOARD = list_rules(["puzzleboard", "printed_marks", "blurred_print", "stray_light"])
+PUZZLEBOARD = list_rules(["puzzleboard", "printed_marks", "blurred_print"])
 CIRCLES = list_rules(["circles"])
