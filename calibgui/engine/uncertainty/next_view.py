@@ -16,19 +16,23 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import product
+from typing import NamedTuple
 
 import numpy as np
 import scipy
 
-from calibgui.engine.arrays import Array, freeze
+from calibgui.engine.arrays import Array, BoolArray, freeze
 from calibgui.engine.calibration.observations import Observation, Observations
 from calibgui.engine.calibration.problem import find_free_parameters
 from calibgui.engine.calibration.refinement.residuals import State
 from calibgui.engine.calibration.result import Calibration
 from calibgui.engine.camera.camera import Camera
-from calibgui.engine.camera.distortion import project_points
-from calibgui.engine.camera.projection import measure_axis_scale, rays_from_pixels
-from calibgui.engine.errors import CalibrationError, Progress
+from calibgui.engine.camera.projection import (
+    measure_axis_scale,
+    pixels_from_rays,
+    rays_from_pixels,
+)
+from calibgui.engine.errors import CalibrationError
 from calibgui.engine.geometry import rotations
 from calibgui.engine.geometry.directions import measure_angles_off_axis
 from calibgui.engine.geometry.pose import Pose
@@ -109,11 +113,35 @@ class NextView:
         )
 
 
+class _Candidates(NamedTuple):
+    """C views that might be taken of the n corners of a board."""
+
+    place: Array
+    """(C, 2) places of the board's middle, in widths and heights of the image."""
+    fill: Array
+    """(C,) widths of the untilted board, in widths of the image."""
+    tilt: Array
+    """(C,) tilts, degrees."""
+    side: Array
+    """(C,) sides that recede, in eighths of a turn; NaN untilted."""
+    R: Array
+    """(C, 3, 3) rotations cam_from_board."""
+    T: Array
+    """(C, 3) translations, mm."""
+
+    def choose(self, chosen: BoolArray) -> _Candidates:
+        """Return the candidates that a mask (C,) chooses."""
+        return _Candidates(*(each[chosen] for each in self))
+
+    def project(self, board: Array, camera: Camera) -> Array:
+        """Return the corners (C, n, 2) of board points (n, 2), px; NaN where none is seen."""
+        return pixels_from_rays(
+            board @ np.swapaxes(self.R[..., :2], 1, 2) + self.T[:, None], camera
+        )
+
+
 def propose_views(
-    calibration: Calibration,
-    views: Sequence[Observation],
-    count: int = 3,
-    progress: Progress | None = None,
+    calibration: Calibration, views: Sequence[Observation], count: int = 3
 ) -> tuple[NextView, ...]:
     """Propose the views that lower the uncertainty of projection most, one after the other.
 
@@ -121,97 +149,110 @@ def propose_views(
         calibration: the calibration.
         views: the views that it was made from.
         count: number of views to propose.
-        progress: function that is called for each candidate view.
 
     Raises:
         CalibrationError: if no candidate view shows the whole board.
-        Cancelled: if `progress` raises it.
     """
     board = np.unique(np.round(np.concatenate([view.xy for view in views]), 9), axis=0)
-    candidates = _list_candidates(calibration, views, board, progress)
-    if not candidates:
+    candidates, corners = _list_candidates(calibration, views, board)
+    if not len(corners):
         raise CalibrationError(
             "No candidate view shows the whole board.", "Check the calibration's focal lengths."
         )
     design = build_design(calibration, views)
-    possible = _compute_candidate_information(
-        calibration, board, [candidate.pose for candidate in candidates]
-    )
+    possible = _compute_candidate_information(calibration, board, candidates, corners)
     every = FisherInformation(
         *(np.concatenate(p) for p in zip(design.views, possible, strict=True))
     )
     # The systematic part is stated for the views at hand: it is converted to the larger number.
     share = len(design.views.camera) / len(every.camera) if design.is_systematic_averaged else 1.0
     extended = replace(design, views=every, systematic=design.systematic * share)
-    taken = np.concatenate([np.ones(len(views)), np.zeros(len(candidates))])
-    places = np.array([candidate.place for candidate in candidates])
-    is_open = np.ones(len(candidates), dtype=bool)
+    taken = np.concatenate([np.ones(len(views)), np.zeros(len(corners))])
+    is_open = np.ones(len(corners), dtype=bool)
     proposed: list[NextView] = []
     while len(proposed) < count and is_open.any():
         trials = taken + np.eye(len(taken))[len(views) :][is_open]
         losses = extended.compute_loss(trials)
         best = int(np.flatnonzero(is_open)[losses.argmin()])
-        before, after = np.sqrt(extended.compute_loss(taken)), np.sqrt(losses.min())
-        proposed.append(replace(candidates[best], before=float(before), after=float(after)))
+        side = candidates.side[best]
+        proposed.append(
+            NextView(
+                Pose(rotations.vector_from_rotation(candidates.R[best]), candidates.T[best]),
+                place=candidates.place[best],
+                fill=float(candidates.fill[best]),
+                tilt=float(candidates.tilt[best]),
+                side=None if np.isnan(side) else int(side),
+                corners=corners[best],
+                before=float(np.sqrt(extended.compute_loss(taken))),
+                after=float(np.sqrt(losses.min())),
+            )
+        )
         taken[len(views) + best] = 1.0
-        is_open &= (places != places[best]).any(axis=1)  # the next elsewhere in the image
+        # The next is sought elsewhere in the image.
+        is_open &= (candidates.place != candidates.place[best]).any(axis=1)
     return tuple(proposed)
 
 
 def _list_candidates(
-    calibration: Calibration,
-    views: Sequence[Observation],
-    board: Array,
-    progress: Progress | None,
-) -> list[NextView]:
-    """List all candidate views, their gain left open (NaN)."""
+    calibration: Calibration, views: Sequence[Observation], board: Array
+) -> tuple[_Candidates, Array]:
+    """List the views that show the whole board large enough, with their corners (C, n, 2), px."""
     camera = calibration.camera
-    w, h = camera.size
     finest = min(_measure_spacing(view.uv) for view in views)
-    middle = (board.min(axis=0) + board.max(axis=0)) / 2
-    width = float(np.ptp(board[:, 0]))
-    scale = measure_axis_scale(camera)
-    upright = np.diag([1.0, 1.0, 1.0] if _is_y_down(calibration) else [1.0, -1.0, -1.0])
-    found = []
     is_partial = calibration.diagnosis is not None
     # No information tells what a partial calibration assumes; tilted views determine it. Their
     # corners lie closer to each other than those of a board that was held parallel.
-    tilts = _list_tilts(is_tilted=is_partial)
     finest *= _MIN_SPACING_OF_TILTED if is_partial else 1.0
-    tried = list(product(*_PLACES_IN_IMAGE, _WIDTHS_IN_IMAGE, tilts))
-    for done, (x, y, fill, (tilt, side)) in enumerate(tried):
-        if progress is not None:
-            progress(done, len(tried))
-        place = np.array([x, y])
-        angle = 2 * np.pi * (side or 0) / 8
-        lean = np.deg2rad(tilt) * np.array([np.sin(angle), -np.cos(angle), 0.0])
-        ray = rays_from_pixels(place * (w - 1, h - 1), camera)
-        R = _face_camera(ray) @ rotations.rotation_from_vector(lean) @ upright
-        ray = ray / max(ray[2], np.cos(_MAX_PARALLEL_ANGLE))
-        T = width * scale / (fill * w) * ray - R[:, :2] @ middle
-        pose = Pose(rotations.vector_from_rotation(R), T)
-        corners = project_points(board, camera, pose)
-        if _is_within_image(corners, camera) and _measure_spacing(corners) >= finest:
-            found.append(NextView(pose, place, fill, tilt, side, corners, np.nan, np.nan))
-    return found
+    posed = _pose_boards(calibration, board, _list_tilts(is_tilted=is_partial))
+    around = board[scipy.spatial.ConvexHull(board).vertices]
+    posed = posed.choose(_are_within_image(posed.project(around, camera), camera))
+    corners = posed.project(board, camera)
+    good = _are_within_image(corners, camera)
+    good[good] = [_measure_spacing(uv) >= finest for uv in corners[good]]
+    return posed.choose(good), corners[good]
 
 
-def _face_camera(ray: Array) -> Array:
-    """Return the rotation (3, 3) of a board that is seen along a ray of length 1, without tilt.
+def _pose_boards(
+    calibration: Calibration, board: Array, tilts: list[tuple[float, float]]
+) -> _Candidates:
+    """Pose the board at all places, distances and tilts."""
+    camera = calibration.camera
+    w, h = camera.size
+    tried = np.array(
+        [
+            (*place, fill, *tilted)
+            for place, fill, tilted in product(product(*_PLACES_IN_IMAGE), _WIDTHS_IN_IMAGE, tilts)
+        ]
+    )
+    place, fill, tilt, side = tried[:, :2], tried[:, 2], tried[:, 3], tried[:, 4]
+    angle = 2 * np.pi * np.nan_to_num(side) / 8
+    lean = np.stack([np.sin(angle), -np.cos(angle), np.zeros(len(angle))], axis=-1)
+    rays = rays_from_pixels(place * (w - 1, h - 1), camera)
+    upright = np.diag([1.0, 1.0, 1.0] if _is_y_down(calibration) else [1.0, -1.0, -1.0])
+    turned = rotations.rotation_from_vector(np.deg2rad(tilt)[:, None] * lean)
+    R = _face_camera(rays) @ turned @ upright
+    middle = (board.min(axis=0) + board.max(axis=0)) / 2
+    depth = np.ptp(board[:, 0]) * measure_axis_scale(camera) / (fill * w)
+    along = rays / np.maximum(rays[:, 2:], np.cos(_MAX_PARALLEL_ANGLE))
+    return _Candidates(place, fill, tilt, side, R, depth[:, None] * along - R[..., :2] @ middle)
 
-    It is parallel to the sensor, except where it would be seen almost edge-on.
+
+def _face_camera(rays: Array) -> Array:
+    """Return the rotations (C, 3, 3) of boards that are seen along rays of length 1, untilted.
+
+    They are parallel to the sensor, except where they would be seen almost edge-on.
     """
-    angle = float(measure_angles_off_axis(ray))
-    if not angle > _MAX_PARALLEL_ANGLE:
-        return np.eye(3)
-    axis = np.array([-ray[1], ray[0], 0.0]) / np.hypot(*ray[:2])
-    return rotations.rotation_from_vector(angle * axis)
+    angle = measure_angles_off_axis(rays)
+    is_oblique = angle > _MAX_PARALLEL_ANGLE
+    axis = np.stack([-rays[:, 1], rays[:, 0], np.zeros(len(rays))], axis=-1)
+    axis /= np.maximum(np.linalg.norm(axis, axis=-1, keepdims=True), np.finfo(float).tiny)
+    return rotations.rotation_from_vector(np.where(is_oblique, angle, 0.0)[:, None] * axis)
 
 
-def _list_tilts(*, is_tilted: bool) -> list[tuple[float, int | None]]:
+def _list_tilts(*, is_tilted: bool) -> list[tuple[float, float]]:
     """List the tilts, degrees, with the sides that recede; no tilt only if it may be one."""
-    tilts: list[tuple[float, int | None]] = list(product(_TILTS_DEG, range(8)))
-    return tilts if is_tilted else [(0.0, None), *tilts]
+    tilts = list(product(_TILTS_DEG, map(float, range(8))))
+    return tilts if is_tilted else [(0.0, np.nan), *tilts]
 
 
 def _is_y_down(calibration: Calibration) -> bool:
@@ -225,22 +266,21 @@ def _measure_spacing(corners: Array) -> float:
     return float(np.asarray(scipy.spatial.cKDTree(corners).query(corners, k=2)[0])[:, 1].min())
 
 
-def _is_within_image(corners: Array, camera: Camera) -> bool:
-    """Return whether all corners (n, 2) lie in the image, off its margin."""
+def _are_within_image(corners: Array, camera: Camera) -> BoolArray:
+    """Return whether all corners (C, n, 2) of each view lie in the image, off its margin."""
     margin = _MARGIN_IN_WIDTHS * camera.size[0]
     inside = (corners >= margin) & (corners <= np.array(camera.size) - 1 - margin)
-    return bool(inside.all())
+    return np.asarray(inside.all(axis=(1, 2)))
 
 
 def _compute_candidate_information(
-    calibration: Calibration, board: Array, poses: list[Pose]
+    calibration: Calibration, board: Array, candidates: _Candidates, corners: Array
 ) -> FisherInformation:
-    """Compute the information that views in these poses would hold about the camera."""
-    K = len(poses)
-    R = rotations.rotation_from_vector(np.array([pose.rvec for pose in poses]))
-    state = State(calibration.camera.params, R, np.array([pose.tvec for pose in poses]))
-    uv = np.array([project_points(board, calibration.camera, pose) for pose in poses])
-    seen = Observations(uv, np.tile(board, (K, 1, 1)), np.ones((K, len(board))), None)
+    """Compute the information that views would hold about the camera."""
+    count = len(corners)
+    state = State(calibration.camera.params, candidates.R, candidates.T)
+    ones = np.ones(corners.shape[:2])
+    seen = Observations(corners, np.tile(board, (count, 1, 1)), ones, None)
     return compute_view_information(
         state,
         seen,

@@ -121,12 +121,12 @@ class Evidence(QObject):
         )
         return Drawing(found.size, theme.UNCERTAIN, lines, labels)
 
-    def _draw_next_view(self, result: Result, job: Job) -> Drawing:
+    def _draw_next_view(self, result: Result, _: Job) -> Drawing:
         from scipy.spatial import ConvexHull  # slow to load
 
         from calibgui.engine.uncertainty import propose_views  # slow to load
 
-        view = propose_views(result.calibration, result.observations(), 1, job.advance)[0]
+        view = propose_views(result.calibration, result.observations(), 1)[0]
         around = ConvexHull(view.corners).vertices
         outline = view.corners[[*around, around[0]]]
         return Drawing(

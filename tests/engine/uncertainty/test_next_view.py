@@ -9,7 +9,6 @@ from calibgui.engine.calibration.calibrate import calibrate
 from calibgui.engine.calibration.observations import Observation
 from calibgui.engine.calibration.result import Calibration, DegenerateError
 from calibgui.engine.camera.camera import Camera
-from calibgui.engine.errors import Cancelled
 from calibgui.engine.geometry.pose import Pose
 from calibgui.engine.geometry.rotations import rotation_from_vector
 from calibgui.engine.uncertainty.next_view import propose_views
@@ -93,20 +92,6 @@ def test_another_lens_model() -> None:
     views = scene(brown(), 5, seed=1).noisy(0.2, np.random.default_rng(2))
     result = calibrate(views, SIZE, model="brown-conrady")
     assert propose_views(result, views, count=1)[0].instruction.startswith("Hold the board")
-
-
-def test_it_can_be_abandoned() -> None:
-    calls = []
-
-    def tenth(done: int, total: int) -> None:
-        calls.append(total)
-        if done == 10:
-            raise Cancelled
-
-    with pytest.raises(Cancelled):
-        propose_views(*_calibrated(4), progress=tenth)
-    assert len(calls) == 11
-    assert len(set(calls)) == 1
 
 
 def test_boards_at_the_edge_of_a_fisheye_face_it() -> None:

@@ -130,7 +130,7 @@ class CoveragePanel(Panel):
         self.advice.setText(self.tr("Which view would help most? Working…"))
         self._work.start(
             self.tr("Looking for the next view"),
-            lambda job: propose_views(result.calibration, result.observations(), 1, job.advance)[0],
+            lambda _: propose_views(result.calibration, result.observations(), 1)[0],
             self._draw_next,
             lambda error: self.advice.setText(str(error)),
             self._forgo,
