@@ -20,6 +20,7 @@ BUDGETS = {
     "boards": 12,
     "calibration": 181,
     "camera": 26,
+    "capture": 14,
     "corner_fit": 110,
     "detection": 262,
     "features": 41,

@@ -15,6 +15,7 @@ COMMANDS = {
     "calibrate": "calibrate a camera from photographs of a checkerboard or another board",
     "batch": "calibrate many cameras from a list, on all processors or a cluster",
     "print": "write a board to print, in true size",
+    "capture": "take the pictures live: what to do with the board is said",
     "detect": "locate the corners of the board in photographs",
     "undistort": "write photographs without lens distortion",
     "rectify": "write photographs of the board as seen from straight above",

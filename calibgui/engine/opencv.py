@@ -24,6 +24,10 @@ VERSION: str = cv2.__version__
 cv2.utils.logging.setLogLevel(cv2.utils.logging.LOG_LEVEL_SILENT)
 
 
+_STREAM_TIMEOUT_MSEC = 5000
+"""Time without an answer after which a camera in the network counts as gone, ms: a choice."""
+
+
 @contextlib.contextmanager
 def single_thread() -> Iterator[None]:
     """Let OpenCV use one thread within, and end those that it has: a fork would lose them."""
@@ -169,6 +173,75 @@ def decode_video(path: str) -> tuple[int, Iterator[GreyImage]]:
             capture.release()
 
     return max(0, int(capture.get(cv2.CAP_PROP_FRAME_COUNT))), decode()
+
+
+class Stream:
+    """A camera or a video that is open."""
+
+    def __init__(self, capture: cv2.VideoCapture) -> None:
+        self._capture = capture
+
+    @property
+    def is_open(self) -> bool:
+        """True if the device or the file could be opened."""
+        return bool(self._capture.isOpened())
+
+    @property
+    def time(self) -> float:
+        """Time of the last frame from the first one on, s, as the stream states it."""
+        return float(self._capture.get(cv2.CAP_PROP_POS_MSEC)) / 1000
+
+    def read(self) -> GreyImage | None:
+        """Return the next frame, RGB (h, w, 3) of 8 bits; None if there is none."""
+        is_read, frame = self._capture.read()
+        return np.asarray(cv2.cvtColor(frame, cv2.COLOR_BGR2RGB)) if is_read else None
+
+    def close(self) -> None:
+        """Release the device or the file."""
+        self._capture.release()
+
+
+def open_stream(source: int | str, *, is_live: bool) -> Stream:
+    """Open a camera by its number or address, or a video by its path.
+
+    A live one in the network that does not answer within seconds counts as gone.
+    """
+    if isinstance(source, int):
+        return Stream(cv2.VideoCapture(source))
+    limits = [
+        cv2.CAP_PROP_OPEN_TIMEOUT_MSEC,
+        _STREAM_TIMEOUT_MSEC,
+        cv2.CAP_PROP_READ_TIMEOUT_MSEC,
+        _STREAM_TIMEOUT_MSEC,
+    ]
+    return Stream(cv2.VideoCapture(source, cv2.CAP_FFMPEG, limits if is_live else []))
+
+
+def follow_points(before: GreyImage, after: GreyImage, uv: Array) -> tuple[Array, Array]:
+    """Follow points (n, 2) px to the next image by optical flow, and from there back again.
+
+    Returns:
+        Where they are in the image after, and where the flow leads these in the image before, both
+        (n, 2) px; NaN where it leads nowhere.
+    """
+    before, after = _take_8_bits(before), _take_8_bits(after)
+    forward = _follow(before, after, uv.astype(np.float32))
+    return forward.astype(np.float64), _follow(after, before, forward).astype(np.float64)
+
+
+def _take_8_bits(image: GreyImage) -> GreyImage:
+    """Return an image of 8 bits, as the flow needs it."""
+    if image.dtype == np.uint8:
+        return image
+    scale = 1 / 257 if image.dtype == np.uint16 else 1.0
+    return np.asarray(cv2.convertScaleAbs(image, alpha=scale))
+
+
+def _follow(before: GreyImage, after: GreyImage, uv: FloatImage) -> FloatImage:
+    if not np.isfinite(uv).any():
+        return uv
+    moved, status, _ = cv2.calcOpticalFlowPyrLK(before, after, np.nan_to_num(uv), None)
+    return np.where((status.ravel() > 0)[:, None] & np.isfinite(uv), moved, np.nan)
 
 
 def measure_sharpness(image: GreyImage) -> float:

@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     )
     from calibgui.engine.uncertainty.next_view import (
         NextView as NextView,
+        predict_uncertainty as predict_uncertainty,
         propose_views as propose_views,
     )
     from calibgui.engine.uncertainty.number_of_views import (
@@ -37,7 +38,7 @@ load_on_demand(
     __name__,
     {
         "back_projection": ["BoardPoints", "PixelRays", "find_board_points", "find_rays"],
-        "next_view": ["NextView", "propose_views"],
+        "next_view": ["NextView", "predict_uncertainty", "propose_views"],
         "number_of_views": ["QUANTITIES", "ViewCountStudy", "study_number_of_views"],
         "projection_uncertainty": ["ProjectionUncertainty", "estimate_projection_uncertainty"],
     },

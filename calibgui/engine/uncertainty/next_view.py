@@ -13,7 +13,7 @@ image e = (e1, e2), in which the board recedes, is a turn about w = e x (0, 0, 1
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from itertools import product
 from typing import NamedTuple
@@ -40,8 +40,10 @@ from calibgui.engine.uncertainty.fisher_information import (
     FisherInformation,
     compute_view_information,
 )
-from calibgui.engine.uncertainty.view_design import build_design
+from calibgui.engine.uncertainty.view_design import ViewDesign, build_design
 
+Loss = Callable[[ViewDesign, Array], Array]
+"""Variance of projection that a choice (..., K) of views of a design leaves, (...) px^2."""
 _PLACES_IN_IMAGE = ((0.2, 0.35, 0.5, 0.65, 0.8), (0.25, 0.5, 0.75))
 """Places of the board's middle, in widths and in heights of the image."""
 _TILTS_DEG = (25.0, 45.0)
@@ -85,9 +87,10 @@ class NextView:
     corners: Array
     """(n, 2) predicted corners, px."""
     before: float
-    """Rms standard deviation of projection over the image before the view is taken, px."""
+    """Standard deviation of projection before the view is taken, px: over the image, or of its
+    worst pixel, whichever was to be lowered."""
     after: float
-    """Rms standard deviation of projection over the image after it is taken, px."""
+    """The same after it is taken, px."""
 
     def __post_init__(self) -> None:
         freeze(self, "place", "corners")
@@ -141,7 +144,10 @@ class _Candidates(NamedTuple):
 
 
 def propose_views(
-    calibration: Calibration, views: Sequence[Observation], count: int = 3
+    calibration: Calibration,
+    views: Sequence[Observation],
+    count: int = 3,
+    loss: Loss = ViewDesign.compute_loss,
 ) -> tuple[NextView, ...]:
     """Propose the views that lower the uncertainty of projection most, one after the other.
 
@@ -149,6 +155,8 @@ def propose_views(
         calibration: the calibration.
         views: the views that it was made from.
         count: number of views to propose.
+        loss: what of the uncertainty is lowered: its mean square over the image, or that of the
+            worst pixel (``ViewDesign.compute_worst``).
 
     Raises:
         CalibrationError: if no candidate view shows the whole board.
@@ -159,20 +167,13 @@ def propose_views(
         raise CalibrationError(
             "No candidate view shows the whole board.", "Check the calibration's focal lengths."
         )
-    design = build_design(calibration, views)
-    possible = _compute_candidate_information(calibration, board, candidates, corners)
-    every = FisherInformation(
-        *(np.concatenate(p) for p in zip(design.views, possible, strict=True))
-    )
-    # The systematic part is stated for the views at hand: it is converted to the larger number.
-    share = len(design.views.camera) / len(every.camera) if design.is_systematic_averaged else 1.0
-    extended = replace(design, views=every, systematic=design.systematic * share)
+    extended = _extend_design(calibration, views, board, candidates, corners)
     taken = np.concatenate([np.ones(len(views)), np.zeros(len(corners))])
     is_open = np.ones(len(corners), dtype=bool)
     proposed: list[NextView] = []
     while len(proposed) < count and is_open.any():
         trials = taken + np.eye(len(taken))[len(views) :][is_open]
-        losses = extended.compute_loss(trials)
+        losses = loss(extended, trials)
         best = int(np.flatnonzero(is_open)[losses.argmin()])
         side = candidates.side[best]
         proposed.append(
@@ -183,7 +184,7 @@ def propose_views(
                 tilt=float(candidates.tilt[best]),
                 side=None if np.isnan(side) else int(side),
                 corners=corners[best],
-                before=float(np.sqrt(extended.compute_loss(taken))),
+                before=float(np.sqrt(loss(extended, taken))),
                 after=float(np.sqrt(losses.min())),
             )
         )
@@ -191,6 +192,47 @@ def propose_views(
         # The next is sought elsewhere in the image.
         is_open &= (candidates.place != candidates.place[best]).any(axis=1)
     return tuple(proposed)
+
+
+def predict_uncertainty(
+    calibration: Calibration,
+    views: Sequence[Observation],
+    view: Observation,
+    pose: Pose,
+    loss: Loss = ViewDesign.compute_loss,
+) -> float:
+    """Predict the standard deviation of projection, px, with one more view.
+
+    Args:
+        calibration: the calibration.
+        views: the views that it was made from.
+        view: the view that is added; where its corners are counts, and not by how much they are
+            off.
+        pose: its pose cam_from_board, mm.
+        loss: what of the uncertainty is predicted, as for `propose_views`.
+    """
+    R = rotations.rotation_from_vector(np.array(pose.rvec))
+    one = _Candidates(*np.full((4, 1), np.nan), R[None], np.array(pose.tvec)[None])
+    extended = _extend_design(calibration, views, view.xy, one, view.uv[None])
+    return float(np.sqrt(loss(extended, np.ones(len(views) + 1))))
+
+
+def _extend_design(
+    calibration: Calibration,
+    views: Sequence[Observation],
+    board: Array,
+    candidates: _Candidates,
+    corners: Array,
+) -> ViewDesign:
+    """Build the design whose choice is the views of a calibration and candidates after them."""
+    design = build_design(calibration, views)
+    possible = _compute_candidate_information(calibration, board, candidates, corners)
+    every = FisherInformation(
+        *(np.concatenate(p) for p in zip(design.views, possible, strict=True))
+    )
+    # The systematic part is stated for the views at hand: it is converted to the larger number.
+    share = len(design.views.camera) / len(every.camera) if design.is_systematic_averaged else 1.0
+    return replace(design, views=every, systematic=design.systematic * share)
 
 
 def _list_candidates(

@@ -90,8 +90,17 @@ class ViewDesign:
 
     def compute_loss(self, chosen: Array) -> Array:
         """Return the mean variance (...) of projection over the image, px^2: what is minimised."""
-        variance = np.trace(self.compute_projection_covariance(chosen), axis1=-2, axis2=-1) / 2
-        return np.asarray(variance.mean(axis=-1))
+        return np.asarray(self._compute_variances(chosen).mean(axis=-1))
+
+    def compute_worst(self, chosen: Array) -> Array:
+        """Return the largest variance (...) of projection in the image, px^2: what a G-optimal
+        design minimises, for whom no pixel may be badly known."""
+        return np.asarray(self._compute_variances(chosen).max(axis=-1))
+
+    def _compute_variances(self, chosen: Array) -> Array:
+        """Return the mean variance (..., g) of a pixel's projection in both directions, px^2."""
+        covariance = self.compute_projection_covariance(chosen)
+        return np.asarray(np.trace(covariance, axis1=-2, axis2=-1) / 2)
 
     def compute_sigmas(self, chosen: Array) -> Array:
         """Return one sigma (..., 3) of centre, focal length and projection, px.

@@ -1,0 +1,36 @@
+"""Capture: live images, the board followed in them, and what to do with it until enough is known.
+
+`open_source` opens a camera, a video or a folder that is being filled; a `CaptureSession` looks at
+its frames, says what to do, and takes those that are worth it.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from calibgui.engine.faces import load_on_demand
+
+if TYPE_CHECKING:
+    from calibgui.engine.capture.board_tracking import track_corners as track_corners
+    from calibgui.engine.capture.frame_sources import (
+        Frame as Frame,
+        FrameSource as FrameSource,
+        Opened as Opened,
+        open_source as open_source,
+    )
+    from calibgui.engine.capture.guidance import Guidance as Guidance, guide_board as guide_board
+    from calibgui.engine.capture.session import (
+        CaptureSession as CaptureSession,
+        CaptureState as CaptureState,
+        Picture as Picture,
+    )
+
+load_on_demand(
+    __name__,
+    {
+        "board_tracking": ["track_corners"],
+        "frame_sources": ["Frame", "FrameSource", "Opened", "open_source"],
+        "guidance": ["Guidance", "guide_board"],
+        "session": ["CaptureSession", "CaptureState", "Picture"],
+    },
+)

@@ -1,0 +1,344 @@
+"""A capture: frames of a live image become the photographs that a camera is calibrated from.
+
+The board is followed from frame to frame (`board_tracking`), and found anew now and then and
+whenever it was lost. A frame is taken by itself if it is
+
+- still: the corners move by less than a third of a pixel over some frames,
+- new: it lowers the uncertainty of the worst pixel by at least half of what the best view would
+  (`uncertainty/next_view.py`), or, while the views do not determine the camera, it is near the pose
+  that is wanted,
+- sharp: its edges are not much more blurred than those of the sharpest one taken.
+
+After each the camera is calibrated and the next view proposed. Every fifth picture is put aside:
+the camera is not calibrated with it, and it tells how well what was not seen is predicted. The
+capture is complete when the worst pixel's uncertainty has come down to what was asked for.
+
+The lens is the best fitting of three (`MODELS`); the choice among all is left to the calibration
+that follows the capture.
+"""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from calibgui.engine.arrays import Array, GreyImage, Size
+from calibgui.engine.boards.board import Board
+from calibgui.engine.calibration.board_poses import locate_board
+from calibgui.engine.calibration.calibrate import calibrate
+from calibgui.engine.calibration.observations import Observation, make_observation
+from calibgui.engine.calibration.result import Calibration, DegenerateError
+from calibgui.engine.capture.board_tracking import track_corners
+from calibgui.engine.capture.frame_sources import Frame
+from calibgui.engine.capture.guidance import guide_board
+from calibgui.engine.detection.detector_io import check_grey_levels
+from calibgui.engine.errors import CalibrationError, NoBoardError
+from calibgui.engine.features.corners import Corners
+from calibgui.engine.geometry.pose import Pose
+from calibgui.engine.uncertainty.next_view import (
+    NextView,
+    predict_uncertainty,
+    propose_views,
+)
+from calibgui.engine.uncertainty.projection_uncertainty import estimate_projection_uncertainty
+from calibgui.engine.uncertainty.view_design import ViewDesign
+
+MODELS = ("lucchese", "brown-conrady", "kannala-brandt")
+"""The lens models of which the best fitting one is used: the paper's, one for strong barrel
+distortion, and one for fisheyes."""
+_SEARCH_SECONDS = 0.2
+"""Time after which the board is found anew, s: a choice, which costs a tenth to a quarter of a
+core."""
+_STILL_PX = 0.3
+"""Rms motion of the corners from frame to frame up to which the board is still, px: its share of
+the blur is less than that of a pixel."""
+_STILL_FRAMES = 5
+"""Number of such frames in a row."""
+_MAX_BLUR_RATIO = 1.5
+"""Blur of the edges over that of the sharpest picture up to which one is sharp: a choice."""
+_MIN_USE = 0.5
+"""Part of what the best view would gain that a view must gain to be taken: a choice."""
+_MIN_MATCH = 0.7
+"""Match with the wanted pose from which a view is taken while the camera is not determined: within
+a third of the board's size, which a tilt of 25 degrees or more survives."""
+_VALIDATION_EVERY = 5
+"""Of so many pictures one is put aside."""
+_LOSS = ViewDesign.compute_worst
+"""What the next view is to lower: that of the worst pixel, which the capture ends by."""
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Picture:
+    """A frame that was taken."""
+
+    frame: Frame
+    corners: Corners
+    observation: Observation
+    for_validation: bool
+    """True if the camera is not calibrated with it."""
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class CaptureState:
+    """What a frame shows, and what is to be done."""
+
+    corners: Corners | None
+    """The board in the frame; None if there is none."""
+    wanted: NextView | None
+    """The view to take next; None before the first picture, and when the capture is complete."""
+    match: float
+    """How near the board is to it, 0 to 1."""
+    instruction: str
+    """What the user is to do, one thing."""
+    taken: Picture | None
+    """The picture that this frame became."""
+
+
+class CaptureSession:
+    """Follows the board, says what to do, and takes the frames that are worth it.
+
+    Args:
+        find: finds the board in an image (h, w), or raises `NoBoardError`.
+        square: side of a square or distance of circles, mm.
+        limit: uncertainty of the worst pixel's projection at which the capture is complete, px.
+    """
+
+    def __init__(self, find: Callable[[GreyImage], Corners], square: float, limit: float) -> None:
+        self._find = find
+        self._square = square
+        self.limit = limit
+        self.pictures: list[Picture] = []
+        self.calibration: Calibration | None = None
+        """The camera so far, which may be partial; None before the first picture."""
+        self.worst = np.inf
+        """Uncertainty of the worst pixel's projection, px; infinite until the views determine the
+        camera."""
+        self._board: Board | None = None
+        self._size: Size | None = None
+        self.wanted: NextView | None = None
+        """The view to take next; None before the first picture, and at the end."""
+        self._before: GreyImage | None = None
+        self._corners: Corners | None = None
+        self._found_at = -np.inf
+        self._motions: deque[float] = deque(maxlen=_STILL_FRAMES)
+        self._has_judged = False
+        """True if this pose was judged since the board last moved."""
+        self._advice = ""
+        """Why this pose was not taken, as long as the board stays in it."""
+
+    @property
+    def is_complete(self) -> bool:
+        """True if the camera is known as well as was asked for."""
+        return self.worst <= self.limit
+
+    @property
+    def views(self) -> list[Observation]:
+        """The views that the camera is calibrated from."""
+        return [each.observation for each in self.pictures if not each.for_validation]
+
+    def observe(self, frame: Frame) -> CaptureState:
+        """Look at a frame, and take it if it is still, new and sharp.
+
+        Raises:
+            CalibrationError: if its size is not that of the frames before.
+        """
+        grey = check_grey_levels(frame.image)
+        self._check_size(grey)
+        self._follow(grey, frame.time)
+        if self._corners is None:
+            return self._state("Hold the whole board in the picture.")
+        pose = self._locate(self._corners)
+        match, instruction = self._guide(pose)
+        if not self._is_still:
+            self._has_judged, self._advice = False, ""
+            return self._state(instruction, match)
+        taken = None
+        if not self._has_judged:
+            self._has_judged = True
+            if self._is_worth_taking(self._corners, pose, match):
+                taken = self.take(frame)
+        if taken is None:
+            return self._state(self._advice or instruction, match)
+        return self._state("Taken.", match, taken)
+
+    def examine(self, frame: Frame) -> CaptureState:
+        """Look at a photograph that somebody took by itself, and take it if it shows a sharp board.
+
+        Raises:
+            CalibrationError: if its size is not that of those before.
+        """
+        picture = self.take(frame)
+        self._corners = None if picture is None else picture.corners
+        if picture is None:
+            return self._state(self._advice)
+        match, instruction = self._guide(self._locate(picture.corners))
+        return self._state(instruction, match, picture)
+
+    def take(self, frame: Frame) -> Picture | None:
+        """Take a frame, whatever it adds, unless it shows no board or is blurred.
+
+        Raises:
+            CalibrationError: if its size is not that of those before.
+        """
+        grey = check_grey_levels(frame.image)
+        self._check_size(grey)
+        try:
+            corners = self._find(grey)
+        except NoBoardError as error:
+            self._advice = error.message
+            return None
+        if self._is_blurred(corners):
+            self._advice = "It is blurred here: hold it still, and check the focus."
+            return None
+        if self._board is None:
+            self._board = Board(*corners.shape, self._square, corners.pattern)
+        try:
+            observation = make_observation(
+                corners.uv, self._board.points(corners.grid), corners.cov
+            )
+        except CalibrationError as error:
+            self._advice = error.message
+            return None
+        is_aside = len(self.pictures) % _VALIDATION_EVERY == _VALIDATION_EVERY - 1
+        picture = Picture(frame, corners, observation, is_aside)
+        self.pictures.append(picture)
+        self._learn()
+        return picture
+
+    def measure_unseen_error(self) -> float:
+        """Measure the rms distance, px, of corners put aside from where the camera expects them.
+
+        Their boards' poses are estimated. NaN if none was put aside, or no camera is known.
+        """
+        aside = [each.observation for each in self.pictures if each.for_validation]
+        if not aside or self.calibration is None:
+            return float("nan")
+        missed = [locate_board(self.calibration.camera, view).residuals for view in aside]
+        return float(np.sqrt(np.mean(np.sum(np.concatenate(missed) ** 2, axis=1))))
+
+    def _state(
+        self, instruction: str, match: float = 0.0, taken: Picture | None = None
+    ) -> CaptureState:
+        return CaptureState(self._corners, self.wanted, match, instruction, taken)
+
+    def _check_size(self, grey: GreyImage) -> None:
+        size = (grey.shape[1], grey.shape[0])
+        self._size = self._size or size
+        if size != self._size:
+            raise CalibrationError(
+                f"The images changed from {self._size[0]} x {self._size[1]} px to "
+                f"{size[0]} x {size[1]} px.",
+                "A camera is calibrated for images of one size: start again. What was taken before "
+                "is kept.",
+            )
+
+    def _follow(self, grey: GreyImage, time: float) -> None:
+        """Follow the board to this frame, or find it."""
+        before, self._before = self._before, grey
+        corners = None
+        if self._corners is not None and before is not None:
+            corners = track_corners(before, grey, self._corners)
+        self._motions.append(np.inf if corners is None else _measure_motion(self._corners, corners))
+        if corners is None or time - self._found_at >= _SEARCH_SECONDS:
+            try:
+                corners = self._find(grey)
+                self._found_at = time
+            except NoBoardError:
+                pass  # a blurred one can be followed where it cannot be found
+        self._corners = corners
+
+    @property
+    def _is_still(self) -> bool:
+        full = len(self._motions) == _STILL_FRAMES
+        return full and max(self._motions) <= _STILL_PX
+
+    def _locate(self, corners: Corners) -> Pose | None:
+        """Locate the board with the camera so far."""
+        if self.calibration is None or self._board is None:
+            return None
+        try:
+            xy = self._board.points(corners.grid)
+            return locate_board(self.calibration.camera, (corners.uv, xy)).pose
+        except CalibrationError:
+            return None
+
+    def _guide(self, pose: Pose | None) -> tuple[float, str]:
+        """Return the match with the wanted view, and what to do."""
+        if self._board is None or self.calibration is None or self.wanted is None or pose is None:
+            return 0.0, "Hold it still."
+        guidance = guide_board(
+            pose, self.wanted.pose, self._board.points(), self.calibration.camera
+        )
+        return guidance.match, guidance.instruction
+
+    def _is_worth_taking(self, corners: Corners, pose: Pose | None, match: float) -> bool:
+        """Return whether a view is as new as is wanted."""
+        if self.calibration is None or self.wanted is None:
+            return not self.pictures
+        if pose is None or self._board is None:
+            return False
+        if self.calibration.diagnosis is not None:
+            return match >= _MIN_MATCH
+        view = make_observation(corners.uv, self._board.points(corners.grid))
+        after = predict_uncertainty(self.calibration, self.views, view, pose, _LOSS)
+        gain, best = self.wanted.before - after, self.wanted.before - self.wanted.after
+        return bool(gain >= _MIN_USE * best)
+
+    def _is_blurred(self, corners: Corners) -> bool:
+        """Return whether a picture is blurred beside those that were taken."""
+        taken = [_measure_blur(each.corners) for each in self.pictures]
+        return bool(taken) and _measure_blur(corners) > _MAX_BLUR_RATIO * min(taken)
+
+    def _learn(self) -> None:
+        """Calibrate with what was taken, and propose the next view."""
+        assert self._size is not None
+        if self.pictures[-1].for_validation:
+            return
+        views = self.views
+        self.calibration = _calibrate(views, self._size)
+        if self.calibration is None:
+            return
+        if self.calibration.diagnosis is None:
+            self.worst = estimate_projection_uncertainty(self.calibration, views).worst
+        if self.is_complete:
+            self.wanted = None
+            return
+        try:
+            (self.wanted,) = propose_views(self.calibration, views, 1, _LOSS)
+        except CalibrationError:
+            self.wanted = None
+
+
+def _calibrate(views: list[Observation], size: Size) -> Calibration | None:
+    """Calibrate in the model that fits better, whole or, if need be, in part; None if neither."""
+    found = []
+    for model in MODELS:
+        try:
+            found.append(calibrate(views, size, model=model))
+        except DegenerateError as error:
+            if error.partial is not None:
+                found.append(error.partial)
+        except CalibrationError:
+            continue
+    whole = [each for each in found if each.diagnosis is None]
+    return min(whole or found, key=lambda each: each.noise, default=None)
+
+
+def _measure_motion(before: Corners | None, after: Corners) -> float:
+    """Measure the rms motion, px, of the corners that both have."""
+    assert before is not None
+    places: dict[tuple[int, ...], Array] = {
+        tuple(cell): uv for cell, uv in zip(before.grid.tolist(), before.uv, strict=True)
+    }
+    moved = [
+        uv - places[tuple(cell)] for cell, uv in zip(after.grid.tolist(), after.uv, strict=True)
+    ]
+    return float(np.sqrt(np.mean(np.sum(np.array(moved) ** 2, axis=1))))
+
+
+def _measure_blur(corners: Corners) -> float:
+    """Return the median blur of the corners' edges, px; 0 where the finder tells none."""
+    return 0.0 if corners.blur is None else float(np.nanmedian(corners.blur))

@@ -1,0 +1,118 @@
+"""A session takes frames that are still, sharp and worth it, of a rendered hand."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from calibgui.engine.arrays import GreyImage
+from calibgui.engine.boards.board import Board
+from calibgui.engine.camera.camera import Camera
+from calibgui.engine.camera.distortion import project_points
+from calibgui.engine.capture.board_tracking import track_corners
+from calibgui.engine.capture.frame_sources import Frame
+from calibgui.engine.capture.session import CaptureSession
+from calibgui.engine.detection.find_corners import find_corners
+from calibgui.engine.errors import CalibrationError
+from calibgui.engine.features.corners import Corners
+from calibgui.engine.geometry.pose import Pose
+from calibgui.engine.uncertainty.projection_uncertainty import estimate_projection_uncertainty
+from tests.scenes.hand import Film, go, shake
+
+CAMERA = Camera((320, 240), [300, 300, 157, 122, -0.2, 0.05, 0, 0, 0], "brown-conrady")
+BOARD = Board(6, 8, 20.0)
+FIRST = Pose([0.1, -0.1, 0.0], [-75, -50, 330])
+STILL = 8
+"""Frames for which the hand holds still: longer than a session waits."""
+
+
+def _find(image: GreyImage) -> Corners:
+    return find_corners(image, BOARD.grid_size)
+
+
+@pytest.fixture
+def session() -> CaptureSession:
+    return CaptureSession(_find, BOARD.square, limit=0.08)
+
+
+@pytest.fixture
+def film() -> Film:
+    return Film(CAMERA, BOARD)
+
+
+def test_corners_are_followed_and_lost_with_the_board(film: Film) -> None:
+    near = Pose(FIRST.rvec, FIRST.tvec + np.array([3, -2, 4]))
+    far = Pose(FIRST.rvec, FIRST.tvec + np.array([400, 0, 0]))
+    frames = [film.take(pose).image for pose in (FIRST, near, far)]
+    corners = _find(frames[0])
+    followed = track_corners(frames[0], frames[1], corners)
+    assert followed is not None
+    assert len(followed) == len(corners)
+    truth = project_points(BOARD.points(followed.grid), CAMERA, near)
+    assert np.linalg.norm(followed.uv - truth, axis=1).max() < 0.2
+    assert track_corners(frames[1], frames[2], followed) is None
+
+
+def test_a_hand_that_follows_ends_the_capture(session: CaptureSession, film: Film) -> None:
+    rng = np.random.default_rng(1)
+    pose, taken = FIRST, []
+    state = session.observe(film.take(pose))
+    while not session.is_complete and len(session.pictures) < 20:
+        wanted = FIRST if state.wanted is None else shake(state.wanted.pose, BOARD, rng, 10, 3)
+        for each in go(pose, wanted, 3):
+            state = session.observe(film.take(each))
+            assert state.taken is None
+        pose = wanted
+        for _ in range(STILL):
+            state = session.observe(film.take(pose))
+            taken += [state.taken] if state.taken else []
+            if state.taken:
+                break
+    assert session.is_complete
+    assert len(session.pictures) <= 12
+    assert taken == session.pictures
+    assert [each.for_validation for each in taken] == [k % 5 == 4 for k in range(len(taken))]
+    assert session.calibration is not None
+    found = estimate_projection_uncertainty(session.calibration, session.views)
+    assert found.worst == session.worst <= 0.08
+    uv = np.array([[20.0, 20.0], [160.0, 120.0], [300.0, 220.0]])
+    rays = np.linalg.norm(_look(session.calibration.camera, uv) - _look(CAMERA, uv), axis=1)
+    assert rays.max() * 300 < 4 * session.worst, (rays.max() * 300, len(taken))
+    assert 0 < session.measure_unseen_error() < 0.3
+
+
+def _look(camera: Camera, uv: np.ndarray) -> np.ndarray:
+    from calibgui.engine.camera.projection import rays_from_pixels
+
+    return rays_from_pixels(uv, camera)
+
+
+def test_the_same_pose_is_taken_once(session: CaptureSession, film: Film) -> None:
+    states = [session.observe(film.take(FIRST)) for _ in range(3 * STILL)]
+    assert sum(state.taken is not None for state in states) == 1
+    assert states[-1].wanted is not None
+
+
+def test_a_moving_board_is_not_taken(session: CaptureSession, film: Film) -> None:
+    end = Pose(FIRST.rvec, FIRST.tvec + np.array([30, 0, 0]))
+    for pose in go(FIRST, end, 3 * STILL):
+        assert session.observe(film.take(pose)).taken is None
+
+
+def test_a_blurred_picture_is_refused(session: CaptureSession, film: Film) -> None:
+    assert session.take(film.take(FIRST)) is not None
+    assert session.take(film.take(FIRST, blur=2.0)) is None
+    state = session.examine(film.take(FIRST, blur=2.0))
+    assert "blurred" in state.instruction
+
+
+def test_no_board_is_said(session: CaptureSession) -> None:
+    state = session.observe(Frame(np.full((240, 320), 128, np.uint8), 0.0))
+    assert state.corners is None
+    assert state.instruction == "Hold the whole board in the picture."
+
+
+def test_images_of_another_size_are_refused(session: CaptureSession, film: Film) -> None:
+    session.observe(film.take(FIRST))
+    with pytest.raises(CalibrationError, match="320 x 240 px to 640 x 480 px"):
+        session.observe(Frame(np.zeros((480, 640), np.uint8), 1.0))
