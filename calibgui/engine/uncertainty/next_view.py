@@ -212,7 +212,8 @@ def predict_uncertainty(
         loss: what of the uncertainty is predicted, as for `propose_views`.
     """
     R = rotations.rotation_from_vector(np.array(pose.rvec))
-    one = _Candidates(*np.full((4, 1), np.nan), R[None], np.array(pose.tvec)[None])
+    unused = np.full(1, np.nan)
+    one = _Candidates(unused, unused, unused, unused, R[None], np.array(pose.tvec)[None])
     extended = _extend_design(calibration, views, view.xy, one, view.uv[None])
     return float(np.sqrt(loss(extended, np.ones(len(views) + 1))))
 
