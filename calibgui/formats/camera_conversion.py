@@ -205,15 +205,15 @@ def write_conversion(
 
 
 def _check_holds_cameras(exporter: Exporter, path: str | os.PathLike[str]) -> None:
-    """Refuse a format that holds corners.
+    """Refuse a format that holds corners or poses.
 
     Raises:
         CalibrationError: if it does.
     """
     if exporter.needs_corners:
         raise CalibrationError(
-            f"{os.fspath(path)} is not written: the format {exporter.name!r} holds corners, and "
-            "there are none of this camera.",
+            f"{os.fspath(path)} is not written: the format {exporter.name!r} holds corners or the "
+            "poses of photographs, and there are none of this camera.",
             "Choose a format that holds a camera only.",
         )
 

@@ -20,7 +20,17 @@ from calibgui.formats import (
 )
 from tests.formats.cameras import example, holding, rays_for, splined
 
-_READ_BACK = ("opencv", "ros", "kalibr", "mrcal", "colmap", "matlab", "basalt", "gyroflow")
+_READ_BACK = (
+    "opencv",
+    "ros",
+    "kalibr",
+    "mrcal",
+    "colmap",
+    "nerfstudio",
+    "matlab",
+    "basalt",
+    "gyroflow",
+)
 """Formats of other programs whose cameras are both written and read."""
 _HELD = [
     (name, model)

@@ -28,6 +28,7 @@ from calibgui.formats.kalibr_camchain import format_camchain
 from calibgui.formats.lensfun_xml import format_database
 from calibgui.formats.matlab_script import format_script
 from calibgui.formats.mrcal_model import format_camera_model
+from calibgui.formats.nerfstudio_json import format_transforms
 from calibgui.formats.opencv_file import format_storage
 from calibgui.formats.result_json import read_result
 from calibgui.formats.ros_yaml import format_camera_info
@@ -127,6 +128,9 @@ def test_other_programs_files_are_written_as_they_always_were(golden: Result) ->
     assert model == (_GOLDEN / "camera.cameramodel").read_text()
     listed = format_cameras(calibration.camera, "How it was refitted.")
     assert listed == (_GOLDEN / "cameras.txt").read_text()
+    images = [f"photographs/{k}.png" for k, _ in enumerate(calibration.poses)]
+    transforms = format_transforms(calibration, images, "How it was refitted.")
+    assert transforms == (_GOLDEN / "transforms.json").read_text()
     script = format_script(calibration.camera, "How it was refitted.")
     assert script == (_GOLDEN / "camera.m").read_text()
     fisheye = Camera(
