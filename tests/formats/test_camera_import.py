@@ -27,6 +27,7 @@ _READ_BACK = (
     "mrcal",
     "colmap",
     "nerfstudio",
+    "metashape",
     "matlab",
     "basalt",
     "gyroflow",

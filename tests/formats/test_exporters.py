@@ -27,6 +27,7 @@ from calibgui.formats.gyroflow_json import format_profile
 from calibgui.formats.kalibr_camchain import format_camchain
 from calibgui.formats.lensfun_xml import format_database
 from calibgui.formats.matlab_script import format_script
+from calibgui.formats.metashape_xml import format_calibration as format_metashape
 from calibgui.formats.mrcal_model import format_camera_model
 from calibgui.formats.nerfstudio_json import format_transforms
 from calibgui.formats.opencv_file import format_storage
@@ -131,6 +132,8 @@ def test_other_programs_files_are_written_as_they_always_were(golden: Result) ->
     images = [f"photographs/{k}.png" for k, _ in enumerate(calibration.poses)]
     transforms = format_transforms(calibration, images, "How it was refitted.")
     assert transforms == (_GOLDEN / "transforms.json").read_text()
+    metashape = format_metashape(calibration.camera, "How it was refitted.")
+    assert metashape == (_GOLDEN / "metashape.xml").read_text()
     script = format_script(calibration.camera, "How it was refitted.")
     assert script == (_GOLDEN / "camera.m").read_text()
     fisheye = Camera(
