@@ -25,8 +25,11 @@ from pathlib import Path
 from calibgui.dataset import Result
 from calibgui.engine.errors import CalibrationError
 from calibgui.formats import (
+    anipose_toml,
     basalt_json,
+    caliscope_toml,
     colmap_cameras,
+    colmap_model,
     corners_csv,
     corners_json,
     engine_python,
@@ -55,10 +58,13 @@ EXPORTERS: dict[str, Exporter] = {
         kalibr_camchain,
         mrcal_model,
         colmap_cameras,
+        colmap_model,
         nerfstudio_json,
         metashape_xml,
         matlab_script,
         basalt_json,
+        anipose_toml,
+        caliscope_toml,
         gyroflow_json,
         lensfun_xml,
         engine_python,
@@ -93,7 +99,7 @@ def find_exporter(name: str, path: str | os.PathLike[str]) -> Exporter:
     """Return the exporter `name` after a check that it can write `path`.
 
     Raises:
-        CalibrationError: for an unknown format or a suffix that is not the format's.
+        CalibrationError: for an unknown format or a name that is not the format's.
     """
     if name not in EXPORTERS:
         raise CalibrationError(
@@ -104,6 +110,11 @@ def find_exporter(name: str, path: str | os.PathLike[str]) -> Exporter:
         raise CalibrationError(
             f"{os.fspath(path)} is not named as a file of the format {name!r}.",
             f"Give it the suffix {' or '.join(exporter.suffixes)}.",
+        )
+    if exporter.stem and Path(path).stem != exporter.stem:
+        raise CalibrationError(
+            f"{os.fspath(path)} is not named as readers of the format {name!r} expect.",
+            f"Name it {' or '.join(exporter.stem + suffix for suffix in exporter.suffixes)}.",
         )
     return exporter
 

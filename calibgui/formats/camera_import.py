@@ -15,7 +15,9 @@ from calibgui.dataset import Result
 from calibgui.engine.arrays import Size
 from calibgui.engine.errors import CalibrationError
 from calibgui.formats import (
+    anipose_toml,
     basalt_json,
+    caliscope_toml,
     colmap_cameras,
     gyroflow_json,
     kalibr_camchain,
@@ -40,6 +42,8 @@ IMPORTERS: tuple[Importer, ...] = tuple(
         photonvision_json,
         mrcal_model,
         basalt_json,
+        caliscope_toml,
+        anipose_toml,
         gyroflow_json,
         nerfstudio_json,
         metashape_xml,
@@ -71,6 +75,8 @@ _WITHOUT_CAMERA = (
 )
 """Patterns of files that this program writes and reads no camera from, what these are, and what to
 do instead."""
+_BINARY = ((colmap_cameras.is_binary, colmap_cameras.unpack_cameras),)
+"""Functions that tell and translate the binary files that are read."""
 MAX_FILE_SIZE = 64 << 20
 """Size of the largest files that are read, bytes: results and mrcal's models hold all corners."""
 
@@ -150,6 +156,10 @@ def _find_importer(text: str) -> Importer | None:
 
 
 def _read_text(path: str | os.PathLike[str]) -> str:
-    """Return the text of a file. Raises as ``gate.read_text``."""
+    """Return the text of a file, or that which says the same as its binary content.
+
+    Raises as ``gate.read_text``.
+    """
     readable = f"These can be read: {', '.join(importer.title for importer in IMPORTERS)}."
-    return read_text(path, MAX_FILE_SIZE, "a camera file that can be read", readable)
+    title = "a camera file that can be read"
+    return read_text(path, MAX_FILE_SIZE, title, readable, _BINARY)

@@ -49,6 +49,8 @@ class Exporter:
     """Conventions, what is refitted and what the format cannot hold."""
     write: Callable[[Result, Path], ExportReport]
     """Function that writes a file; it raises CalibrationError if it cannot."""
+    stem: str = ""
+    """Name without suffix that its readers look for; empty if any will do."""
     refits: tuple[str, ...] = ()
     """Names of the models in which cameras of other models are refitted, the simplest first; a
     camera that none of them follows is not written. Empty if nothing is ever refitted."""
@@ -65,6 +67,11 @@ class Exporter:
     write_zoom: Callable[[Sequence[tuple[float, Camera]], Path], ExportReport] | None = None
     """Function that writes one file of a zoom lens from its focal lengths, mm, and cameras, or None
     if the format holds one camera; it raises CalibrationError if it cannot."""
+
+    @property
+    def file_name(self) -> str:
+        """Name of a file unless the user chooses another."""
+        return f"{self.stem or 'camera'}{self.suffixes[0]}"
 
     def holds(self, camera: Camera) -> bool:
         """Return whether `write` takes the camera as calibrated."""

@@ -30,6 +30,8 @@ _READ_BACK = (
     "metashape",
     "matlab",
     "basalt",
+    "anipose",
+    "caliscope",
     "gyroflow",
 )
 """Formats of other programs whose cameras are both written and read."""
@@ -156,7 +158,7 @@ def test_our_own_files_without_a_camera_name_the_result(
 
 
 def test_all_of_our_own_files_are_read_or_named() -> None:
-    without = {"lensfun", "python", "opencv-python", "corners", "corners-csv"}
+    without = {"lensfun", "python", "opencv-python", "corners", "corners-csv", "colmap-model"}
     assert {"result", *_READ_BACK} | without == set(EXPORTERS)
 
 

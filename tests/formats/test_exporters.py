@@ -21,7 +21,9 @@ from calibgui.engine.calibration.result import Calibration, ViewResiduals
 from calibgui.engine.camera.camera import Camera
 from calibgui.engine.errors import CalibrationError
 from calibgui.formats import EXPORTERS, export, find_exporter
+from calibgui.formats.anipose_toml import format_calibration as format_anipose
 from calibgui.formats.basalt_json import format_calibration
+from calibgui.formats.caliscope_toml import format_array
 from calibgui.formats.colmap_cameras import format_cameras
 from calibgui.formats.gyroflow_json import format_profile
 from calibgui.formats.kalibr_camchain import format_camchain
@@ -43,8 +45,9 @@ def test_every_exporter_writes_what_it_lists(tmp_path: Path, name: str, result: 
     exporter = EXPORTERS[name]
     assert exporter.name == name
     for suffix in exporter.suffixes:
-        report = export(result, name, tmp_path / f"file{suffix.upper()}")
-        assert report.path.read_text(encoding="utf-8").strip()
+        file = tmp_path / f"{exporter.stem or 'file'}{suffix.upper()}"
+        report = export(result, name, file)
+        assert report.path.read_bytes().strip()
         assert report.note
         if report.largest_error_px is not None:
             assert 0 < report.largest_error_px < 1
@@ -61,13 +64,15 @@ def test_what_cannot_be_exported_is_refused_beforehand() -> None:
         find_exporter("bouguet", "a.mat")
     with pytest.raises(CalibrationError, match=r"a\.txt is not named as .*\.yaml or \.yml"):
         find_exporter("ros", "a.txt")
+    with pytest.raises(CalibrationError, match=r"Name it images\.txt or images\.bin"):
+        find_exporter("colmap-model", "cameras.txt")
 
 
 @pytest.mark.parametrize("name", EXPORTERS)
 def test_a_file_that_cannot_be_written_is_named_and_nothing_is_left(
     tmp_path: Path, name: str, result: Result
 ) -> None:
-    file = (tmp_path / "camera").with_suffix(EXPORTERS[name].suffixes[0])
+    file = tmp_path / EXPORTERS[name].file_name
     file.mkdir()
     with pytest.raises(CalibrationError, match="cannot be written") as caught:
         export(result, name, file)
@@ -132,6 +137,10 @@ def test_other_programs_files_are_written_as_they_always_were(golden: Result) ->
     images = [f"photographs/{k}.png" for k, _ in enumerate(calibration.poses)]
     transforms = format_transforms(calibration, images, "How it was refitted.")
     assert transforms == (_GOLDEN / "transforms.json").read_text()
+    anipose = format_anipose(calibration.camera, "How it was refitted.")
+    assert anipose == (_GOLDEN / "anipose.toml").read_text()
+    array = format_array(calibration.camera, "How it was refitted.")
+    assert array == (_GOLDEN / "camera_array.toml").read_text()
     metashape = format_metashape(calibration.camera, "How it was refitted.")
     assert metashape == (_GOLDEN / "metashape.xml").read_text()
     script = format_script(calibration.camera, "How it was refitted.")

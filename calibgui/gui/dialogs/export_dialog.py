@@ -32,8 +32,6 @@ from calibgui.gui.widgets.kept_settings import keep, read_kept_text
 from calibgui.gui.widgets.save_names import ask_for_name
 from calibgui.gui.widgets.wrapped_label import WrappedLabel
 
-_NAME = "camera"
-"""The name that a file is given unless the user chooses another."""
 _FORMAT = "export format"
 """Setting with the name of the format that was saved last, which is shown first."""
 _SHOWN = 20_000
@@ -133,7 +131,7 @@ class ExportDialog(QDialog):
         for button in (self.copy, self.save):
             button.setEnabled(False)
         # Some formats hold the file's own name.
-        draft = Path(self._folder.name) / exporter.name / f"{_NAME}{exporter.suffixes[0]}"
+        draft = Path(self._folder.name) / exporter.name / exporter.file_name
         draft.parent.mkdir(exist_ok=True)
         self._job = self._jobs.start(
             self.tr("Preparing {0}").format(exporter.title),
@@ -180,7 +178,7 @@ class ExportDialog(QDialog):
         path = ask_for_name(
             self,
             self.tr("Export"),
-            f"{_NAME}{exporter.suffixes[0]}",
+            exporter.file_name,
             f"{exporter.title} ({pattern})",
         )
         if path is None:

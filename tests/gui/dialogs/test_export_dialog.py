@@ -43,7 +43,7 @@ def test_shows_and_copies_the_file(
 ) -> None:
     choose(dialog, name, jobs, qtbot)
     exporter = EXPORTERS[name]
-    report = exporter.write(result, tmp_path / f"camera{exporter.suffixes[0]}")
+    report = exporter.write(result, tmp_path / exporter.file_name)
     text = report.path.read_text(encoding="utf-8")
     assert dialog.text.toPlainText().removesuffix("\n…") == text[:20_000]
     assert dialog.limits.text() == exporter.limits
