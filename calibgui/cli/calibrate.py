@@ -9,6 +9,7 @@ from __future__ import annotations
 import argparse
 import itertools
 from collections.abc import Mapping
+from dataclasses import replace
 from pathlib import Path
 
 from calibgui.app.calibrating.best_camera import calibrate_best
@@ -26,9 +27,11 @@ from calibgui.app.calibrating.settings import (
 from calibgui.app.calibrating.true_board import GLASS, list_gains, measure_gain_of_glass
 from calibgui.cli.arguments import (
     add_export_option,
+    add_hardware_option,
     add_reader_option,
     is_corners_file,
     parse_positive,
+    read_hardware_options,
 )
 from calibgui.cli.console import Console
 from calibgui.cli.corners import add_corner_options, check_corner_options, read_or_search
@@ -70,6 +73,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
         help="write the result as JSON, which other commands read; - for standard output",
     )
     add_export_option(parser, "write another format as well")
+    add_hardware_option(parser)
     add_reader_option(parser)
     add_overwrite_option(parser)
     parser.add_argument(
@@ -256,6 +260,7 @@ def _write_files(
         CalibrationError: if the result or the board's shape cannot be written.
     """
     calibration = result.calibration
+    result = replace(result, hardware=read_hardware_options(options))
     messages, errors = [], []
     if options.output:
         write_result(result, options.output)

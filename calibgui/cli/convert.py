@@ -17,7 +17,12 @@ from pathlib import Path
 from typing import Any
 
 from calibgui.app.outputs.output_files import check_outputs
-from calibgui.cli.arguments import add_export_option, parse_positive
+from calibgui.cli.arguments import (
+    add_export_option,
+    add_hardware_option,
+    parse_positive,
+    read_hardware_options,
+)
 from calibgui.cli.camera import CAMERA_FILE, add_camera_options, read_camera_and_warn
 from calibgui.cli.console import Console
 from calibgui.cli.outputs import add_overwrite_option
@@ -66,6 +71,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
         "corners; the whole image if left out",
     )
     add_export_option(parser, "the file to write")
+    add_hardware_option(parser)
     add_overwrite_option(parser)
 
 
@@ -81,7 +87,8 @@ def run(options: argparse.Namespace, console: Console) -> None:
     adapted = adapt_to_images(found, options, console)
     with limit_blas_threads():
         if found.title == EXPORTERS["result"].title:
-            answer = _convert_result(read_result_file(options.file), adapted.mode, options)
+            read = replace(read_result_file(options.file), hardware=read_hardware_options(options))
+            answer = _convert_result(read, adapted.mode, options)
         else:
             answer = _convert_camera(adapted, options)
             _tell_of_rectification(found, adapted, options, console)
@@ -144,7 +151,8 @@ def _tell_of_rectification(
 
 def _convert_camera(adapted: ImportedCamera, options: argparse.Namespace) -> dict[str, Any]:
     """Convert a camera by its rays, and write it."""
-    camera, extra = adapted.camera, (adapted.mode, adapted.rectification)
+    camera = adapted.camera
+    extra = (adapted.mode, adapted.rectification, read_hardware_options(options))
     model = options.model or camera.model
     if options.model:
         _check_formats(options, model)

@@ -27,6 +27,7 @@ from calibgui.engine.errors import CalibrationError
 from calibgui.formats import (
     anipose_toml,
     basalt_json,
+    bouguet_results,
     caliscope_toml,
     colmap_cameras,
     colmap_model,
@@ -62,6 +63,7 @@ EXPORTERS: dict[str, Exporter] = {
         nerfstudio_json,
         metashape_xml,
         matlab_script,
+        bouguet_results,
         basalt_json,
         anipose_toml,
         caliscope_toml,

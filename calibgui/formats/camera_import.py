@@ -17,6 +17,7 @@ from calibgui.engine.errors import CalibrationError
 from calibgui.formats import (
     anipose_toml,
     basalt_json,
+    bouguet_results,
     caliscope_toml,
     colmap_cameras,
     gyroflow_json,
@@ -47,6 +48,7 @@ IMPORTERS: tuple[Importer, ...] = tuple(
         gyroflow_json,
         nerfstudio_json,
         metashape_xml,
+        bouguet_results,
         matlab_script,
         kalibr_camchain,
         ros_yaml,
@@ -75,7 +77,10 @@ _WITHOUT_CAMERA = (
 )
 """Patterns of files that this program writes and reads no camera from, what these are, and what to
 do instead."""
-_BINARY = ((colmap_cameras.is_binary, colmap_cameras.unpack_cameras),)
+_BINARY = (
+    (bouguet_results.is_mat, bouguet_results.unpack_mat),
+    (colmap_cameras.is_binary, colmap_cameras.unpack_cameras),
+)
 """Functions that tell and translate the binary files that are read."""
 MAX_FILE_SIZE = 64 << 20
 """Size of the largest files that are read, bytes: results and mrcal's models hold all corners."""

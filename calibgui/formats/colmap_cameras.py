@@ -193,7 +193,7 @@ def read_colmap(source: CameraText) -> ImportedCamera:
 
 EXPORTER = Exporter(
     name="colmap",
-    title="COLMAP camera",
+    title="COLMAP cameras.txt",
     suffixes=(".txt", ".bin"),
     models=tuple(_WRITTEN),
     refits=("brown-conrady", "kannala-brandt-decentering"),

@@ -29,6 +29,7 @@ _READ_BACK = (
     "nerfstudio",
     "metashape",
     "matlab",
+    "bouguet",
     "basalt",
     "anipose",
     "caliscope",

@@ -23,6 +23,7 @@ from calibgui.engine.errors import CalibrationError
 from calibgui.formats import EXPORTERS, export, find_exporter
 from calibgui.formats.anipose_toml import format_calibration as format_anipose
 from calibgui.formats.basalt_json import format_calibration
+from calibgui.formats.bouguet_results import format_results, list_values
 from calibgui.formats.caliscope_toml import format_array
 from calibgui.formats.colmap_cameras import format_cameras
 from calibgui.formats.gyroflow_json import format_profile
@@ -60,8 +61,8 @@ def test_every_format_names_reader_convention_and_limits(name: str) -> None:
 
 
 def test_what_cannot_be_exported_is_refused_beforehand() -> None:
-    with pytest.raises(CalibrationError, match=r"no export format 'bouguet'.*Choose from result"):
-        find_exporter("bouguet", "a.mat")
+    with pytest.raises(CalibrationError, match=r"no export format 'word'.*Choose from result"):
+        find_exporter("word", "a.doc")
     with pytest.raises(CalibrationError, match=r"a\.txt is not named as .*\.yaml or \.yml"):
         find_exporter("ros", "a.txt")
     with pytest.raises(CalibrationError, match=r"Name it images\.txt or images\.bin"):
@@ -137,6 +138,8 @@ def test_other_programs_files_are_written_as_they_always_were(golden: Result) ->
     images = [f"photographs/{k}.png" for k, _ in enumerate(calibration.poses)]
     transforms = format_transforms(calibration, images, "How it was refitted.")
     assert transforms == (_GOLDEN / "transforms.json").read_text()
+    results = format_results(list_values(calibration), "How it was refitted.")
+    assert results == (_GOLDEN / "Calib_Results.m").read_text()
     anipose = format_anipose(calibration.camera, "How it was refitted.")
     assert anipose == (_GOLDEN / "anipose.toml").read_text()
     array = format_array(calibration.camera, "How it was refitted.")
