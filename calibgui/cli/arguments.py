@@ -254,6 +254,16 @@ def add_export_option(parser: argparse.ArgumentParser, purpose: str) -> None:
     )
 
 
+def add_export_folder_option(parser: argparse.ArgumentParser) -> None:
+    """Add the option on a folder for all formats."""
+    parser.add_argument(
+        "--export-all",
+        type=Path,
+        metavar="FOLDER",
+        help="write every format into a folder, with a page that tells who reads which file",
+    )
+
+
 def add_hardware_option(parser: argparse.ArgumentParser) -> None:
     """Add the option that names camera and lens, whose value is a list of pairs of texts."""
     parser.add_argument(

@@ -18,6 +18,7 @@ from typing import Any
 
 from calibgui.app.outputs.output_files import check_outputs
 from calibgui.cli.arguments import (
+    add_export_folder_option,
     add_export_option,
     add_hardware_option,
     parse_positive,
@@ -25,7 +26,7 @@ from calibgui.cli.arguments import (
 )
 from calibgui.cli.camera import CAMERA_FILE, add_camera_options, read_camera_and_warn
 from calibgui.cli.console import Console
-from calibgui.cli.outputs import add_overwrite_option
+from calibgui.cli.outputs import add_overwrite_option, export_to_folder
 from calibgui.cli.result import read_result_file
 from calibgui.cli.sensor_mode import adapt_to_images, add_mode_options, is_mode_stated
 from calibgui.dataset import Result
@@ -71,16 +72,21 @@ def configure(parser: argparse.ArgumentParser) -> None:
         "corners; the whole image if left out",
     )
     add_export_option(parser, "the file to write")
+    add_export_folder_option(parser)
     add_hardware_option(parser)
     add_overwrite_option(parser)
 
 
 def run(options: argparse.Namespace, console: Console) -> None:
     """Read, convert, write and print."""
-    if not (options.model or options.export or is_mode_stated(options)):
+    targets = (options.model, options.export, options.export_all, is_mode_stated(options))
+    if not any(targets):
         options.usage_error(
-            "say what to convert to: --model NAME, --export FORMAT=FILE, a sensor mode, or several"
+            "say what to convert to: --model NAME, --export FORMAT=FILE, --export-all FOLDER, a "
+            "sensor mode, or several"
         )
+    if options.export_all and is_mode_stated(options):
+        options.usage_error("--export-all is for the images of the calibration, without a mode")
     outputs = [(path, name) for name, path in options.export]
     check_outputs(outputs, [options.file], options.overwrite)
     found = read_camera_and_warn(options.file, console, options.camera, options.size)
@@ -89,6 +95,11 @@ def run(options: argparse.Namespace, console: Console) -> None:
         if found.title == EXPORTERS["result"].title:
             read = replace(read_result_file(options.file), hardware=read_hardware_options(options))
             answer = _convert_result(read, adapted.mode, options)
+        elif options.export_all:
+            raise CalibrationError(
+                f"{options.file} holds a camera only, and many formats hold corners or poses.",
+                "Name the result.json of a calibration, or the formats with --export.",
+            )
         else:
             answer = _convert_camera(adapted, options)
             _tell_of_rectification(found, adapted, options, console)
@@ -128,6 +139,8 @@ def _convert_result(
             files[str(path)] = export(result, name, path).note
         else:
             files[str(path)] = export_stream(result, mode, EXPORTERS[name], path).note
+    if options.export_all:
+        files[str(options.export_all)] = export_to_folder(result, options)
     return _encode_camera(camera) | answer | {"files": files}
 
 

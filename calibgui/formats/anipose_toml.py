@@ -99,8 +99,10 @@ EXPORTER = Exporter(
     suffixes=(".toml",),
     models=(*PERSPECTIVE_MODELS, FISHEYE),
     refits=("brown-conrady", FISHEYE),
-    limits="OpenCV's coefficients or those of cv2.fisheye, other lenses refitted; Pose2Sim takes "
-    "no fisheye; no standard deviations, no poses.",
+    readers="Anipose, Pose2Sim, FreeMoCap",
+    keeps="the camera in the models of cv2.projectPoints, or of cv2.fisheye, which Pose2Sim does "
+    "not know",
+    loses="standard deviations, poses, corners",
     write=write_anipose,
 )
 IMPORTER = Importer(

@@ -240,8 +240,10 @@ EXPORTER = Exporter(
     models=("brown-conrady", "brown-conrady-4", "pinhole"),
     refits=("brown-conrady",),
     holds_skew=True,
-    limits="Camera and poses with their errors, three standard deviations each; the .mat holds the "
-    "corners, too; other lenses refitted.",
+    readers="Bouguet's toolbox for MATLAB, GNU Octave",
+    keeps="the camera and poses in mm with three standard deviations each; the .mat has the "
+    "corners, too",
+    loses="correlations",
     write=write_bouguet,
 )
 IMPORTER = Importer(

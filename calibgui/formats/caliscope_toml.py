@@ -51,8 +51,9 @@ EXPORTER = Exporter(
     suffixes=(".toml",),
     models=anipose_toml.EXPORTER.models,
     refits=anipose_toml.EXPORTER.refits,
-    limits="OpenCV's coefficients or those of cv2.fisheye, other lenses refitted; no standard "
-    "deviations, no poses.",
+    readers="caliscope",
+    keeps="the camera in the models of cv2.projectPoints or cv2.fisheye",
+    loses="standard deviations, poses, corners",
     write=write_caliscope,
 )
 IMPORTER = Importer(

@@ -197,8 +197,10 @@ EXPORTER = Exporter(
     suffixes=(".txt", ".bin"),
     models=tuple(_WRITTEN),
     refits=("brown-conrady", "kannala-brandt-decentering"),
-    limits="OpenCV's forward and fisheye models, division or EUCM, other lenses refitted; no "
-    "standard deviations, no poses.",
+    readers="COLMAP, pycolmap",
+    keeps="the camera in OpenCV's models, as THIN_PRISM_FISHEYE, DIVISION or EUCM; pixels count "
+    "from a corner",
+    loses="standard deviations, poses, corners",
     write=write_colmap,
 )
 IMPORTER = Importer(

@@ -205,8 +205,10 @@ EXPORTER = Exporter(
     stem="images",
     models=colmap_cameras.EXPORTER.models,
     refits=colmap_cameras.EXPORTER.refits,
-    limits="Camera, poses in metres from the board, corners and the board's points, in three files "
-    "of a folder; other lenses refitted; no standard deviations.",
+    readers="COLMAP, pycolmap, 3D Gaussian splatting, OpenMVS",
+    keeps="the camera as in cameras.txt, poses in metres, corners and the board's points, in "
+    "three files of a folder",
+    loses="standard deviations",
     write=write_colmap_model,
     needs_corners=True,
 )

@@ -27,7 +27,7 @@ from calibgui.engine.calibration import Observation
 from calibgui.engine.camera import MODELS
 from calibgui.engine.files import write_atomically
 from calibgui.formats.corner_table import CornerText, make_board, make_view
-from calibgui.formats.corners_json import HINT
+from calibgui.formats.corners_json import HINT, NOTE
 from calibgui.formats.csv_table import format_csv, parse_cell, parse_csv
 from calibgui.formats.exporter import Exporter, ExportReport, describe_condition
 from calibgui.formats.image_names import shorten_names
@@ -168,7 +168,7 @@ def _find_board(source: CornerText, grid: IntArray | None, xy: Array | None) -> 
 
 def _export(result: Result, path: Path) -> ExportReport:
     write_corners_csv(result.views, result.board, path)
-    return ExportReport(path, f"{EXPORTER.limits} {describe_condition(result)}".rstrip())
+    return ExportReport(path, f"{NOTE} {describe_condition(result)}".rstrip())
 
 
 EXPORTER = Exporter(
@@ -176,7 +176,9 @@ EXPORTER = Exporter(
     title="Corners as CSV",
     suffixes=(".csv",),
     models=tuple(MODELS),
-    limits="Corners and their places on the board; no calibration, no images without corners.",
+    readers="spreadsheets, any reader of CSV",
+    keeps="the corners and their places on the board",
+    loses="the calibration, photographs without corners",
     write=_export,
     partial=True,
     needs_corners=True,

@@ -45,8 +45,13 @@ class Exporter:
     """Suffixes of its files, the usual one first."""
     models: tuple[str, ...]
     """Names of the lens models that it holds as calibrated."""
-    limits: str
-    """Conventions, what is refitted and what the format cannot hold."""
+    readers: str
+    """The programs that read its files."""
+    keeps: str
+    """What it holds of a calibration, as a clause; a camera in another lens model than those named
+    here is refitted."""
+    loses: str
+    """What it does not hold, as a clause."""
     write: Callable[[Result, Path], ExportReport]
     """Function that writes a file; it raises CalibrationError if it cannot."""
     stem: str = ""

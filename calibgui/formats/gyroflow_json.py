@@ -194,8 +194,10 @@ EXPORTER = Exporter(
     suffixes=(".json",),
     models=(*PERSPECTIVE_MODELS, FISHEYE),
     refits=("brown-conrady", FISHEYE),
-    limits="opencv_standard or opencv_fisheye, other lenses refitted; no standard deviations, no "
-    "poses; names of camera and lens from EXIF or stated.",
+    readers="Gyroflow",
+    keeps="the camera as opencv_standard or opencv_fisheye, a zoom lens with its focal lengths, "
+    "the names of camera and lens",
+    loses="standard deviations, poses, corners",
     write=write_gyroflow,
     write_zoom=write_gyroflow_zoom,
 )

@@ -301,9 +301,10 @@ EXPORTER = Exporter(
     title="lensfun database",
     suffixes=(".xml",),
     models=(),
-    limits="poly5, rectilinear or fisheye, fitted to the rays of every lens; square pixels, no "
-    "decentering; maker, model, mount and crop factor from EXIF or stated; no standard deviations, "
-    "no poses.",
+    readers="lensfun: darktable, RawTherapee, digiKam",
+    keeps="focal length, centre, k1 and k2 of poly5, fitted to the rays, a zoom lens with its "
+    "focal lengths, the names of camera and lens",
+    loses="pixels that are not square, decentering, standard deviations, poses, corners",
     write=write_lensfun,
     fits_rays=True,
     write_zoom=write_lensfun_zoom,

@@ -227,8 +227,9 @@ EXPORTER = Exporter(
     models=(*_RADIAL, _FISHEYE),
     refits=("brown-conrady", _FISHEYE),
     holds_skew=True,
-    limits="cameraIntrinsics or fisheyeIntrinsics, other lenses refitted; pixels count from 1; no "
-    "standard deviations, no poses.",
+    readers="MATLAB's Computer Vision Toolbox",
+    keeps="the camera as cameraIntrinsics or fisheyeIntrinsics; pixels count from 1",
+    loses="standard deviations, poses, corners",
     write=write_matlab,
 )
 IMPORTER = Importer(EXPORTER.title, _CALL, read_matlab)

@@ -171,8 +171,9 @@ EXPORTER = Exporter(
     models=(*_FRAMES, *_FISHEYES),
     refits=("brown-conrady", "kannala-brandt-decentering"),
     holds_skew=True,
-    limits="Frame or fisheye with k1 to k4, p1 and p2, other lenses refitted; no standard "
-    "deviations, no poses.",
+    readers="Metashape, PhotoScan from 1.2 on",
+    keeps="the camera as frame or fisheye with k1 to k4, p1, p2, b1, b2",
+    loses="standard deviations, poses, corners",
     write=write_metashape,
 )
 IMPORTER = Importer(

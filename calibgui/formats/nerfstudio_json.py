@@ -101,8 +101,10 @@ EXPORTER = Exporter(
     suffixes=(".json",),
     models=("brown-conrady", "brown-conrady-4", "pinhole", FISHEYE),
     refits=("brown-conrady", FISHEYE),
-    limits="OPENCV or OPENCV_FISHEYE, other lenses refitted; the camera's place at each "
-    "photograph, in metres from the board; no standard deviations.",
+    readers="nerfstudio, Instant NGP",
+    keeps="the camera as OPENCV or OPENCV_FISHEYE, and where it was at each photograph, in "
+    "metres from the board",
+    loses="standard deviations, corners",
     write=write_nerfstudio,
     needs_corners=True,
 )

@@ -46,9 +46,9 @@ def test_shows_and_copies_the_file(
     report = exporter.write(result, tmp_path / exporter.file_name)
     text = report.path.read_text(encoding="utf-8")
     assert dialog.text.toPlainText().removesuffix("\n…") == text[:20_000]
-    assert dialog.limits.text() == exporter.limits
+    shown = [label.text() for label in (dialog.readers, dialog.keeps, dialog.loses)]
+    assert shown == [exporter.readers, exporter.keeps, exporter.loses]
     assert dialog.note.text() == report.note
-    assert dialog.note.isVisible() is (report.note != exporter.limits)
     qtbot.mouseClick(dialog.copy, Qt.MouseButton.LeftButton)
     assert QGuiApplication.clipboard().text() == text
 
