@@ -33,6 +33,7 @@ from calibgui.formats import (
     colmap_model,
     corners_csv,
     corners_json,
+    corners_vnl,
     engine_python,
     gyroflow_json,
     kalibr_camchain,
@@ -43,6 +44,8 @@ from calibgui.formats import (
     nerfstudio_json,
     opencv_file,
     opencv_python,
+    openvins_yaml,
+    orb_slam_yaml,
     result_json,
     ros_yaml,
 )
@@ -57,6 +60,8 @@ EXPORTERS: dict[str, Exporter] = {
         opencv_file,
         ros_yaml,
         kalibr_camchain,
+        openvins_yaml,
+        orb_slam_yaml,
         mrcal_model,
         colmap_cameras,
         colmap_model,
@@ -73,6 +78,7 @@ EXPORTERS: dict[str, Exporter] = {
         opencv_python,
         corners_json,
         corners_csv,
+        corners_vnl,
     )
 }
 """Exporters by name, in the order of menus."""

@@ -4,30 +4,88 @@
     frame00.jpg 101.5 80.2 0
     frame01.jpg - - -
 
-Reader: mrcal-calibrate-cameras, and `read_corners_vnl`. A row is a corner in pixels of the array
-frame, and the rows of an image are the board's corners row by row. The board's rows and columns are
-not in the file. A corner at "-", at two negative places, or of a negative level or no weight was
-not found; neither was a board of which the only row is such. A corner of level L has 2^L times the
-noise of one of level 0; a `weight` in place of the level divides the noise.
-Cannot hold: the images' size, the board's rows, columns and squares.
+Reader: mrcal-calibrate-cameras, mrgingham's tools, and `read_corners_vnl`. A row is a corner in
+pixels of the array frame, and the rows of an image are the board's corners row by row. The board's
+rows and columns are not in the file. A corner at "-", at two negative places, or of a negative
+level or no weight was not found; neither was a board of which the only row is such. A corner of
+level L has 2^L times the noise of one of level 0; a `weight` in place of the level divides the
+noise. Where corners have covariances their weights are written, that of the median corner 1.
+Cannot hold: the images' size, the board's rows, columns and squares, blanks in names, covariances.
 """
 
 from __future__ import annotations
 
 import re
+from pathlib import Path
 
 import numpy as np
 
-from calibgui.dataset import CornerSet, View
+from calibgui.dataset import CornerSet, Result, View
 from calibgui.engine.arrays import Array, GridSize
+from calibgui.engine.camera import MODELS
+from calibgui.engine.errors import CalibrationError
+from calibgui.engine.files import write_atomically
 from calibgui.formats.corner_table import CornerText, make_board, make_view, scale_unit
+from calibgui.formats.exporter import Exporter, ExportReport, describe_condition
 from calibgui.formats.gate import parse_number
+from calibgui.formats.image_names import shorten_names
+from calibgui.formats.origin import make_mark
 
 SIGNATURE = re.compile(r"^[ \t]*#[ \t]*filename[ \t]+x[ \t]+y\b", re.MULTILINE)
 """The legend of the columns."""
 _NOISE_PX = 0.1
 """Standard deviation of corners of level 0 or weight 1, px: a lower bound, as the solver puts what
 is beyond it down to the model, alike for all corners."""
+
+
+def write_corners_vnl(result: Result, path: Path) -> ExportReport:
+    """Write the corners of all photographs on which a board was found or looked for.
+
+    Raises:
+        CalibrationError: if corners came without rows and columns, or the file cannot be written.
+    """
+    views = [view for view in result.views if view.points is None]
+    if result.board is None or not views:
+        raise CalibrationError(
+            f"{path} is not written: the corners have no rows and columns on a board.",
+            "Export them as corners-csv.",
+        )
+    rows, cols = result.board.grid_size
+    sigmas = {id(view): _measure_sigmas(view) for view in views}
+    known = [each for each in sigmas.values() if each is not None]
+    typical = float(np.median(np.concatenate(known))) if known else None
+    lines = [f"# {make_mark(EXPORTER.name)} {describe_condition(result)}".rstrip()]
+    lines += [f"# {cols} columns, {rows} rows", f"# filename x y {'weight' if known else 'level'}"]
+    names = shorten_names([view.image for view in views])
+    for view, name in zip(views, names, strict=True):
+        word = re.sub(r"\s|#", "_", name)
+        lines += _list_rows(word, view, (rows, cols), sigmas[id(view)], typical)
+    write_atomically(path, ("\n".join(lines) + "\n").encode(errors="backslashreplace"))
+    note = f"Corners, for mrcal-calibrate-cameras --object-width-n {cols} --object-height-n {rows}."
+    if any(re.search(r"\s|#", name) for name in names):
+        note = f"{note} Blanks in names of images are written as _."
+    return ExportReport(path, f"{note} {describe_condition(result)}".rstrip())
+
+
+def _measure_sigmas(view: View) -> Array | None:
+    """Return the standard deviation (n,) of a view's corners, px; None if it is not known."""
+    cov = None if view.corners is None else view.corners.cov
+    return None if cov is None else np.sqrt(np.trace(cov, axis1=-2, axis2=-1) / 2)
+
+
+def _list_rows(
+    name: str, view: View, grid_size: GridSize, sigmas: Array | None, typical: float | None
+) -> list[str]:
+    """Return the lines of a photograph: one for each place on the board, or one for none."""
+    if view.corners is None:
+        return [f"{name} - - -"]
+    lines = np.full(grid_size, f"{name} - - -", dtype=object)
+    ranks = np.ones(len(view.corners.uv)) if sigmas is None else (typical or 1.0) / sigmas
+    for (row, col), (u, v), rank in zip(
+        view.corners.grid.tolist(), view.corners.uv.tolist(), ranks.tolist(), strict=True
+    ):
+        lines[row, col] = f"{name} {u!r} {v!r} {0 if typical is None else rank:.6g}"
+    return [str(line) for line in lines.ravel()]
 
 
 def read_corners_vnl(source: CornerText) -> CornerSet:
@@ -104,3 +162,17 @@ def _make_view(image: str, table: Array, grid_size: GridSize, is_uneven: bool) -
     found = np.isfinite(table[:, 0])
     cov = scale_unit((_NOISE_PX * table[found, 2]) ** 2) if is_uneven else None
     return make_view(image, make_board(grid_size), places[found], table[found, :2], cov)
+
+
+EXPORTER = Exporter(
+    name="corners-vnl",
+    title="Corners for mrcal",
+    suffixes=(".vnl",),
+    models=tuple(MODELS),
+    readers="mrcal, mrgingham's tools",
+    keeps="the corners and their weights",
+    loses="the calibration, the board's rows, columns and squares, the images' size",
+    write=write_corners_vnl,
+    partial=True,
+    needs_corners=True,
+)

@@ -24,6 +24,7 @@ _READ_BACK = (
     "opencv",
     "ros",
     "kalibr",
+    "orb-slam3",
     "mrcal",
     "colmap",
     "nerfstudio",
@@ -147,6 +148,7 @@ def test_damage_is_named_where_no_format_is_known(
         ("opencv-python", "is a script in Python"),
         ("corners", "holds corners, but no camera"),
         ("corners-csv", "holds corners, but no camera"),
+        ("corners-vnl", "holds corners, but no camera"),
     ],
 )
 def test_our_own_files_without_a_camera_name_the_result(
@@ -159,8 +161,9 @@ def test_our_own_files_without_a_camera_name_the_result(
 
 
 def test_all_of_our_own_files_are_read_or_named() -> None:
-    without = {"lensfun", "python", "opencv-python", "corners", "corners-csv", "colmap-model"}
-    assert {"result", *_READ_BACK} | without == set(EXPORTERS)
+    without = {"lensfun", "python", "opencv-python", "corners", "corners-csv", "corners-vnl"}
+    by_another_format = {"colmap-model", "openvins"}
+    assert {"result", *_READ_BACK} | without | by_another_format == set(EXPORTERS)
 
 
 def test_files_that_cannot_be_read_are_named(

@@ -34,6 +34,8 @@ from calibgui.formats.metashape_xml import format_calibration as format_metashap
 from calibgui.formats.mrcal_model import format_camera_model
 from calibgui.formats.nerfstudio_json import format_transforms
 from calibgui.formats.opencv_file import format_storage
+from calibgui.formats.openvins_yaml import format_chain
+from calibgui.formats.orb_slam_yaml import format_settings
 from calibgui.formats.result_json import read_result
 from calibgui.formats.ros_yaml import format_camera_info
 from tests.formats.records import same
@@ -115,7 +117,8 @@ def test_results_are_written_as_they_always_were(tmp_path: Path, golden: Result)
 
 
 @pytest.mark.parametrize(
-    ("name", "kept"), [("corners", "corners.json"), ("corners-csv", "corners.csv")]
+    ("name", "kept"),
+    [("corners", "corners.json"), ("corners-csv", "corners.csv"), ("corners-vnl", "corners.vnl")],
 )
 def test_corners_are_written_as_they_always_were(
     tmp_path: Path, name: str, kept: str, golden: Result
@@ -153,6 +156,10 @@ def test_other_programs_files_are_written_as_they_always_were(golden: Result) ->
     )
     camchain = format_camchain(fisheye, "How it was refitted.")
     assert camchain == (_GOLDEN / "camchain.yaml").read_text()
+    chain = format_chain(fisheye, "How it was refitted.")
+    assert chain == (_GOLDEN / "openvins.yaml").read_text()
+    settings = format_settings(calibration.camera, "How it was refitted.")
+    assert settings == (_GOLDEN / "orb_slam.yaml").read_text()
     basalt = format_calibration(fisheye, "How it was refitted.")
     assert basalt == (_GOLDEN / "basalt.json").read_text()
     profile = format_profile([(24.0, fisheye), (35.5, fisheye)], "How it was refitted.")
