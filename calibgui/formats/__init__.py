@@ -48,6 +48,8 @@ from calibgui.formats import (
     orb_slam_yaml,
     result_json,
     ros_yaml,
+    undistortion_map,
+    usd_camera,
 )
 from calibgui.formats.camera_import import IMPORTERS, read_camera
 from calibgui.formats.exporter import Exporter, ExportReport
@@ -74,6 +76,8 @@ EXPORTERS: dict[str, Exporter] = {
         caliscope_toml,
         gyroflow_json,
         lensfun_xml,
+        undistortion_map,
+        usd_camera,
         engine_python,
         opencv_python,
         corners_json,

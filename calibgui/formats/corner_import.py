@@ -1,9 +1,9 @@
 """Reading located corners from a file of any program, whichever it is: `read_corner_file`.
 
 The content tells the format: corners.json (``corners_json.py``), mrcal's corners.vnl
-(``corners_vnl.py``), a table in CSV (``corners_csv.py``), or Bouguet's Calib_Results.mat
-(``bouguet_results.py``). Where the file does not hold the images' size it is read from the images,
-where one of them lies beside the file, or must be stated.
+(``corners_vnl.py``), a table in CSV (``corners_csv.py``), Bouguet's Calib_Results.mat
+(``bouguet_results.py``), or lists of points (``corner_lists.py``). Where the file does not hold the
+images' size it is read from the images, where one of them lies beside the file, or must be stated.
 """
 
 from __future__ import annotations
@@ -14,12 +14,12 @@ from dataclasses import replace
 from calibgui.dataset import CornerSet
 from calibgui.engine.arrays import GridSize, Size
 from calibgui.engine.errors import CalibrationError
-from calibgui.formats import bouguet_results, corners_csv, corners_json, corners_vnl
+from calibgui.formats import bouguet_results, corner_lists, corners_csv, corners_json, corners_vnl
 from calibgui.formats.corner_table import CornerText
 from calibgui.formats.gate import read_text
 from calibgui.formats.json_document import MAX_JSON_SIZE, parse_json
 
-SUFFIXES = (".json", ".vnl", ".csv", ".mat")
+SUFFIXES = (".json", ".vnl", ".csv", ".mat", ".txt", ".yml", ".yaml", ".xml")
 """Suffixes of files of corners."""
 _BINARY = ((bouguet_results.is_mat, bouguet_results.unpack_mat),)
 """Functions that tell and translate the binary files that are read."""
@@ -49,6 +49,10 @@ def read_corner_file(
         corner_set = corners_vnl.read_corners_vnl(source)
     elif corners_csv.SIGNATURE.match(text):
         corner_set = corners_csv.read_corners_csv(source)
+    elif corner_lists.OPENCV_SIGNATURE.search(text):
+        corner_set = corner_lists.read_opencv_corners(source)
+    elif corner_lists.ZHANG_SIGNATURE.match(text):
+        corner_set = corner_lists.read_zhang_corners(source)
     elif bouguet_results.CORNERS_SIGNATURE.search(text):
         corner_set = bouguet_results.read_bouguet_corners(source)
     elif text.lstrip().startswith("{") or not text.strip():

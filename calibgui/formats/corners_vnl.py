@@ -58,13 +58,18 @@ def write_corners_vnl(result: Result, path: Path) -> ExportReport:
     lines += [f"# {cols} columns, {rows} rows", f"# filename x y {'weight' if known else 'level'}"]
     names = shorten_names([view.image for view in views])
     for view, name in zip(views, names, strict=True):
-        word = re.sub(r"\s|#", "_", name)
+        word = _spell(name)
         lines += _list_rows(word, view, (rows, cols), sigmas[id(view)], typical)
-    write_atomically(path, ("\n".join(lines) + "\n").encode(errors="backslashreplace"))
+    write_atomically(path, ("\n".join(lines) + "\n").encode())
     note = f"Corners, for mrcal-calibrate-cameras --object-width-n {cols} --object-height-n {rows}."
-    if any(re.search(r"\s|#", name) for name in names):
-        note = f"{note} Blanks in names of images are written as _."
+    if any(_spell(name) != name for name in names):
+        note = f"{note} Blanks in names of images are written as _, and other letters by codes."
     return ExportReport(path, f"{note} {describe_condition(result)}".rstrip())
+
+
+def _spell(name: str) -> str:
+    """Return the name of an image as mrcal reads it: in ASCII without blanks."""
+    return re.sub(r"[\s#]", "_", name).encode("ascii", "backslashreplace").decode()
 
 
 def _measure_sigmas(view: View) -> Array | None:

@@ -39,7 +39,6 @@ def _serves(python: str, needs: str) -> bool:
 
 def _run(python: str, script: str, *arguments: object) -> subprocess.CompletedProcess[str]:
     environment = {k: v for k, v in os.environ.items() if k not in ("PYTHONPATH", "VIRTUAL_ENV")}
-    environment["PYTHONUTF8"] = "1"  # names of photographs, in whatever locale
     return subprocess.run(
         [python, "-c", script, *map(str, arguments)],
         capture_output=True,

@@ -41,7 +41,7 @@ def test_mrcal_reads_the_corners_and_their_weights(tmp_path: Path, weighted: Res
     read = in_other_python(_MRCAL, report.path, needs="import mrcal")
     found = [view for view in weighted.views if view.corners is not None]
     assert [path.split("/")[-1] for path in read["paths"]] == [
-        view.image.replace(" ", "_") for view in found
+        view.image.replace(" ", "_").encode("ascii", "backslashreplace").decode() for view in found
     ]
     sigmas = []
     for view in found:

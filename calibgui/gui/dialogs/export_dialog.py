@@ -165,12 +165,18 @@ class ExportDialog(QDialog):
     def _show(self, report: ExportReport) -> None:
         self.note.setText(report.note)
         self.error.setText(self._error(report.largest_error_px))
-        with report.path.open(encoding="utf-8") as file:
-            shown = file.read(_SHOWN)
-            cut = bool(file.read(1))
-        self.text.setPlainText(shown + ("\n…" if cut else ""))
-        for button in (self.copy, self.save):
-            button.setEnabled(True)
+        is_text = True
+        try:
+            with report.path.open(encoding="utf-8") as file:
+                shown = file.read(_SHOWN)
+                shown += "\n…" if file.read(1) else ""
+        except UnicodeDecodeError:
+            is_text = False
+            size = report.path.stat().st_size / 1e6
+            shown = self.tr("A binary file of {0:.1f} MB").format(size)
+        self.text.setPlainText(shown)
+        self.save.setEnabled(True)
+        self.copy.setEnabled(is_text)
 
     def _error(self, largest: float | None) -> str:
         if largest is None:

@@ -214,6 +214,10 @@ def _list_calibration_readers(folder: Path) -> list[Reader]:
     def read_table(file: Path) -> object:
         return read_series([folder / "series" / "result.json"], Scalar.ZOOM, file)
 
+    def read_points_beside(file: Path) -> object:
+        (file.parent / "data1.txt").write_text("9 8 40 9 41 40 9 41\n70 9 99 9 98 41 71 40\n")
+        return dumps(encode_corners(read_corner_file(file, size=(640, 480))))
+
     return [
         Reader(
             "result",
@@ -242,6 +246,29 @@ def _list_calibration_readers(folder: Path) -> list[Reader]:
             _CALIB_RESULTS,
             lambda file: dumps(encode_corners(read_corner_file(file))),
             ("read_corner_file", "read_bouguet_corners"),
+        ),
+        Reader(
+            "corners of OpenCV",
+            "corners.yml",
+            opencv.format_storage(
+                ".yml",
+                {
+                    "image_width": 640,
+                    "image_height": 480,
+                    "board_width": 4,
+                    "board_height": 3,
+                    "image_points": np.arange(48.0).reshape(2, 24),
+                },
+            ).encode(),
+            lambda file: dumps(encode_corners(read_corner_file(file))),
+            ("read_corner_file", "read_opencv_corners"),
+        ),
+        Reader(
+            "corners of Zhang",
+            "Model.txt",
+            b"0 0 30 0 30 30 0 30\n60 0 90 0 90 30 60 30\n",
+            read_points_beside,
+            ("read_corner_file", "read_zhang_corners"),
         ),
         Reader(
             "table of corners",
