@@ -9,7 +9,8 @@ pixels of the array frame, and the rows of an image are the board's corners row 
 rows and columns are not in the file. A corner at "-", at two negative places, or of a negative
 level or no weight was not found; neither was a board of which the only row is such. A corner of
 level L has 2^L times the noise of one of level 0; a `weight` in place of the level divides the
-noise. Where corners have covariances their weights are written, that of the median corner 1.
+noise. Levels are written, as mrcal takes the last column for one whatever its legend says: 0 for
+corners as exact as the median one or more so.
 Cannot hold: the images' size, the board's rows, columns and squares, blanks in names, covariances.
 """
 
@@ -21,7 +22,7 @@ from pathlib import Path
 import numpy as np
 
 from calibgui.dataset import CornerSet, Result, View
-from calibgui.engine.arrays import Array, GridSize
+from calibgui.engine.arrays import Array, GridSize, IntArray
 from calibgui.engine.camera import MODELS
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.files import write_atomically
@@ -51,15 +52,15 @@ def write_corners_vnl(result: Result, path: Path) -> ExportReport:
             "Export them as corners-csv.",
         )
     rows, cols = result.board.grid_size
-    sigmas = {id(view): _measure_sigmas(view) for view in views}
-    known = [each for each in sigmas.values() if each is not None]
-    typical = float(np.median(np.concatenate(known))) if known else None
+    sigmas = [_measure_sigmas(view) for view in views]
+    typical = float(np.median(np.concatenate(sigmas)))
     lines = [f"# {make_mark(EXPORTER.name)} {describe_condition(result)}".rstrip()]
-    lines += [f"# {cols} columns, {rows} rows", f"# filename x y {'weight' if known else 'level'}"]
+    lines += [f"# {cols} columns, {rows} rows", "# filename x y level"]
     names = shorten_names([view.image for view in views])
-    for view, name in zip(views, names, strict=True):
+    for view, name, sigma in zip(views, names, sigmas, strict=True):
         word = _spell(name)
-        lines += _list_rows(word, view, (rows, cols), sigmas[id(view)], typical)
+        levels = np.maximum(np.rint(np.log2(sigma / typical)), 0).astype(int)
+        lines += _list_rows(word, view, (rows, cols), levels)
     write_atomically(path, ("\n".join(lines) + "\n").encode())
     note = f"Corners, for mrcal-calibrate-cameras --object-width-n {cols} --object-height-n {rows}."
     if any(_spell(name) != name for name in names):
@@ -72,24 +73,24 @@ def _spell(name: str) -> str:
     return re.sub(r"[\s#]", "_", name).encode("ascii", "backslashreplace").decode()
 
 
-def _measure_sigmas(view: View) -> Array | None:
-    """Return the standard deviation (n,) of a view's corners, px; None if it is not known."""
-    cov = None if view.corners is None else view.corners.cov
-    return None if cov is None else np.sqrt(np.trace(cov, axis1=-2, axis2=-1) / 2)
+def _measure_sigmas(view: View) -> Array:
+    """Return the standard deviation (n,) of a view's corners, px; 1 where it is not known."""
+    if view.corners is None:
+        return np.empty(0)
+    if view.corners.cov is None:
+        return np.ones(len(view.corners.uv))
+    return np.asarray(np.sqrt(np.trace(view.corners.cov, axis1=-2, axis2=-1) / 2))
 
 
-def _list_rows(
-    name: str, view: View, grid_size: GridSize, sigmas: Array | None, typical: float | None
-) -> list[str]:
+def _list_rows(name: str, view: View, grid_size: GridSize, levels: IntArray) -> list[str]:
     """Return the lines of a photograph: one for each place on the board, or one for none."""
     if view.corners is None:
         return [f"{name} - - -"]
     lines = np.full(grid_size, f"{name} - - -", dtype=object)
-    ranks = np.ones(len(view.corners.uv)) if sigmas is None else (typical or 1.0) / sigmas
-    for (row, col), (u, v), rank in zip(
-        view.corners.grid.tolist(), view.corners.uv.tolist(), ranks.tolist(), strict=True
+    for (row, col), (u, v), level in zip(
+        view.corners.grid.tolist(), view.corners.uv.tolist(), levels.tolist(), strict=True
     ):
-        lines[row, col] = f"{name} {u!r} {v!r} {0 if typical is None else rank:.6g}"
+        lines[row, col] = f"{name} {u!r} {v!r} {level}"
     return [str(line) for line in lines.ravel()]
 
 
@@ -175,7 +176,7 @@ EXPORTER = Exporter(
     suffixes=(".vnl",),
     models=tuple(MODELS),
     readers="mrcal, mrgingham's tools",
-    keeps="the corners and their weights",
+    keeps="the corners, and how exactly they were found, in powers of two",
     loses="the calibration, the board's rows, columns and squares, the images' size",
     write=write_corners_vnl,
     partial=True,

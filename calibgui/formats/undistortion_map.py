@@ -22,8 +22,9 @@ import numpy as np
 from calibgui.dataset import Result
 from calibgui.engine.arrays import Array
 from calibgui.engine.camera import Camera, pixels_from_rays
+from calibgui.engine.errors import CalibrationError
 from calibgui.engine.files import write_atomically
-from calibgui.engine.images import IdealCamera, choose_ideal_cameras, make_mesh
+from calibgui.engine.images import FieldOfView, IdealCamera, choose_ideal_cameras, make_mesh
 from calibgui.formats.exporter import Exporter, ExportReport
 from calibgui.formats.origin import make_mark
 
@@ -33,13 +34,13 @@ _NOTE = "Undistorts photographs as `calibgui undistort` does, from the camera as
 
 
 def write_map(result: Result, path: Path) -> ExportReport:
-    """Write the map of a perspective image that shows all of the photograph.
+    """Write the map of the undistorted image.
 
     Raises:
-        CalibrationError: if no such image can be chosen, or the file cannot be written.
+        CalibrationError: if the file cannot be written.
     """
     camera = result.calibration.camera
-    (ideal,) = choose_ideal_cameras(camera).values()
+    ideal = choose_shown_camera(camera)
     places = make_map(camera, ideal)
     mark = make_mark(EXPORTER.name)
     is_exr = path.suffix.lower() == ".exr"
@@ -48,6 +49,16 @@ def write_map(result: Result, path: Path) -> ExportReport:
     fx, fy, cx, cy = ideal.matrix[[0, 1, 0, 1], [0, 1, 2, 2]].tolist()
     note = f"{_NOTE} The new images have fx {fx:.6g}, fy {fy:.6g}, cx {cx:.6g}, cy {cy:.6g} px."
     return ExportReport(path, note)
+
+
+def choose_shown_camera(camera: Camera) -> IdealCamera:
+    """Choose the camera of a perspective image that shows all of the photograph, or that keeps the
+    scale of its middle where the lens model folds over at the edge."""
+    try:
+        (ideal,) = choose_ideal_cameras(camera).values()
+    except CalibrationError:
+        (ideal,) = choose_ideal_cameras(camera, FieldOfView.SAME_SCALE).values()
+    return ideal
 
 
 def make_map(camera: Camera, ideal: IdealCamera) -> Array:

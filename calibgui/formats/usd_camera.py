@@ -20,10 +20,11 @@ from pathlib import Path
 from calibgui.dataset import Result
 from calibgui.engine.files import write_atomically
 from calibgui.engine.geometry import Pose, corner_from_array
-from calibgui.engine.images import IdealCamera, choose_ideal_cameras
+from calibgui.engine.images import IdealCamera
 from calibgui.formats.camera_places import world_from_camera_upright
 from calibgui.formats.exporter import Exporter, ExportReport, describe_condition
 from calibgui.formats.origin import make_mark
+from calibgui.formats.undistortion_map import choose_shown_camera
 
 _CM_PER_M = 100
 _FILM_MM = 36.0
@@ -35,9 +36,9 @@ def write_usd(result: Result, path: Path) -> ExportReport:
     """Write the camera and its places.
 
     Raises:
-        CalibrationError: if no undistorted image can be chosen, or the file cannot be written.
+        CalibrationError: if the file cannot be written.
     """
-    (ideal,) = choose_ideal_cameras(result.calibration.camera).values()
+    ideal = choose_shown_camera(result.calibration.camera)
     crop = result.find_hardware().crop
     width, height = ideal.size
     film = (

@@ -172,7 +172,10 @@ def test_convert_a_result_on_its_corners(
 @pytest.mark.parametrize(
     ("arguments", "problem"),
     [
-        (["--export", "result=a.json"], "holds corners, and there are none"),
+        (
+            ["--export", "result=a.json"],
+            "holds corners or the poses of photographs, and there are none",
+        ),
         (["--model", "eucm", "--export", "ros=a.yaml"], "does not hold the lens model eucm"),
         (["--model", "pinhole"], "cannot follow this lens"),
     ],

@@ -107,7 +107,18 @@ def fisheye() -> Result:
 REFITTING = [name for name, exporter in EXPORTERS.items() if exporter.refits]
 
 
-@pytest.mark.parametrize("name", REFITTING)
+PERSPECTIVE_ALONE = [name for name in REFITTING if len(EXPORTERS[name].refits) == 1]
+
+
+@pytest.mark.parametrize("name", PERSPECTIVE_ALONE)
+def test_a_fisheye_is_refused_where_there_is_no_such_model(
+    fisheye: Result, tmp_path: Path, name: str
+) -> None:
+    with pytest.raises(CalibrationError, match="cannot follow this lens"):
+        export(fisheye, name, tmp_path / EXPORTERS[name].file_name)
+
+
+@pytest.mark.parametrize("name", [name for name in REFITTING if name not in PERSPECTIVE_ALONE])
 def test_a_fisheye_is_refitted_in_a_model_that_follows_it(
     fisheye: Result, tmp_path: Path, name: str
 ) -> None:

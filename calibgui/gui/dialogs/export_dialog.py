@@ -134,6 +134,8 @@ class ExportDialog(QDialog):
         self.keeps.setText(exporter.keeps)
         self.loses.setText(exporter.loses)
         self.saved.clear()
+        if self._job is not None:
+            self._job.cancel()  # of a format that was passed by
         if exporter.name in self._drafts:
             self._show(self._drafts[exporter.name])
             return
