@@ -110,7 +110,7 @@ def format_results(values: Mapping[str, Array], note: str) -> str:
 
 def pack_results(values: Mapping[str, Array], note: str) -> bytes:
     """Return the content of the .mat, whose first line is the note as far as there is room."""
-    content = io.BytesIO()
+    content: Any = io.BytesIO()
     scipy.io.savemat(content, dict(values))
     head = f"MATLAB 5.0 MAT-file. {note}".encode("ascii", "replace")[:_HEADER_LENGTH]
     return head.ljust(_HEADER_LENGTH) + content.getvalue()[_HEADER_LENGTH:]
@@ -129,12 +129,14 @@ def unpack_mat(content: bytes) -> str:
     """
     if content.startswith(b"MATLAB 7.3"):
         raise ValueError("it is in MATLAB's format 7.3; save it with -v7")
+    file: Any = io.BytesIO(content)
     try:
-        shapes = {name: shape for name, shape, _ in scipy.io.whosmat(io.BytesIO(content))}
+        shapes = {name: shape for name, shape, _ in scipy.io.whosmat(file)}
         wanted = [name for name in shapes if _WANTED.fullmatch(name)]
         if sum(float(np.prod(shapes[name], dtype=float)) for name in wanted) > _MAX_NUMBERS:
             raise ValueError("it holds too many numbers")
-        values = scipy.io.loadmat(io.BytesIO(content), variable_names=wanted)
+        file.seek(0)
+        values = scipy.io.loadmat(file, variable_names=wanted)
     except ValueError:
         raise
     except Exception as error:  # a parser sees the content alone: whatever it raises is that's

@@ -63,8 +63,8 @@ def choose_shown_camera(camera: Camera) -> IdealCamera:
 
 def make_map(camera: Camera, ideal: IdealCamera) -> Array:
     """Return the places (h, w, 2) in the photograph, px, of the pixels of the ideal image."""
-    width, height = ideal.size
-    uv = pixels_from_rays(ideal.find_rays(make_mesh(np.arange(width), np.arange(height))), camera)
+    u, v = (np.arange(length, dtype=np.float64) for length in ideal.size)
+    uv = pixels_from_rays(ideal.find_rays(make_mesh(u, v)), camera)
     inside = ((uv > -0.5) & (uv < np.array(camera.size) - 0.5)).all(axis=-1, keepdims=True)
     return np.where(inside, uv, -1.0)
 
