@@ -25,6 +25,7 @@ from pathlib import Path
 from calibgui.dataset import Result
 from calibgui.engine.errors import CalibrationError
 from calibgui.formats import (
+    adobe_lcp,
     anipose_toml,
     basalt_json,
     bouguet_results,
@@ -76,6 +77,7 @@ EXPORTERS: dict[str, Exporter] = {
         caliscope_toml,
         gyroflow_json,
         lensfun_xml,
+        adobe_lcp,
         undistortion_map,
         usd_camera,
         engine_python,

@@ -67,6 +67,11 @@ _WITHOUT_CAMERA = (
         _NAME_ITS_RESULT,
     ),
     (
+        re.compile("photoshop/1.0/camera-profile"),
+        "is a lens profile of Adobe's, whose images may be of any size.",
+        _NAME_ITS_RESULT,
+    ),
+    (
         re.compile(make_mark("(opencv-)?python")),
         "is a script in Python, which is not run.",
         _NAME_ITS_RESULT,

@@ -144,6 +144,7 @@ def test_damage_is_named_where_no_format_is_known(
     ("name", "message"),
     [
         ("lensfun", "is a lensfun database, which holds no camera in pixels"),
+        ("lcp", "is a lens profile of Adobe's"),
         ("python", "is a script in Python"),
         ("opencv-python", "is a script in Python"),
         ("corners", "holds corners, but no camera"),
@@ -161,7 +162,7 @@ def test_our_own_files_without_a_camera_name_the_result(
 
 
 def test_all_of_our_own_files_are_read_or_named() -> None:
-    without = {"lensfun", "python", "opencv-python", "corners", "corners-csv", "corners-vnl"}
+    without = {"lensfun", "lcp", "python", "opencv-python", "corners", "corners-csv", "corners-vnl"}
     by_another_format = {"colmap-model", "openvins"}
     of_undistorted_images = {"map", "usd"}
     read = {"result", *_READ_BACK} | by_another_format

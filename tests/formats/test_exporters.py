@@ -21,6 +21,7 @@ from calibgui.engine.calibration.result import Calibration, ViewResiduals
 from calibgui.engine.camera.camera import Camera
 from calibgui.engine.errors import CalibrationError
 from calibgui.formats import EXPORTERS, export, find_exporter
+from calibgui.formats.adobe_lcp import format_profile as format_lcp
 from calibgui.formats.anipose_toml import format_calibration as format_anipose
 from calibgui.formats.basalt_json import format_calibration
 from calibgui.formats.bouguet_results import format_results, list_values
@@ -143,6 +144,8 @@ def test_other_programs_files_are_written_as_they_always_were(golden: Result) ->
     assert transforms == (_GOLDEN / "transforms.json").read_text()
     results = format_results(list_values(calibration), "How it was refitted.")
     assert results == (_GOLDEN / "Calib_Results.m").read_text()
+    lcp = format_lcp(calibration.camera, "How it was refitted.")
+    assert lcp == (_GOLDEN / "camera.lcp").read_text()
     anipose = format_anipose(calibration.camera, "How it was refitted.")
     assert anipose == (_GOLDEN / "anipose.toml").read_text()
     array = format_array(calibration.camera, "How it was refitted.")
