@@ -94,6 +94,23 @@ def test_saves_under_the_chosen_name_and_begins_with_its_format_next_time(
     again.reject()
 
 
+def test_saves_all_formats_in_a_folder(
+    dialog: ExportDialog,
+    jobs: Jobs,
+    qtbot: QtBot,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(QFileDialog, "getExistingDirectory", lambda *_: "")
+    qtbot.mouseClick(dialog.save_all, Qt.MouseButton.LeftButton)
+    assert not jobs.running
+    monkeypatch.setattr(QFileDialog, "getExistingDirectory", lambda *_: str(tmp_path))
+    qtbot.mouseClick(dialog.save_all, Qt.MouseButton.LeftButton)
+    qtbot.waitUntil(lambda: not jobs.running, timeout=60_000)
+    assert f"of {len(EXPORTERS)} formats are in {tmp_path}" in dialog.saved.text()
+    assert (tmp_path / "README.md").is_file() and (tmp_path / "opencv.yaml").is_file()
+
+
 def test_a_wrong_suffix_is_explained(
     dialog: ExportDialog,
     jobs: Jobs,
