@@ -325,7 +325,7 @@ def missing_libraries(environment: Environment, purposes: set[str]) -> list[str]
     """Return the Debian packages of the libraries for `purposes` that cannot be loaded."""
     if not LINUX or not purposes:
         return []
-    text = (ROOT / "packaging" / "debian-packages.txt").read_text(encoding="utf-8")
+    text = (ROOT / "resources" / "system" / "debian-packages.txt").read_text(encoding="utf-8")
     rows = [line.split() for line in text.splitlines() if line and not line.startswith("#")]
     packages = {library: package for package, library, purpose in rows if purpose in purposes}
     lacking = output(base_python(), "-c", LACKING, *packages, env=environment.variables())

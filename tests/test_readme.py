@@ -13,6 +13,7 @@ from typing import Any
 import pytest
 
 from calibgui.app.calibrating.settings import MODEL_CHOICES
+from calibgui.app.outputs.export_folder import PAGE
 from calibgui.cli.main import main
 from calibgui.engine.assessment import Grade
 from calibgui.engine.assessment.choices import method_comparison
@@ -108,6 +109,33 @@ def test_samples_camera(capsys: pytest.CaptureFixture[str]) -> None:
 def test_every_export_format_is_in_the_table() -> None:
     rows = "".join(re.findall(r"^\|.*--export.*$", README, re.MULTILINE))
     assert set(re.findall(r"([\w-]+)=`", rows)) == set(EXPORTERS)
+
+
+def list_format_rows() -> dict[str, list[str]]:
+    """List the cells of the table of formats by the formats' names."""
+    rows = re.findall(r"^\| (.* \| `--export ([\w-]+)=` \| .*) \|$", README, re.MULTILINE)
+    return {name: row.split(" | ") for row, name in rows}
+
+
+def test_the_table_of_formats_says_what_the_window_says() -> None:
+    for name, (title, _, _, *facts, _) in list_format_rows().items():
+        exporter = EXPORTERS[name]
+        assert title == exporter.title
+        assert facts == [exporter.readers, exporter.keeps, exporter.loses], name
+
+
+@pytest.mark.slow
+@pytest.mark.usefixtures("search_here")
+def test_the_table_of_formats_has_the_samples_errors(tmp_path: Path) -> None:
+    arguments = [str(ROOT / "resources/sample"), "--square", "25"]
+    assert main(["calibrate", *arguments, "--export-all", str(tmp_path)]) == 0
+    page = (tmp_path / PAGE).read_text(encoding="utf-8")
+    for name, cells in list_format_rows().items():
+        (error,) = re.findall(rf"^\| {name}[./].* \| (.*) \|$", page, re.MULTILINE)
+        if error == "none":
+            assert cells[-1] == "none", name
+        else:
+            assert float(cells[-1]) == pytest.approx(float(error), rel=0.1), name
 
 
 def test_every_board_and_every_lens_model_is_in_a_table() -> None:

@@ -9,6 +9,7 @@ import re
 import sys
 import tempfile
 from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import fields
 from functools import cache
 from pathlib import Path
 from typing import BinaryIO
@@ -27,6 +28,7 @@ from calibgui.app.photographs.videos import (
     search_photographs,
 )
 from calibgui.cli.console import Console
+from calibgui.dataset import LENS_TYPES, Hardware
 from calibgui.engine.arrays import GridSize
 from calibgui.engine.boards import CHECKERBOARD, Pattern
 from calibgui.engine.errors import CalibrationError
@@ -250,6 +252,45 @@ def add_export_option(parser: argparse.ArgumentParser, purpose: str) -> None:
         metavar="FORMAT=FILE",
         help=f"{purpose}, may be repeated: {', '.join(EXPORTERS)}",
     )
+
+
+def add_export_folder_option(parser: argparse.ArgumentParser) -> None:
+    """Add the option on a folder for all formats."""
+    parser.add_argument(
+        "--export-all",
+        type=Path,
+        metavar="FOLDER",
+        help="write every format into a folder, with a page that tells who reads which file",
+    )
+
+
+def add_hardware_option(parser: argparse.ArgumentParser) -> None:
+    """Add the option that names camera and lens, whose value is a list of pairs of texts."""
+    parser.add_argument(
+        "--hardware",
+        type=_parse_hardware,
+        action="append",
+        default=[],
+        metavar="KEY=VALUE",
+        help="name the camera or the lens for exports that do, may be repeated: "
+        f"{', '.join(field.name for field in fields(Hardware))} (rectilinear or fisheye); what is "
+        "left out is taken from EXIF",
+    )
+
+
+def read_hardware_options(options: argparse.Namespace) -> Hardware:
+    """Return the camera and the lens that the options of `add_hardware_option` name."""
+    return Hardware(**dict(options.hardware))
+
+
+def _parse_hardware(text: str) -> tuple[str, str | float]:
+    """Read what is known of camera or lens such as "maker=Canon"."""
+    key, equals, value = text.partition("=")
+    if not equals or not value or key not in {field.name for field in fields(Hardware)}:
+        raise argparse.ArgumentTypeError(f"{text!r} is not KEY=VALUE")
+    if key == "type" and value not in LENS_TYPES:
+        raise argparse.ArgumentTypeError(f"{value!r} is not {' or '.join(LENS_TYPES)}")
+    return key, parse_positive(value) if key == "crop" else value
 
 
 def search_images(

@@ -9,6 +9,7 @@ from __future__ import annotations
 import argparse
 import itertools
 from collections.abc import Mapping
+from dataclasses import replace
 from pathlib import Path
 
 from calibgui.app.calibrating.best_camera import calibrate_best
@@ -25,15 +26,23 @@ from calibgui.app.calibrating.settings import (
 )
 from calibgui.app.calibrating.true_board import GLASS, list_gains, measure_gain_of_glass
 from calibgui.cli.arguments import (
+    add_export_folder_option,
     add_export_option,
+    add_hardware_option,
     add_reader_option,
     is_corners_file,
     parse_positive,
+    read_hardware_options,
 )
 from calibgui.cli.console import Console
 from calibgui.cli.corners import add_corner_options, check_corner_options, read_or_search
 from calibgui.cli.notices import explain_solve
-from calibgui.cli.outputs import add_overwrite_option, check_corner_outputs, refuse_other_format
+from calibgui.cli.outputs import (
+    add_overwrite_option,
+    check_corner_outputs,
+    export_to_folder,
+    refuse_other_format,
+)
 from calibgui.dataset import DEFAULT_SQUARE, Result
 from calibgui.dataset.judging import judge_result
 from calibgui.engine.assessment import CANDIDATES
@@ -70,6 +79,8 @@ def configure(parser: argparse.ArgumentParser) -> None:
         help="write the result as JSON, which other commands read; - for standard output",
     )
     add_export_option(parser, "write another format as well")
+    add_export_folder_option(parser)
+    add_hardware_option(parser)
     add_reader_option(parser)
     add_overwrite_option(parser)
     parser.add_argument(
@@ -256,6 +267,7 @@ def _write_files(
         CalibrationError: if the result or the board's shape cannot be written.
     """
     calibration = result.calibration
+    result = replace(result, hardware=read_hardware_options(options))
     messages, errors = [], []
     if options.output:
         write_result(result, options.output)
@@ -268,6 +280,8 @@ def _write_files(
             f"{options.save_board_shape} is not written: nothing shows that the board is not as it "
             "was drawn. --board-shape free estimates its shape all the same."
         )
+    if options.export_all is not None:
+        messages.append(export_to_folder(result, options))
     for name, path in options.export:
         if calibration.diagnosis is not None and not EXPORTERS[name].partial:
             messages.append(

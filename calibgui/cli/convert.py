@@ -17,10 +17,16 @@ from pathlib import Path
 from typing import Any
 
 from calibgui.app.outputs.output_files import check_outputs
-from calibgui.cli.arguments import add_export_option, parse_positive
+from calibgui.cli.arguments import (
+    add_export_folder_option,
+    add_export_option,
+    add_hardware_option,
+    parse_positive,
+    read_hardware_options,
+)
 from calibgui.cli.camera import CAMERA_FILE, add_camera_options, read_camera_and_warn
 from calibgui.cli.console import Console
-from calibgui.cli.outputs import add_overwrite_option
+from calibgui.cli.outputs import add_overwrite_option, export_to_folder
 from calibgui.cli.result import read_result_file
 from calibgui.cli.sensor_mode import adapt_to_images, add_mode_options, is_mode_stated
 from calibgui.dataset import Result
@@ -66,22 +72,34 @@ def configure(parser: argparse.ArgumentParser) -> None:
         "corners; the whole image if left out",
     )
     add_export_option(parser, "the file to write")
+    add_export_folder_option(parser)
+    add_hardware_option(parser)
     add_overwrite_option(parser)
 
 
 def run(options: argparse.Namespace, console: Console) -> None:
     """Read, convert, write and print."""
-    if not (options.model or options.export or is_mode_stated(options)):
+    targets = (options.model, options.export, options.export_all, is_mode_stated(options))
+    if not any(targets):
         options.usage_error(
-            "say what to convert to: --model NAME, --export FORMAT=FILE, a sensor mode, or several"
+            "say what to convert to: --model NAME, --export FORMAT=FILE, --export-all FOLDER, a "
+            "sensor mode, or several"
         )
+    if options.export_all and is_mode_stated(options):
+        options.usage_error("--export-all is for the images of the calibration, without a mode")
     outputs = [(path, name) for name, path in options.export]
     check_outputs(outputs, [options.file], options.overwrite)
     found = read_camera_and_warn(options.file, console, options.camera, options.size)
     adapted = adapt_to_images(found, options, console)
     with limit_blas_threads():
         if found.title == EXPORTERS["result"].title:
-            answer = _convert_result(read_result_file(options.file), adapted.mode, options)
+            read = replace(read_result_file(options.file), hardware=read_hardware_options(options))
+            answer = _convert_result(read, adapted.mode, options)
+        elif options.export_all:
+            raise CalibrationError(
+                f"{options.file} holds a camera only, and many formats hold corners or poses.",
+                "Name the result.json of a calibration, or the formats with --export.",
+            )
         else:
             answer = _convert_camera(adapted, options)
             _tell_of_rectification(found, adapted, options, console)
@@ -121,6 +139,8 @@ def _convert_result(
             files[str(path)] = export(result, name, path).note
         else:
             files[str(path)] = export_stream(result, mode, EXPORTERS[name], path).note
+    if options.export_all:
+        files[str(options.export_all)] = export_to_folder(result, options)
     return _encode_camera(camera) | answer | {"files": files}
 
 
@@ -144,7 +164,8 @@ def _tell_of_rectification(
 
 def _convert_camera(adapted: ImportedCamera, options: argparse.Namespace) -> dict[str, Any]:
     """Convert a camera by its rays, and write it."""
-    camera, extra = adapted.camera, (adapted.mode, adapted.rectification)
+    camera = adapted.camera
+    extra = (adapted.mode, adapted.rectification, read_hardware_options(options))
     model = options.model or camera.model
     if options.model:
         _check_formats(options, model)

@@ -12,6 +12,7 @@ from __future__ import annotations
 
 import contextlib
 import gc
+import json
 import os
 import shlex
 import sys
@@ -23,9 +24,32 @@ from typing import Any
 
 from calibgui.cli.parser import COMMANDS, build_parser, configure, describe_misuse
 from calibgui.cli.termination import TerminationRequest
+from calibgui.version import __version__
 
 _WINDOW_PACKAGES = ("PySide6", "shiboken6", "pyqtgraph", "contourpy")
 """Packages that the window alone needs: the extra "gui"."""
+_PACKAGES = (
+    "numpy",
+    "scipy",
+    "opencv-python-headless",
+    "pillow",
+    "PyYAML",
+    "matplotlib",
+    "numba",
+    "threadpoolctl",
+    "platformdirs",
+    "shtab",
+    "tqdm",
+    "PySide6-Essentials",
+    "pyqtgraph",
+    "contourpy",
+    "distributed",
+    "fsspec",
+    "aiohttp",
+    "pillow-heif",
+    "rawpy",
+)
+"""Packages whose versions --version --json names: what pyproject.toml lists for users."""
 _ALONE = ("-h", "--help", "--version")
 """Options that need no command."""
 _CANNOT, _USAGE, _BUG, _INTERRUPTED, _NO_READER, _TERMINATED = 1, 2, 70, 130, 141, 143
@@ -69,6 +93,9 @@ def _run(arguments: list[str], request: TerminationRequest) -> int:
     parser, parsers = build_parser()
     chosen = arguments[0] if arguments else ""
     if chosen not in COMMANDS:
+        if sorted(arguments) == ["--json", "--version"]:
+            print(json.dumps(_list_versions(), indent=1))
+            return 0
         if chosen.startswith("-") and (chosen in _ALONE or not COMMANDS.keys() & arguments):
             parser.parse_args(arguments[:1])
         if not all(os.path.exists(name) for name in arguments):  # noqa: PTH110 - no import
@@ -133,6 +160,23 @@ def _keep_what_is_loaded() -> Iterator[None]:
         gc.freeze()
         if was_enabled:
             gc.enable()
+
+
+def _list_versions() -> dict[str, str | None]:
+    """Return the versions of this program, of Python, the system and all packages that it may use;
+    None for a package that is not installed."""
+    platform, metadata = import_module("platform"), import_module("importlib.metadata")
+    found: dict[str, str | None] = {
+        "calibgui": __version__,
+        "python": platform.python_version(),
+        "system": platform.platform(),
+    }
+    for name in _PACKAGES:
+        try:
+            found[name] = metadata.version(name)
+        except metadata.PackageNotFoundError:
+            found[name] = None
+    return found
 
 
 def open_window() -> int:

@@ -6,8 +6,10 @@ import argparse
 from collections.abc import Iterable
 from pathlib import Path
 
+from calibgui.app.outputs.export_folder import PAGE, export_all
 from calibgui.app.outputs.output_files import check_outputs
 from calibgui.cli.arguments import list_input_files
+from calibgui.dataset import Result
 from calibgui.engine.errors import CalibrationError
 from calibgui.formats import EXPORTERS
 
@@ -36,6 +38,20 @@ def refuse_other_format(path: Path) -> None:
             "Give it the suffix .json. Other formats are written by calibgui calibrate with "
             f"{' or '.join(f'--export {name}={path}' for name in formats)}.",
         )
+
+
+def export_to_folder(result: Result, options: argparse.Namespace) -> str:
+    """Write a result in all formats to the folder of --export-all, and describe what is there.
+
+    Raises:
+        CalibrationError: as `export_all`.
+    """
+    outcomes = export_all(result, options.export_all, options.overwrite)
+    written = sum(one.report is not None for one in outcomes)
+    return (
+        f"Wrote {written} of {len(outcomes)} formats to {options.export_all}: its {PAGE} tells who "
+        "reads which file."
+    )
 
 
 def check_corner_outputs(

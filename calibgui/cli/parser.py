@@ -156,7 +156,12 @@ def build_parser() -> tuple[Parser, dict[str, Parser]]:
         "IMAGES | PROJECT] opens the window. To begin with squares of 25 mm: "
         "calibgui calibrate FOLDER --square 25 -o camera.json",
     )
-    parser.add_argument("--version", action="version", version=f"calibgui {__version__}")
+    parser.add_argument(
+        "--version",
+        action="version",
+        version=f"calibgui {__version__}",
+        help="print the version and exit; with --json those of all packages as well",
+    )
     choices = parser.add_subparsers(title="commands", metavar="COMMAND", dest="command")
     return parser, {name: choices.add_parser(name, help=text) for name, text in COMMANDS.items()}
 

@@ -10,6 +10,7 @@ records know no file format (``calibgui.formats``) and no window.
 from __future__ import annotations
 
 from calibgui.dataset.corner_set import DEFAULT_SQUARE, CornerSet
+from calibgui.dataset.hardware import LENS_TYPES, UNKNOWN_HARDWARE, Hardware
 from calibgui.dataset.left_out_result import LeftOut
 from calibgui.dataset.pose_set import LocatedView, PoseSet
 from calibgui.dataset.result import Result, list_installed_versions
@@ -18,7 +19,10 @@ from calibgui.dataset.view import View, ViewStatus, find_orientation
 
 __all__ = [
     "DEFAULT_SQUARE",
+    "LENS_TYPES",
+    "UNKNOWN_HARDWARE",
     "CornerSet",
+    "Hardware",
     "LeftOut",
     "LocatedView",
     "PoseSet",

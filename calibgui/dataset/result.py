@@ -10,6 +10,7 @@ import numpy as np
 import scipy
 
 from calibgui.dataset.corner_set import describe_lengths
+from calibgui.dataset.hardware import UNKNOWN_HARDWARE, Hardware, read_hardware
 from calibgui.dataset.stereo_rectification import StereoRectification
 from calibgui.dataset.view import View
 from calibgui.engine import opencv
@@ -54,6 +55,8 @@ class Result:
     mode: SensorMode | None = None
     """The stream that the file is for, from the images of the calibration, in whose pixels all else
     is; None if it is for these."""
+    hardware: Hardware = UNKNOWN_HARDWARE
+    """The camera and the lens as far as somebody stated them; not what photographs state."""
     improvements: tuple[str, ...] = ()
     """Sentences on what was done to make the camera better than the first that was found."""
     places: tuple[int, ...] = field(init=False, repr=False)
@@ -75,6 +78,10 @@ class Result:
     def observations(self) -> list[Observation]:
         """Return the corners of the used views, with their points on the board."""
         return [view.observation(self.board) for view in self.used]
+
+    def find_hardware(self) -> Hardware:
+        """Return the camera and the lens, as stated or else as the photographs state them."""
+        return self.hardware.over(read_hardware(view.image for view in self.used))
 
     @property
     def condition(self) -> str:

@@ -25,20 +25,32 @@ from pathlib import Path
 from calibgui.dataset import Result
 from calibgui.engine.errors import CalibrationError
 from calibgui.formats import (
+    adobe_lcp,
+    anipose_toml,
     basalt_json,
+    bouguet_results,
+    caliscope_toml,
     colmap_cameras,
+    colmap_model,
     corners_csv,
     corners_json,
+    corners_vnl,
     engine_python,
     gyroflow_json,
     kalibr_camchain,
     lensfun_xml,
     matlab_script,
+    metashape_xml,
     mrcal_model,
+    nerfstudio_json,
     opencv_file,
     opencv_python,
+    openvins_yaml,
+    orb_slam_yaml,
     result_json,
     ros_yaml,
+    undistortion_map,
+    usd_camera,
 )
 from calibgui.formats.camera_import import IMPORTERS, read_camera
 from calibgui.formats.exporter import Exporter, ExportReport
@@ -51,16 +63,28 @@ EXPORTERS: dict[str, Exporter] = {
         opencv_file,
         ros_yaml,
         kalibr_camchain,
+        openvins_yaml,
+        orb_slam_yaml,
         mrcal_model,
         colmap_cameras,
+        colmap_model,
+        nerfstudio_json,
+        metashape_xml,
         matlab_script,
+        bouguet_results,
         basalt_json,
+        anipose_toml,
+        caliscope_toml,
         gyroflow_json,
         lensfun_xml,
+        adobe_lcp,
+        undistortion_map,
+        usd_camera,
         engine_python,
         opencv_python,
         corners_json,
         corners_csv,
+        corners_vnl,
     )
 }
 """Exporters by name, in the order of menus."""
@@ -89,7 +113,7 @@ def find_exporter(name: str, path: str | os.PathLike[str]) -> Exporter:
     """Return the exporter `name` after a check that it can write `path`.
 
     Raises:
-        CalibrationError: for an unknown format or a suffix that is not the format's.
+        CalibrationError: for an unknown format or a name that is not the format's.
     """
     if name not in EXPORTERS:
         raise CalibrationError(
@@ -100,6 +124,11 @@ def find_exporter(name: str, path: str | os.PathLike[str]) -> Exporter:
         raise CalibrationError(
             f"{os.fspath(path)} is not named as a file of the format {name!r}.",
             f"Give it the suffix {' or '.join(exporter.suffixes)}.",
+        )
+    if exporter.stem and Path(path).stem != exporter.stem:
+        raise CalibrationError(
+            f"{os.fspath(path)} is not named as readers of the format {name!r} expect.",
+            f"Name it {' or '.join(exporter.stem + suffix for suffix in exporter.suffixes)}.",
         )
     return exporter
 

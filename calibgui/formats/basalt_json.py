@@ -116,8 +116,9 @@ EXPORTER = Exporter(
     suffixes=(".json",),
     models=tuple(_CAMERA_TYPES),
     refits=("brown-conrady", "kannala-brandt"),
-    limits="radtan8, kb4, ds, eucm, ucm or pinhole, other lenses refitted; no standard deviations, "
-    "no poses, no inertial sensor.",
+    readers="Basalt",
+    keeps="the camera as pinhole, pinhole-radtan8, kb4, ucm, eucm or ds",
+    loses="standard deviations, poses, corners",
     write=write_basalt,
 )
 IMPORTER = Importer(EXPORTER.title, re.compile(r'"camera_type"\s*:'), read_basalt, several=True)

@@ -16,7 +16,7 @@ from pathlib import Path
 
 import numpy as np
 
-from calibgui.dataset import Result, StereoRectification
+from calibgui.dataset import UNKNOWN_HARDWARE, Hardware, Result, StereoRectification
 from calibgui.engine.arrays import Array
 from calibgui.engine.calibration import (
     Calibration,
@@ -129,7 +129,8 @@ def export_stream(
     outline = mode.map_points(find_seen_region(result))
     region = np.clip(outline, 0, np.array(mode.size) - 1)
     camera = mode.adapt_camera(expressed.calibration.camera)
-    report = exporter.write(_make_result(camera, region, note), Path(path))
+    made = replace(_make_result(camera, region, note), hardware=result.find_hardware())
+    report = exporter.write(made, Path(path))
     return ExportReport(report.path, report.note, there.largest_error)
 
 
@@ -145,6 +146,7 @@ def export_camera(
     angle: float = math.inf,
     mode: SensorMode | None = None,
     rectification: StereoRectification | None = None,
+    hardware: Hardware = UNKNOWN_HARDWARE,
 ) -> ExportReport:
     """Write a camera without corners.
 
@@ -155,6 +157,7 @@ def export_camera(
         angle: largest angle from the axis at which a conversion must follow the camera, rad.
         mode: how its images are made from those of the camera that was read, for the note.
         rectification: that of a stereo pair, which is written where the format holds it.
+        hardware: the names of camera and lens, likewise.
 
     Raises:
         CalibrationError: if the format holds corners, none of its lens models follows the camera,
@@ -162,7 +165,7 @@ def export_camera(
     """
     if exporter.holds(camera):
         same = convert_camera(camera, camera.model)
-        return write_conversion(camera, same, exporter, path, mode, rectification)
+        return write_conversion(camera, same, exporter, path, mode, rectification, hardware)
     if not exporter.refits:
         raise CalibrationError(
             f"{os.fspath(path)} is not written: the format {exporter.name!r} does not hold the "
@@ -178,7 +181,7 @@ def export_camera(
     if not best.largest_error < MAX_REFIT_ERROR:
         message, hint = _explain_failure(camera, best)
         raise CalibrationError(f"{os.fspath(path)} is not written: {message}", hint)
-    return write_conversion(camera, best, exporter, path, mode, rectification)
+    return write_conversion(camera, best, exporter, path, mode, rectification, hardware)
 
 
 def write_conversion(
@@ -188,6 +191,7 @@ def write_conversion(
     path: str | os.PathLike[str],
     mode: SensorMode | None = None,
     rectification: StereoRectification | None = None,
+    hardware: Hardware = UNKNOWN_HARDWARE,
 ) -> ExportReport:
     """Write a converted camera in a format that holds its lens model; see `export_camera`.
 
@@ -198,22 +202,26 @@ def write_conversion(
     note = describe_conversion(original, found)
     if mode is not None:
         note = f"{note} {_describe_stream(mode)}"
-    result = replace(_make_result(found.camera, found.region, note), rectification=rectification)
+    result = replace(
+        _make_result(found.camera, found.region, note),
+        rectification=rectification,
+        hardware=hardware,
+    )
     report = exporter.write(result, Path(path))
     error = max(found.largest_error, report.largest_error_px or 0.0)
     return ExportReport(report.path, report.note, error)
 
 
 def _check_holds_cameras(exporter: Exporter, path: str | os.PathLike[str]) -> None:
-    """Refuse a format that holds corners.
+    """Refuse a format that holds corners or poses.
 
     Raises:
         CalibrationError: if it does.
     """
     if exporter.needs_corners:
         raise CalibrationError(
-            f"{os.fspath(path)} is not written: the format {exporter.name!r} holds corners, and "
-            "there are none of this camera.",
+            f"{os.fspath(path)} is not written: the format {exporter.name!r} holds corners or the "
+            "poses of photographs, and there are none of this camera.",
             "Choose a format that holds a camera only.",
         )
 

@@ -15,13 +15,19 @@ from calibgui.dataset import Result
 from calibgui.engine.arrays import Size
 from calibgui.engine.errors import CalibrationError
 from calibgui.formats import (
+    anipose_toml,
     basalt_json,
+    bouguet_results,
+    caliscope_toml,
     colmap_cameras,
     gyroflow_json,
     kalibr_camchain,
     matlab_script,
+    metashape_xml,
     mrcal_model,
+    nerfstudio_json,
     opencv_file,
+    orb_slam_yaml,
     photonvision_json,
     result_json,
     ros_yaml,
@@ -38,9 +44,15 @@ IMPORTERS: tuple[Importer, ...] = tuple(
         photonvision_json,
         mrcal_model,
         basalt_json,
+        caliscope_toml,
+        anipose_toml,
         gyroflow_json,
+        nerfstudio_json,
+        metashape_xml,
+        bouguet_results,
         matlab_script,
         kalibr_camchain,
+        orb_slam_yaml,
         ros_yaml,
         opencv_file,
         colmap_cameras,
@@ -55,18 +67,28 @@ _WITHOUT_CAMERA = (
         _NAME_ITS_RESULT,
     ),
     (
+        re.compile("photoshop/1.0/camera-profile"),
+        "is a lens profile of Adobe's, whose images may be of any size.",
+        _NAME_ITS_RESULT,
+    ),
+    (
         re.compile(make_mark("(opencv-)?python")),
         "is a script in Python, which is not run.",
         _NAME_ITS_RESULT,
     ),
     (
-        re.compile(f"{make_mark(CORNERS)}|\\Aimage,row,col,"),
+        re.compile(f"{make_mark(CORNERS)}|\\Aimage,row,col,|^# filename x y ", re.MULTILINE),
         "holds corners, but no camera.",
         "Calibrate them first: `calibgui calibrate -o` writes a result.json.",
     ),
 )
 """Patterns of files that this program writes and reads no camera from, what these are, and what to
 do instead."""
+_BINARY = (
+    (bouguet_results.is_mat, bouguet_results.unpack_mat),
+    (colmap_cameras.is_binary, colmap_cameras.unpack_cameras),
+)
+"""Functions that tell and translate the binary files that are read."""
 MAX_FILE_SIZE = 64 << 20
 """Size of the largest files that are read, bytes: results and mrcal's models hold all corners."""
 
@@ -146,6 +168,10 @@ def _find_importer(text: str) -> Importer | None:
 
 
 def _read_text(path: str | os.PathLike[str]) -> str:
-    """Return the text of a file. Raises as ``gate.read_text``."""
+    """Return the text of a file, or that which says the same as its binary content.
+
+    Raises as ``gate.read_text``.
+    """
     readable = f"These can be read: {', '.join(importer.title for importer in IMPORTERS)}."
-    return read_text(path, MAX_FILE_SIZE, "a camera file that can be read", readable)
+    title = "a camera file that can be read"
+    return read_text(path, MAX_FILE_SIZE, title, readable, _BINARY)

@@ -39,7 +39,7 @@ def write_in_models(
     result: Result,
     path: Path,
     exporter: Exporter,
-    make_text: Callable[[Calibration, str], str],
+    make_content: Callable[[Calibration, str], str | bytes],
 ) -> ExportReport:
     """Write a camera in one of the lens models that a format holds.
 
@@ -47,11 +47,26 @@ def write_in_models(
         result: the calibration to write.
         path: the file.
         exporter: the format.
-        make_text: function that turns the calibration in such a model, and the note on its refit,
-            into the content of the file.
+        make_content: function that turns the calibration in such a model, and the note on its
+            refit, into the content of the file.
 
     Raises:
         CalibrationError: if none of the models can follow the lens, or the file cannot be written.
+    """
+    expressed, note, marked = fit_to_format(result, path, exporter)
+    content = make_content(expressed.calibration, marked)
+    write_atomically(path, content.encode() if isinstance(content, str) else content)
+    return ExportReport(path, note, expressed.largest_error)
+
+
+def fit_to_format(result: Result, path: Path, exporter: Exporter) -> tuple[Refit, str, str]:
+    """Express a camera in one of the lens models that a format holds, for the file `path`.
+
+    Returns:
+        The refit, the note on it, and the note with the mark of the format for the file itself.
+
+    Raises:
+        CalibrationError: if none of the models can follow the lens.
     """
     try:
         expressed = express_in_format(result, exporter)
@@ -65,8 +80,7 @@ def write_in_models(
     check_refit(result, expressed, path)
     note = describe_refit(result, expressed)
     marked = " ".join(filter(None, [make_mark(exporter.name), note, describe_condition(result)]))
-    write_atomically(path, make_text(expressed.calibration, marked).encode())
-    return ExportReport(path, note, expressed.largest_error)
+    return expressed, note, marked
 
 
 def express_in_format(result: Result, exporter: Exporter) -> Refit:

@@ -1,16 +1,19 @@
-"""COLMAP's cameras.txt, with one camera.
+"""COLMAP's cameras.txt or cameras.bin, with one camera.
 
 Reader: COLMAP and pycolmap, which take it for the first camera of a sparse model, and
-`read_colmap`. Pixels of COLMAP have whole numbers at their corners: the principal point is half a
-pixel more than OpenCV's. Each of COLMAP's models lists its parameters in an order of its own. A
-camera of five coefficients is written as FULL_OPENCV, whose other three are 0; decentering on a
-fisheye as THIN_PRISM_FISHEYE, whose thin prism is 0.
-Cannot hold: other lens models and skew (they are refitted), standard deviations, poses, corners.
+`read_colmap`. The suffix tells whether the file is a text or binary, and binary files are read as
+the texts that say the same. Pixels of COLMAP have whole numbers at their corners: the principal
+point is half a pixel more than OpenCV's. Each of COLMAP's models lists its parameters in an order
+of its own. A camera of five coefficients is written as FULL_OPENCV, whose other three are 0;
+decentering on a fisheye as THIN_PRISM_FISHEYE, whose thin prism is 0.
+Cannot hold: other lens models and skew (they are refitted), standard deviations, poses, corners
+(``colmap_model.py``).
 """
 
 from __future__ import annotations
 
 import re
+import struct
 from pathlib import Path
 
 from calibgui.dataset import Result
@@ -52,21 +55,89 @@ _WRITTEN = {
     "eucm": "EUCM",
 }
 """COLMAP's models that cameras of ours are written in."""
+_NUMBERS = {
+    "SIMPLE_PINHOLE": 0,
+    "PINHOLE": 1,
+    "SIMPLE_RADIAL": 2,
+    "RADIAL": 3,
+    "OPENCV": 4,
+    "OPENCV_FISHEYE": 5,
+    "FULL_OPENCV": 6,
+    "FOV": 7,
+    "SIMPLE_RADIAL_FISHEYE": 8,
+    "RADIAL_FISHEYE": 9,
+    "THIN_PRISM_FISHEYE": 10,
+    "SIMPLE_DIVISION": 12,
+    "DIVISION": 13,
+    "SIMPLE_FISHEYE": 14,
+    "FISHEYE": 15,
+    "EUCM": 16,
+}
+"""Numbers of COLMAP's models in binary files."""
+_COUNTS = {_NUMBERS[name]: len(names.split()) for name, (_, names) in _READABLE.items()}
+_COUNTS[_NUMBERS["FOV"]] = 5
+"""Numbers of parameters of a binary file's models."""
+_HEAD = struct.Struct("<IiQQ")
+"""A camera's number, its model's number, width and height in a binary file."""
 
 
 def write_colmap(result: Result, path: Path) -> ExportReport:
-    """Write a cameras.txt with one camera."""
-    return write_in_models(
-        result, path, EXPORTER, lambda fitted, note: format_cameras(fitted.camera, note)
-    )
+    """Write a file with one camera."""
+    make = pack_cameras if path.suffix.lower() == ".bin" else format_cameras
+    return write_in_models(result, path, EXPORTER, lambda fitted, note: make(fitted.camera, note))
+
+
+def _list_parameters(camera: Camera) -> tuple[str, list[float]]:
+    """Return COLMAP's model of a camera in one of the format's models, and its parameters."""
+    model = _WRITTEN[camera.model]
+    values = {"beta": 1.0} | dict(zip(camera.names, camera.params.tolist(), strict=True))
+    values["cx"], values["cy"] = corner_from_array(camera.centre).tolist()
+    return model, [values.get(name, 0.0) for name in _READABLE[model][1].split()]
+
+
+def pack_cameras(camera: Camera, note: str) -> bytes:
+    """Return the content of a binary file; the note stands behind the camera, where no reader
+    looks."""
+    model, parameters = _list_parameters(camera)
+    head = struct.pack("<Q", 1) + _HEAD.pack(1, _NUMBERS[model], *camera.size)
+    return head + struct.pack(f"<{len(parameters)}d", *parameters) + note.encode()
+
+
+def is_binary(content: bytes) -> bool:
+    """Return whether the content of a file begins as that of a cameras.bin does."""
+    if len(content) < 8 + _HEAD.size:
+        return False
+    (count,) = struct.unpack_from("<Q", content)
+    return 0 < count < len(content) and _HEAD.unpack_from(content, 8)[1] in _NUMBERS.values()
+
+
+def unpack_cameras(content: bytes) -> str:
+    """Return the cameras.txt that says the same as the content of a cameras.bin.
+
+    Raises:
+        ValueError: if the content ends within a camera, or a camera has an unknown model.
+    """
+    names = {number: name for name, number in _NUMBERS.items()}
+    lines, place = [], 8
+    try:
+        for _ in range(struct.unpack_from("<Q", content)[0]):
+            camera, number, width, height = _HEAD.unpack_from(content, place)
+            if number not in names:
+                raise ValueError(f"camera {camera} has the unknown lens model {number}")
+            place += _HEAD.size
+            parameters = struct.unpack_from(f"<{_COUNTS[number]}d", content, place)
+            place += 8 * len(parameters)
+            values = " ".join(map(repr, parameters))
+            lines.append(f"{camera} {names[number]} {width} {height} {values}")
+    except struct.error as error:
+        raise ValueError("it ends within a camera") from error
+    return "\n".join(lines)
 
 
 def format_cameras(camera: Camera, note: str) -> str:
     """Return the text of the file; `camera` is in one of the format's models."""
-    model = _WRITTEN[camera.model]
-    values = {"beta": 1.0} | dict(zip(camera.names, camera.params.tolist(), strict=True))
-    values["cx"], values["cy"] = corner_from_array(camera.centre).tolist()
-    numbers = " ".join(repr(values.get(name, 0.0)) for name in _READABLE[model][1].split())
+    model, parameters = _list_parameters(camera)
+    numbers = " ".join(map(repr, parameters))
     width, height = camera.size
     return (
         f"# {note}\n"
@@ -123,11 +194,13 @@ def read_colmap(source: CameraText) -> ImportedCamera:
 EXPORTER = Exporter(
     name="colmap",
     title="COLMAP cameras.txt",
-    suffixes=(".txt",),
+    suffixes=(".txt", ".bin"),
     models=tuple(_WRITTEN),
     refits=("brown-conrady", "kannala-brandt-decentering"),
-    limits="OpenCV's forward and fisheye models, division or EUCM, other lenses refitted; no "
-    "standard deviations, no poses.",
+    readers="COLMAP, pycolmap",
+    keeps="the camera in OpenCV's models, as THIN_PRISM_FISHEYE, DIVISION or EUCM; pixels count "
+    "from a corner",
+    loses="standard deviations, poses, corners",
     write=write_colmap,
 )
 IMPORTER = Importer(

@@ -16,7 +16,7 @@ from __future__ import annotations
 import os
 import re
 from collections.abc import Iterator, Mapping, Sequence
-from pathlib import Path, PurePath
+from pathlib import Path
 
 import numpy as np
 
@@ -27,9 +27,10 @@ from calibgui.engine.calibration import Observation
 from calibgui.engine.camera import MODELS
 from calibgui.engine.files import write_atomically
 from calibgui.formats.corner_table import CornerText, make_board, make_view
-from calibgui.formats.corners_json import HINT
+from calibgui.formats.corners_json import HINT, NOTE
 from calibgui.formats.csv_table import format_csv, parse_cell, parse_csv
 from calibgui.formats.exporter import Exporter, ExportReport, describe_condition
+from calibgui.formats.image_names import shorten_names
 from calibgui.formats.node import MAX_LINES, Node
 
 _POINT_COLUMNS = ("u_px", "v_px", "x_mm", "y_mm")
@@ -67,7 +68,7 @@ def write_corners_csv(
     found = [view for view in views if view.status is ViewStatus.FOUND]
     weighted = any(view.observation(board).cov is not None for view in found)
     rows: list[Sequence[object]] = [_COLUMNS + _COVARIANCE_COLUMNS if weighted else _COLUMNS]
-    names = _shorten_names([view.image for view in found])
+    names = shorten_names([view.image for view in found])
     for view, name in zip(found, names, strict=True):
         rows += _make_rows(view, name, view.observation(board))
     # A file name that is not valid Unicode is written so that every reader takes it.
@@ -81,18 +82,6 @@ def _make_rows(view: View, image: str, points: Observation) -> Iterator[list[str
         if points.cov is not None:
             row += points.cov[i][[0, 0, 1], [0, 1, 1]].tolist()
         yield row
-
-
-def _shorten_names(images: Sequence[str]) -> list[str]:
-    """Return absolute paths from the innermost folder that holds them all, others as they are."""
-    paths = [PurePath(image) for image in images]
-    if not paths or not all(path.is_absolute() for path in paths):
-        return list(images)
-    try:
-        folder = os.path.commonpath([path.parent for path in paths])
-    except ValueError:  # on several drives
-        return list(images)
-    return [path.relative_to(folder).as_posix() for path in paths]
 
 
 def read_corners_csv(source: CornerText) -> CornerSet:
@@ -179,7 +168,7 @@ def _find_board(source: CornerText, grid: IntArray | None, xy: Array | None) -> 
 
 def _export(result: Result, path: Path) -> ExportReport:
     write_corners_csv(result.views, result.board, path)
-    return ExportReport(path, f"{EXPORTER.limits} {describe_condition(result)}".rstrip())
+    return ExportReport(path, f"{NOTE} {describe_condition(result)}".rstrip())
 
 
 EXPORTER = Exporter(
@@ -187,7 +176,9 @@ EXPORTER = Exporter(
     title="Corners as CSV",
     suffixes=(".csv",),
     models=tuple(MODELS),
-    limits="Corners and their places on the board; no calibration, no images without corners.",
+    readers="spreadsheets, any reader of CSV",
+    keeps="the corners and their places on the board",
+    loses="the calibration, photographs without corners",
     write=_export,
     partial=True,
     needs_corners=True,

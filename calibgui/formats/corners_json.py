@@ -42,6 +42,10 @@ or a table in CSV with the columns image,u,v,row,col or image,u,v,X,Y."""
 """Advice where a file holds no corners in a form that is read."""
 
 
+NOTE = "Corners and their places on the board; no calibration."
+"""What users should know of a file of corners."""
+
+
 def write_corners(corner_set: CornerSet, path: str | os.PathLike[str]) -> None:
     """Write corners.json.
 
@@ -92,7 +96,7 @@ def decode_corners(node: Node) -> CornerSet:
 def _export(result: Result, path: Path) -> ExportReport:
     size = result.calibration.camera.size
     write_corners(CornerSet(size, result.views, result.board, result.lengths_confirmed), path)
-    return ExportReport(path, f"{EXPORTER.limits} {describe_condition(result)}".rstrip())
+    return ExportReport(path, f"{NOTE} {describe_condition(result)}".rstrip())
 
 
 EXPORTER = Exporter(
@@ -100,7 +104,9 @@ EXPORTER = Exporter(
     title="Corners as JSON",
     suffixes=(".json",),
     models=tuple(MODELS),
-    limits="Corners of all images and their places on the board; no calibration.",
+    readers="calibgui, any reader of JSON",
+    keeps="the corners of all photographs and their places on the board",
+    loses="the calibration",
     write=_export,
     partial=True,
     needs_corners=True,

@@ -60,6 +60,8 @@ EXPORTER = Exporter(
     title="Python lines for calibgui",
     suffixes=(".py",),
     models=tuple(MODELS),
-    limits="The camera as calibrated, sigma as comments; no poses.",
+    readers="Python with calibgui",
+    keeps="the camera as calibrated, standard deviations as comments",
+    loses="correlations, poses, corners",
     write=write_engine_python,
 )

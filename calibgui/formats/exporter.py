@@ -45,10 +45,17 @@ class Exporter:
     """Suffixes of its files, the usual one first."""
     models: tuple[str, ...]
     """Names of the lens models that it holds as calibrated."""
-    limits: str
-    """Conventions, what is refitted and what the format cannot hold."""
+    readers: str
+    """The programs that read its files."""
+    keeps: str
+    """What it holds of a calibration, as a clause; a camera in another lens model than those named
+    here is refitted."""
+    loses: str
+    """What it does not hold, as a clause."""
     write: Callable[[Result, Path], ExportReport]
     """Function that writes a file; it raises CalibrationError if it cannot."""
+    stem: str = ""
+    """Name without suffix that its readers look for; empty if any will do."""
     refits: tuple[str, ...] = ()
     """Names of the models in which cameras of other models are refitted, the simplest first; a
     camera that none of them follows is not written. Empty if nothing is ever refitted."""
@@ -65,6 +72,11 @@ class Exporter:
     write_zoom: Callable[[Sequence[tuple[float, Camera]], Path], ExportReport] | None = None
     """Function that writes one file of a zoom lens from its focal lengths, mm, and cameras, or None
     if the format holds one camera; it raises CalibrationError if it cannot."""
+
+    @property
+    def file_name(self) -> str:
+        """Name of a file unless the user chooses another."""
+        return f"{self.stem or 'camera'}{self.suffixes[0]}"
 
     def holds(self, camera: Camera) -> bool:
         """Return whether `write` takes the camera as calibrated."""

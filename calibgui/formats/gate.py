@@ -3,7 +3,8 @@
 A file may be damaged, of another kind, or made to do harm. Whatever its language, it passes:
 
 1. `read_text`: a regular file of at most a stated size, as text in UTF-8. Pipes, devices, folders
-   and large files are refused before anything of them is read.
+   and large files are refused before anything of them is read. A binary format that is read becomes
+   the text that says the same.
 2. `parse_text`: lists, objects, texts and numbers by the parser of a `Language`. Whatever that
    raises refuses the file, as it sees nothing but the text; so does a lack of stack or memory.
    Content that nests deeper than `MAX_DEPTH` is refused as well, so that what comes later may
@@ -18,7 +19,7 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -59,7 +60,11 @@ class Language:
 
 
 def read_text(
-    path: str | os.PathLike[str], max_size: int, title: str, remedy: str = _REMEDY
+    path: str | os.PathLike[str],
+    max_size: int,
+    title: str,
+    remedy: str = _REMEDY,
+    binary: Sequence[tuple[Callable[[bytes], bool], Callable[[bytes], str]]] = (),
 ) -> str:
     """Return the text of a file, without a byte order mark.
 
@@ -68,18 +73,25 @@ def read_text(
         max_size: its largest size, bytes.
         title: what it is expected to be, as "a JSON file".
         remedy: if it is no text.
+        binary: binary formats that are read as the texts that say the same: a function that tells
+            by its content whether a file is of the format, and one that returns the text or raises
+            ValueError with the reason.
 
     Raises:
-        CalibrationError: if it cannot be read, is no regular file, is too large, or is not text
-            in UTF-8.
+        CalibrationError: if it cannot be read, is no regular file, is too large, or is neither text
+            in UTF-8 nor of a binary format.
     """
     file = os.fspath(path)
     try:
-        return read_regular(path, max_size).decode("utf-8-sig")
+        content = read_regular(path, max_size)
+        translate = next((translate for is_of, translate in binary if is_of(content)), None)
+        return content.decode("utf-8-sig") if translate is None else translate(content)
     except OSError as error:
         raise describe_read_error(path, error) from error
     except UnicodeDecodeError as error:
         raise _refuse(file, title, "it is not text in UTF-8", remedy) from error
+    except ValueError as error:
+        raise _refuse(file, title, str(error), remedy) from error
     except MemoryError as error:
         raise _refuse(file, title, "it takes more memory than there is") from error
 

@@ -27,7 +27,7 @@ from typing import Any
 
 import numpy as np
 
-from calibgui.dataset import Result
+from calibgui.dataset import UNKNOWN_HARDWARE, Hardware, Result
 from calibgui.engine.arrays import Array
 from calibgui.engine.camera import Camera
 from calibgui.engine.files import write_atomically
@@ -55,8 +55,12 @@ _MODELS = ("opencv_standard", "opencv_fisheye")
 
 def write_gyroflow(result: Result, path: Path) -> ExportReport:
     """Write the profile of one camera."""
+    hardware = result.find_hardware()
     return write_in_models(
-        result, path, EXPORTER, lambda fitted, note: format_profile([(None, fitted.camera)], note)
+        result,
+        path,
+        EXPORTER,
+        lambda fitted, note: format_profile([(None, fitted.camera)], note, hardware),
     )
 
 
@@ -81,24 +85,27 @@ def write_gyroflow_zoom(cameras: Sequence[tuple[float, Camera]], path: Path) -> 
     return ExportReport(path, note, found[worst].largest_error)
 
 
-def format_profile(cameras: Sequence[tuple[float | None, Camera]], note: str) -> str:
+def format_profile(
+    cameras: Sequence[tuple[float | None, Camera]], note: str, hardware: Hardware = UNKNOWN_HARDWARE
+) -> str:
     """Return the text of the file.
 
     Args:
         cameras: focal lengths in ascending order, mm, and the camera at each, in one of the
             format's models; a single camera may have None.
         note: the note on the file.
+        hardware: the names of camera and lens.
     """
     focal, camera = cameras[0]
     stretch = _measure_stretch(camera)
     width, height = np.rint(stretch * camera.size).astype(int).tolist()
     content: dict[str, Any] = {
-        "name": "",
+        "name": " ".join(filter(None, [hardware.maker, hardware.model, hardware.lens])),
         "note": note,
         "calibrated_by": "calibgui",
-        "camera_brand": "",
-        "camera_model": "",
-        "lens_model": "",
+        "camera_brand": hardware.maker or "",
+        "camera_model": hardware.model or "",
+        "lens_model": hardware.lens or "",
         "camera_setting": "",
         "calib_dimension": {"w": width, "h": height},
         "orig_dimension": dict(zip("wh", camera.size, strict=True)),
@@ -187,8 +194,10 @@ EXPORTER = Exporter(
     suffixes=(".json",),
     models=(*PERSPECTIVE_MODELS, FISHEYE),
     refits=("brown-conrady", FISHEYE),
-    limits="opencv_standard or opencv_fisheye, other lenses refitted; no standard deviations, no "
-    "poses; names of camera and lens are left for you to fill in.",
+    readers="Gyroflow",
+    keeps="the camera as opencv_standard or opencv_fisheye, a zoom lens with its focal lengths, "
+    "the names of camera and lens",
+    loses="standard deviations, poses, corners",
     write=write_gyroflow,
     write_zoom=write_gyroflow_zoom,
 )

@@ -137,8 +137,9 @@ EXPORTER = Exporter(
     suffixes=(".yaml", ".yml"),
     models=tuple(model.model for model in _MODELS),
     refits=("brown-conrady-4", "kannala-brandt"),
-    limits="radtan (without k3), equidistant, omni, eucm or ds, other lenses refitted; no standard "
-    "deviations, no poses.",
+    readers="Kalibr, VINS-Fusion, any reader of YAML",
+    keeps="the camera as radtan, equidistant, omni, eucm or ds",
+    loses="standard deviations, poses, corners",
     write=write_kalibr,
 )
 IMPORTER = Importer(

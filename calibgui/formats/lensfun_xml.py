@@ -14,10 +14,15 @@ Cannot hold: any other lens model, which is fitted to the camera's rays, standar
 corners.
 
 The centre is the mean of the cameras' centres. A rotation makes up for most of the differences
-(`compare_cameras` says why), so focal length, k1 and k2 are fitted with a rotation of the rays. A
-camera does not know the size of its sensor: a single one is written as if its shorter side were
-that of a sensor of 36 mm x 24 mm; for a zoom lens the nominal focal lengths say what size fits them
-best.
+(`compare_cameras` says why), so focal length, k1 and k2 are fitted with a rotation of the rays.
+Where neither EXIF nor the user states the crop factor, the sensor of a single camera is taken for
+one of 36 mm x 24 mm, or of its diagonal; for a zoom lens the nominal focal lengths say what size
+fits them best.
+
+The type decides what a photo editor does that removes only the distortion: a rectilinear lens is
+straightened, a fisheye stays one. The barrel distortion of a narrow lens is that of a fisheye as
+well, so that the better fit does not tell them apart. A lens of less than 100 degrees counts as
+rectilinear unless that cannot follow it; beyond, it is the type of the better fit.
 """
 
 from __future__ import annotations
@@ -31,19 +36,24 @@ from typing import NamedTuple
 import numpy as np
 import scipy
 
-from calibgui.dataset import Result
+from calibgui.dataset import UNKNOWN_HARDWARE, Hardware, Result
 from calibgui.engine.arrays import Array
 from calibgui.engine.camera import Camera, pixels_from_rays, rays_from_pixels
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.files import write_atomically
 from calibgui.engine.geometry import rotation_from_vector
 from calibgui.engine.images import make_mesh
-from calibgui.formats.camera_refit import MAX_REFIT_ERROR, SUFFICIENT_REFIT_ERROR
+from calibgui.formats.camera_refit import MAX_REFIT_ERROR
 from calibgui.formats.exporter import Exporter, ExportReport, describe_condition
 from calibgui.formats.origin import make_mark
 
+_NAMED = ("maker", "model", "lens", "mount", "crop")
+"""What lensfun finds a lens by."""
 _MODELS = {"rectilinear": "brown-conrady-4", "fisheye": "kannala-brandt"}
 """Lensfun's types of lenses, and our models of them, of which p1, p2 or k3, k4 are 0 here."""
+_MAX_RECTILINEAR = math.radians(50)
+"""Angle from the axis up to which a lens counts as rectilinear if that follows it: fisheye lenses
+see 180 degrees across the image's diagonal, and those of cropped sensors 100."""
 _MIN_UNEVENNESS = 1e-3
 """Logarithm of fx / fy from which pixels that are not square are named: 0.3 px or more at the edge
 of an image of 640 pixels."""
@@ -74,9 +84,11 @@ def write_lensfun(result: Result, path: Path) -> ExportReport:
         uv = np.concatenate([view.uv for view in result.observations()])
     else:
         uv = _make_mesh(camera)
-    half_mm = _DIAGONAL_MM / 2 / math.hypot(_measure_aspect(camera), 1.0)
+    hardware = result.find_hardware()
+    half_mm = _DIAGONAL_MM / 2 / math.hypot(_measure_aspect(camera), 1.0) / (hardware.crop or 1.0)
     where = "where corners were seen" if result.used else "over the whole image"
-    return _write([camera], [uv], None, half_mm, where, describe_condition(result), path)
+    condition = describe_condition(result)
+    return _write([camera], [uv], None, half_mm, where, condition, path, hardware)
 
 
 def write_lensfun_zoom(cameras: Sequence[tuple[float, Camera]], path: Path) -> ExportReport:
@@ -105,42 +117,47 @@ def _write(
     where: str,
     condition: str,
     path: Path,
+    hardware: Hardware = UNKNOWN_HARDWARE,
 ) -> ExportReport:
     """Fit lensfun's models to the rays of `pixels`, and write one lens with all focal lengths."""
-    kind, fits = _fit_cameras(cameras, pixels, path)
+    kind, fits = _fit_cameras(cameras, pixels, path, hardware.type)
     error = max(fit.error for fit in fits)
     note = (
         f"Lens model poly5 of a {kind} lens without decentering, fitted to the rays; differs by at "
-        f"most {error:.2g} px {where}, after a rotation. Set maker, model, mount and crop factor."
+        f"most {error:.2g} px {where}, after a rotation."
     )
+    if missing := [name for name in _NAMED if getattr(hardware, name) is None]:
+        note = f"{note} Not known and yours to set: {', '.join(missing)}."
     text = format_database(
         kind,
         [fit.camera for fit in fits],
         nominal,
         half_mm,
         " ".join(filter(None, [make_mark(EXPORTER.name), note, condition])),
+        hardware,
     )
     write_atomically(path, text.encode())
     return ExportReport(path, note, error)
 
 
 def _fit_cameras(
-    cameras: Sequence[Camera], pixels: Sequence[Array], path: Path
+    cameras: Sequence[Camera], pixels: Sequence[Array], path: Path, stated: str | None
 ) -> tuple[str, list[_Fit]]:
-    """Fit one type of lens to all cameras: the first that follows them, or the nearest.
+    """Fit the stated type of lens to all cameras, or else that which the file's head says.
 
     Raises:
         CalibrationError: if none follows them.
     """
     centre = np.mean([camera.centre for camera in cameras], axis=0)
+    is_narrow = all(_measure_angle(camera) < _MAX_RECTILINEAR for camera in cameras)
     tried: list[tuple[float, str, list[_Fit]]] = []
-    for kind in _MODELS:
+    for kind in _MODELS if stated is None else (stated,):
         fits = [
             _fit_radially(camera, uv, centre, kind)
             for camera, uv in zip(cameras, pixels, strict=True)
         ]
         tried.append((max(fit.error for fit in fits), kind, fits))
-        if tried[-1][0] < SUFFICIENT_REFIT_ERROR:
+        if is_narrow and tried[-1][0] < MAX_REFIT_ERROR:
             break
     error, kind, fits = min(tried, key=lambda one: one[0])
     if not error < MAX_REFIT_ERROR:
@@ -154,6 +171,13 @@ def _fit_cameras(
             "Export it to another format, as gyroflow, or write undistorted images.",
         )
     return kind, fits
+
+
+def _measure_angle(camera: Camera) -> float:
+    """Return the largest angle from the axis of the rays of the image, rad."""
+    rays = rays_from_pixels(_make_mesh(camera), camera)
+    theta = np.arctan2(np.hypot(rays[:, 0], rays[:, 1]), rays[:, 2])
+    return float(np.max(theta, initial=0.0, where=np.isfinite(theta)))
 
 
 def _differ_from_one(ratio: float) -> float:
@@ -200,6 +224,7 @@ def format_database(
     nominal: Sequence[float] | None,
     half_mm: float,
     note: str,
+    hardware: Hardware = UNKNOWN_HARDWARE,
 ) -> str:
     """Return the text of the file.
 
@@ -209,6 +234,7 @@ def format_database(
         nominal: their nominal focal lengths, mm; None to take the calibrated ones.
         half_mm: half the shorter side of the sensor, mm.
         note: the note on the file.
+        hardware: the names of camera and lens.
     """
     size, half, aspect = cameras[0].size, _measure_half(cameras[0]), _measure_aspect(cameras[0])
     x, y = (cameras[0].centre - (np.array(size) - 1) / 2) / half
@@ -224,23 +250,26 @@ def format_database(
             f'k2="{k2:.9g}"/>\n'
             f'            <real-focal-length focal="{focal:.6g}" real-focal="{real:.9g}"/>\n'
         )
+    maker, model = (escape(name or "") for name in (hardware.maker, hardware.model))
+    mount = escape(hardware.mount or "calibgui")
+    lens_maker = escape(hardware.lens_maker or hardware.maker or "calibgui")
     type_line = "" if kind == "rectilinear" else f"        <type>{kind}</type>\n"
     return f"""\
 <!-- {escape(note, quote=False).replace("--", "- -")} -->
 <lensdatabase version="1">
     <mount>
-        <name>calibgui</name>
+        <name>{mount}</name>
     </mount>
     <camera>
-        <maker>calibgui</maker>
-        <model>camera</model>
-        <mount>calibgui</mount>
+        <maker>{maker or "calibgui"}</maker>
+        <model>{model or "camera"}</model>
+        <mount>{mount}</mount>
         <cropfactor>{crop:.9g}</cropfactor>
     </camera>
     <lens>
-        <maker>calibgui</maker>
-        <model>lens</model>
-        <mount>calibgui</mount>
+        <maker>{lens_maker}</maker>
+        <model>{escape(hardware.lens or "lens")}</model>
+        <mount>{mount}</mount>
 {type_line}        <center x="{x:.9g}" y="{y:.9g}"/>
         <cropfactor>{crop:.9g}</cropfactor>
         <aspect-ratio>{aspect:.9g}</aspect-ratio>
@@ -272,8 +301,10 @@ EXPORTER = Exporter(
     title="lensfun database",
     suffixes=(".xml",),
     models=(),
-    limits="poly5, rectilinear or fisheye, fitted to the rays of every lens; square pixels, no "
-    "decentering; names and crop factor are left for you to set; no standard deviations, no poses.",
+    readers="lensfun: darktable, RawTherapee, digiKam",
+    keeps="focal length, centre, k1 and k2 of poly5, fitted to the rays, a zoom lens with its "
+    "focal lengths, the names of camera and lens",
+    loses="pixels that are not square, decentering, standard deviations, poses, corners",
     write=write_lensfun,
     fits_rays=True,
     write_zoom=write_lensfun_zoom,

@@ -25,8 +25,13 @@ from calibgui.engine.arrays import Array
 from calibgui.engine.camera import PINHOLE, Camera
 from calibgui.formats.camera_refit import write_in_models
 from calibgui.formats.exporter import Exporter, ExportReport
-from calibgui.formats.gate import parse_number
 from calibgui.formats.importer import CameraText, ImportedCamera, Importer
+from calibgui.formats.matlab_text import (
+    find_assignments,
+    format_row,
+    parse_matrix,
+    remove_comments,
+)
 
 _FISHEYE = "scaramuzza"
 _RADIAL = {
@@ -36,14 +41,8 @@ _RADIAL = {
 }
 """The coefficients of cameraIntrinsics' RadialDistortion, by lens model."""
 _CALL = re.compile(r"\b(cameraIntrinsics|cameraParameters|fisheyeIntrinsics)\s*\(")
-_COMMENT = re.compile(r"%.*|\.\.\..*\n?")
-"""A comment, or the end of a line that goes on in the next."""
 _ARGUMENT = re.compile(r"""\s*(\[[^\[\]]*\]'?|"[^"\n]*"|'[^'\n]*'|[^\[\]()'",\s]+'?)\s*([,)])""")
 """An argument of a call, and what ends it."""
-_ASSIGNMENT = re.compile(
-    r"^[ \t]*(\w+)[ \t]*=[ \t]*(\[[^\[\]]*\]|[-+.\w]+)('?)[ \t]*(?:;[ \t]*)?$", re.MULTILINE
-)
-"""A variable and the matrix or number that it gets."""
 _POSITIONAL = {
     "cameraIntrinsics": ("FocalLength", "PrincipalPoint", "ImageSize"),
     "cameraParameters": (),
@@ -62,19 +61,19 @@ def write_matlab(result: Result, path: Path) -> ExportReport:
 def format_script(camera: Camera, note: str) -> str:
     """Return the text of the script; `camera` is in one of the format's models."""
     width, height = camera.size
-    size, centre = _format_matrix([height, width]), _format_matrix(camera.centre + 1)
+    size, centre = format_row([height, width]), format_row(camera.centre + 1)
     if camera.model == _FISHEYE:
         fx, fy = camera.focal
         mapping = [fy, *camera.coefficients / fy ** np.array([1, 2, 3])]
         stretch = f"[{float(fx / fy)!r} 0; 0 1]"
-        call = f"fisheyeIntrinsics({_format_matrix(mapping)}, {size}, {centre}, {stretch})"
+        call = f"fisheyeIntrinsics({format_row(mapping)}, {size}, {centre}, {stretch})"
     else:
-        call = f"cameraIntrinsics({_format_matrix(camera.focal)}, {centre}, {size}"
+        call = f"cameraIntrinsics({format_row(camera.focal)}, {centre}, {size}"
         if radial := _RADIAL[camera.model]:
             values = dict(zip(camera.names, camera.params.tolist(), strict=True))
             call += (
-                f", ...\n    'RadialDistortion', {_format_matrix([values[k] for k in radial])}"
-                f", ...\n    'TangentialDistortion', {_format_matrix([values['p1'], values['p2']])}"
+                f", ...\n    'RadialDistortion', {format_row([values[k] for k in radial])}"
+                f", ...\n    'TangentialDistortion', {format_row([values['p1'], values['p2']])}"
                 f", ...\n    'Skew', {values['fx'] * values['skew']!r}"
             )
         call += ")"
@@ -83,10 +82,6 @@ def format_script(camera: Camera, note: str) -> str:
         "% Pixels count from 1 at the centre of the first pixel, x right, y down.\n"
         f"intrinsics = {call};\n"
     )
-
-
-def _format_matrix(values: Sequence[float] | Array) -> str:
-    return f"[{' '.join(repr(value) for value in np.asarray(values).tolist())}]"
 
 
 def read_matlab(source: CameraText) -> ImportedCamera:
@@ -98,7 +93,7 @@ def read_matlab(source: CameraText) -> ImportedCamera:
         CalibrationError: if an argument is something else, something is missing, or the lens model
             is none of ours.
     """
-    text = _COMMENT.sub(" ", source.text)
+    text = remove_comments(source.text)
     call = _CALL.search(text)
     if call is None:
         source.fail("calls none of cameraIntrinsics, cameraParameters and fisheyeIntrinsics.")
@@ -112,10 +107,7 @@ def read_matlab(source: CameraText) -> ImportedCamera:
 
 def _read_arguments(source: CameraText, text: str, call: re.Match[str]) -> dict[str, Array]:
     """Return the matrices (rows, columns) that a call is given, by their names."""
-    variables = {
-        name: value + transposed
-        for name, value, transposed in _ASSIGNMENT.findall(text[: call.start()])
-    }
+    variables = find_assignments(text[: call.start()])
     words = []
     place, end = call.end(), ","
     while end == ",":
@@ -133,27 +125,12 @@ def _read_arguments(source: CameraText, text: str, call: re.Match[str]) -> dict[
         if word[0] in "\"'":
             if word[1:-1] in matrices:
                 source.fail(f"has a call of {call[1]} that states {word[1:-1]} twice.")
-            matrices[word[1:-1]] = _parse_matrix(source, word[1:-1], next(entries, ""))
+            matrices[word[1:-1]] = parse_matrix(source, word[1:-1], next(entries, ""))
         elif (name := next(names, None)) is not None:
-            matrices[name] = _parse_matrix(source, name, word)
+            matrices[name] = parse_matrix(source, name, word)
         else:
             source.fail(f"has a call of {call[1]} with too many arguments.")
     return matrices
-
-
-def _parse_matrix(source: CameraText, name: str, word: str) -> Array:
-    """Return the matrix (rows, columns) of numbers that `word` writes."""
-    content = word.rstrip("'")
-    rows = re.split(r"[;\n]+", content.strip("[] \t\n"))
-    try:
-        matrix = np.array(
-            [[parse_number(n) for n in row.replace(",", " ").split()] for row in rows]
-        )
-    except ValueError:
-        source.fail(f"has a {name} that is no matrix of numbers: {word or 'nothing'}.")
-    if not np.isfinite(matrix).all():
-        source.fail(f"has a {name} with numbers that are not finite.")
-    return matrix.T if (len(word) - len(content)) % 2 else matrix
 
 
 def _make_camera(source: CameraText, arguments: dict[str, Array]) -> Camera:
@@ -250,8 +227,9 @@ EXPORTER = Exporter(
     models=(*_RADIAL, _FISHEYE),
     refits=("brown-conrady", _FISHEYE),
     holds_skew=True,
-    limits="cameraIntrinsics or fisheyeIntrinsics, other lenses refitted; pixels count from 1; no "
-    "standard deviations, no poses.",
+    readers="MATLAB's Computer Vision Toolbox",
+    keeps="the camera as cameraIntrinsics or fisheyeIntrinsics; pixels count from 1",
+    loses="standard deviations, poses, corners",
     write=write_matlab,
 )
 IMPORTER = Importer(EXPORTER.title, _CALL, read_matlab)

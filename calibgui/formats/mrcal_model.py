@@ -158,8 +158,10 @@ EXPORTER = Exporter(
     suffixes=(".cameramodel",),
     models=(*_LENS_MODELS, SPLINED),
     refits=("brown-conrady", "rational"),
-    limits="OPENCV4, 5, 8 or 12 or a splined model, other lenses refitted; no standard deviations, "
-    "no poses.",
+    readers="mrcal 2 and its tools",
+    keeps="the camera as OPENCV4, 5, 8 or 12 or as a splined model, and the region where corners "
+    "were seen",
+    loses="standard deviations, poses, corners",
     write=write_mrcal,
 )
 IMPORTER = Importer(EXPORTER.title, re.compile(r"""["']lensmodel["']\s*:"""), read_mrcal)

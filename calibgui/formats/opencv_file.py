@@ -178,8 +178,10 @@ EXPORTER = Exporter(
     suffixes=(".yaml", ".yml", ".xml", ".json"),
     models=(*PERSPECTIVE_MODELS, FISHEYE),
     refits=("brown-conrady", FISHEYE),
-    limits="Forward distortion models, other lenses refitted; standard deviations but no "
-    "correlations.",
+    readers="OpenCV 4 and 5: cv2.FileStorage",
+    keeps="the camera in the models of cv2.projectPoints or cv2.fisheye, standard deviations, "
+    "poses in mm",
+    loses="correlations, corners",
     write=write_opencv,
 )
 IMPORTER = Importer(

@@ -59,7 +59,8 @@ EXPORTER = Exporter(
     suffixes=(".py",),
     models=(*PERSPECTIVE_MODELS, FISHEYE),
     refits=("brown-conrady", FISHEYE),
-    limits="OpenCV's forward models or cv2.fisheye, other lenses refitted; no standard deviations, "
-    "no poses.",
+    readers="Python with OpenCV",
+    keeps="the camera in the models of cv2.projectPoints or cv2.fisheye",
+    loses="standard deviations, poses, corners",
     write=write_opencv_python,
 )

@@ -13,15 +13,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from calibgui.engine.arrays import Array
-from calibgui.formats.gate import (
-    Language,
-    NotOfLanguageError,
-    parse_number,
-    parse_text,
-    refuse_repeated,
-)
+from calibgui.formats.gate import Language, parse_text, refuse_repeated
 from calibgui.formats.json_document import parse_json
 from calibgui.formats.node import Node
+from calibgui.formats.xml_document import convert_number, parse_elements
 from calibgui.formats.yaml_document import parse_yaml
 
 if TYPE_CHECKING:
@@ -65,14 +60,7 @@ def read_matrix(node: Node) -> Array:
 
 def _parse_xml(text: str) -> dict[str, Any]:
     """Return the entries of an XML file of OpenCV: matrices, numbers and texts."""
-    from xml.etree import ElementTree  # late: a window that reads no camera starts without it
-
-    if "<!DOCTYPE" in text or "<!ENTITY" in text:
-        raise NotOfLanguageError("it has declarations, which OpenCV does not write")
-    try:
-        root = ElementTree.fromstring(text.lstrip())
-    except (ElementTree.ParseError, ValueError) as error:
-        raise NotOfLanguageError(str(error)) from error
+    root = parse_elements(text)
     refuse_repeated(entry.tag for entry in root)
     return {entry.tag: _convert_entry(entry) for entry in root}
 
@@ -95,12 +83,4 @@ def _convert_entry(entry: Element) -> Any:
 def _convert_numbers(text: str | None) -> Any:
     """Return the number, or the numbers, of a text; the text if there are others."""
     words = (text or "").split()
-    return _convert_number(words[0]) if len(words) == 1 else list(map(_convert_number, words))
-
-
-def _convert_number(word: str) -> Any:
-    """Return a number if `word` is one, else the word."""
-    try:
-        return parse_number(word)
-    except ValueError:
-        return word
+    return convert_number(words[0]) if len(words) == 1 else list(map(convert_number, words))

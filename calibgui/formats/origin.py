@@ -16,6 +16,7 @@ RESULT, CORNERS, CORNERS_CSV, BOARD_SHAPE = "result", "corners", "corners-csv", 
 FIGURE, LENS_COMPARISON, METHOD_COMPARISON = "figure", "lens-comparison", "method-comparison"
 PAPER_PAGE, SERIES_CSV = "paper-page", "series-csv"
 FLEET_TABLE, FLEET_PAGE = "fleet-table", "fleet-page"
+EXPORT_PAGE = "export-page"
 POSES, POSES_CSV, RAYS_CSV = "poses", "poses-csv", "rays-csv"
 """Kinds of files; those of exporters are the exporters' names."""
 _LENGTH = 4096
@@ -50,6 +51,7 @@ _TITLES: Mapping[str, str] = {
     POSES_CSV: "a table of poses",
     RAYS_CSV: "a table of rays",
     FLEET_PAGE: "a page on a fleet",
+    EXPORT_PAGE: "a page on exports",
 }
 
 

@@ -392,7 +392,7 @@ def _decode_iteration(node: Node) -> Iteration:
 
 def _export(result: Result, path: Path) -> ExportReport:
     write_result(result, path)
-    return ExportReport(path, EXPORTER.limits)
+    return ExportReport(path, "All of the calibration: it can be solved again.")
 
 
 EXPORTER = Exporter(
@@ -400,7 +400,9 @@ EXPORTER = Exporter(
     title="Result as JSON",
     suffixes=(".json",),
     models=tuple(MODELS),
-    limits="Complete: camera, poses, residuals, corners, settings; can be solved again.",
+    readers="calibgui, any reader of JSON",
+    keeps="all of the calibration: it can be solved again",
+    loses="nothing",
     write=_export,
     partial=True,
     needs_corners=True,

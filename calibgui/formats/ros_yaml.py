@@ -153,8 +153,10 @@ EXPORTER = Exporter(
     suffixes=(".yaml", ".yml"),
     models=tuple(_DISTORTION_MODELS),
     refits=("brown-conrady", FISHEYE),
-    limits="plumb_bob, rational_polynomial or equidistant, other lenses refitted; no standard "
-    "deviations, no poses.",
+    readers="ROS 1 and 2: camera_info_url, image_proc",
+    keeps="the camera as plumb_bob, rational_polynomial or equidistant, and a stereo pair's "
+    "rectification that was read",
+    loses="standard deviations, poses, corners",
     write=write_ros,
     holds_rectification=True,
 )

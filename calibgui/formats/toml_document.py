@@ -18,8 +18,16 @@ def read_toml(path: str | os.PathLike[str], max_size: int) -> Node:
     Raises:
         CalibrationError: as ``gate.read_text`` and ``gate.parse_text``.
     """
-    text = read_text(path, max_size, _TITLE)
-    return parse_text(text, os.fspath(path), Language(_TITLE, _parse, max_size))
+    return parse_toml(read_text(path, max_size, _TITLE), os.fspath(path), max_size)
+
+
+def parse_toml(text: str, file: str, max_length: int) -> Node:
+    """Return the content of a TOML text of at most `max_length` characters.
+
+    Raises:
+        CalibrationError: as ``gate.parse_text``.
+    """
+    return parse_text(text, file, Language(_TITLE, _parse, max_length))
 
 
 def _parse(text: str) -> dict[str, Any]:

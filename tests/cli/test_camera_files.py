@@ -172,9 +172,13 @@ def test_convert_a_result_on_its_corners(
 @pytest.mark.parametrize(
     ("arguments", "problem"),
     [
-        (["--export", "result=a.json"], "holds corners, and there are none"),
+        (
+            ["--export", "result=a.json"],
+            "holds corners or the poses of photographs, and there are none",
+        ),
         (["--model", "eucm", "--export", "ros=a.yaml"], "does not hold the lens model eucm"),
         (["--model", "pinhole"], "cannot follow this lens"),
+        (["--export-all", "all"], "holds a camera only, and many formats hold corners or poses"),
     ],
 )
 def test_convert_refuses(
@@ -188,6 +192,22 @@ def test_convert_refuses(
     monkeypatch.chdir(tmp_path)
     assert main(["convert", str(fisheye_file), *arguments]) == 1
     assert problem in capsys.readouterr().err
+
+
+def test_camera_and_lens_are_named_in_exports(opencv_file: Path, tmp_path: Path) -> None:
+    out = tmp_path / "lens.xml"
+    hardware = ["--hardware", "maker=Acme", "--hardware", "crop=2", "--hardware", "type=fisheye"]
+    assert main(["convert", str(opencv_file), "--export", f"lensfun={out}", *hardware]) == 0
+    text = out.read_text()
+    assert "<maker>Acme</maker>" in text and "<type>fisheye</type>" in text
+    assert "<cropfactor>2</cropfactor>" in text
+
+
+@pytest.mark.parametrize("pair", ["type=round", "colour=red", "crop=0", "maker"])
+def test_hardware_that_is_none_is_refused(pair: str, opencv_file: Path, capsys: Capture) -> None:
+    with pytest.raises(SystemExit):
+        main(["convert", str(opencv_file), "--hardware", pair])
+    assert "--hardware" in capsys.readouterr().err
 
 
 def test_diff_of_camera_files(result_file: Path, opencv_file: Path, capsys: Capture) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import itertools
 import json
 import os
 import re
@@ -12,15 +13,19 @@ import signal
 import struct
 import subprocess
 import sys
+import tomllib
 import warnings
 from collections.abc import Iterator
 from importlib import import_module
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from calibgui import __version__
+from calibgui.app.system import missing_library
 from calibgui.app.system.missing_library import describe_missing_library
+from calibgui.app.system.resources import find_resource
 from calibgui.cli import corners, detect
 from calibgui.cli.main import main
 from calibgui.cli.parser import COMMANDS
@@ -28,6 +33,7 @@ from calibgui.engine.kernels import NumbaWarning
 from tests.photographs import COUNT
 
 Capture = pytest.CaptureFixture[str]
+_PYPROJECT = Path(__file__).parents[2] / "pyproject.toml"
 
 posix = pytest.mark.skipif(os.name != "posix", reason="signals and terminals of POSIX")
 
@@ -47,6 +53,20 @@ def test_without_arguments_or_screen_it_shows_its_commands(
     for command in COMMANDS:
         assert command in printed
     assert problems.startswith("calibgui: there is no display: ")
+
+
+def test_all_versions(capsys: Capture) -> None:
+    """Those of every package that pyproject.toml lists for users."""
+    assert main(["--version", "--json"]) == 0
+    versions = json.loads(capsys.readouterr().out)
+    assert versions["calibgui"] == __version__
+    assert versions["numpy"] == np.__version__ and versions["system"]
+    project = tomllib.loads(_PYPROJECT.read_text(encoding="utf-8"))["project"]
+    extras = {
+        name: each for name, each in project["optional-dependencies"].items() if name != "dev"
+    }
+    listed = [*project["dependencies"], *itertools.chain(*extras.values())]
+    assert {re.split(r"[^\w-]", each)[0] for each in listed} <= versions.keys()
 
 
 def test_its_version(capsys: Capture) -> None:
@@ -199,12 +219,31 @@ def test_a_library_that_the_window_needs_is_named_with_its_package(tmp_path: Pat
         ("libEGL.so.1: cannot open shared object file", "libegl1"),
         ("/lib/libX11-xcb.so.1: file too short", "libx11-xcb1"),
         ("libgthread-2.0.so.0: cannot open shared object file", "libglib2.0-0"),
+        ("libgssapi_krb5.so.2: cannot open shared object file", "libgssapi-krb5-2"),
     ],
 )
 def test_packages_of_libraries(problem: str, package: str) -> None:
     assert describe_missing_library(problem).endswith(f"apt install {package}")
-    listed = (Path(__file__).parents[2] / "packaging" / "debian-packages.txt").read_text("utf-8")
+    listed = find_resource("system/debian-packages.txt").read_text("utf-8")
     assert package in listed.split()
+
+
+def test_all_libraries_that_are_missing_are_named_at_once(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    listed = tmp_path / "packages.txt"
+    listed.write_text(
+        "# package library purpose\nlibc6 libc.so.6 qt\n"
+        "absent1 libabsent.so.1 qt\nother1 libother.so.1 window\n"
+    )
+    monkeypatch.setattr(missing_library, "find_resource", lambda _: listed)
+    said = describe_missing_library("libabsent.so.1: cannot open shared object file")
+    assert said == (
+        "These libraries are missing: libabsent.so.1, libother.so.1. On Debian and Ubuntu: "
+        "apt install absent1 other1"
+    )
+    assert "libnew7" in describe_missing_library("libnew.so.7: cannot open shared object file")
+    assert describe_missing_library("the disk is full") == ""
 
 
 def test_without_qt_it_says_how_to_get_the_window(tmp_path: Path) -> None:

@@ -8,8 +8,11 @@ import numpy as np
 
 from calibgui.dataset import Result
 from calibgui.engine.arrays import Array
+from calibgui.engine.calibration.result import Calibration
 from calibgui.engine.camera.camera import Camera
 from calibgui.engine.camera.models import find_model
+from calibgui.engine.camera.projection import pixels_from_rays
+from calibgui.engine.geometry.rotations import rotation_from_vector
 from tests.engine import scenes
 
 _ANGLES = np.deg2rad([0.0, 5.0, 25.0, 44.0])
@@ -63,3 +66,17 @@ def holding(result: Result, camera: Camera) -> Result:
         settings=replace(result.calibration.settings, fixed={}),
     )
     return replace(result, calibration=calibration)
+
+
+def seen_points(result: Result, calibration: Calibration) -> list[tuple[Array, Array]]:
+    """The board's points (n, 3), mm, of each used view and their pixels (n, 2) by a calibration."""
+    board = [np.pad(view.xy, ((0, 0), (0, 1))) for view in result.observations()]
+    return [
+        (
+            points,
+            pixels_from_rays(
+                points @ rotation_from_vector(pose.rvec).T + pose.tvec, calibration.camera
+            ),
+        )
+        for points, pose in zip(board, calibration.poses, strict=True)
+    ]

@@ -20,7 +20,22 @@ from calibgui.formats import (
 )
 from tests.formats.cameras import example, holding, rays_for, splined
 
-_READ_BACK = ("opencv", "ros", "kalibr", "mrcal", "colmap", "matlab", "basalt", "gyroflow")
+_READ_BACK = (
+    "opencv",
+    "ros",
+    "kalibr",
+    "orb-slam3",
+    "mrcal",
+    "colmap",
+    "nerfstudio",
+    "metashape",
+    "matlab",
+    "bouguet",
+    "basalt",
+    "anipose",
+    "caliscope",
+    "gyroflow",
+)
 """Formats of other programs whose cameras are both written and read."""
 _HELD = [
     (name, model)
@@ -129,10 +144,12 @@ def test_damage_is_named_where_no_format_is_known(
     ("name", "message"),
     [
         ("lensfun", "is a lensfun database, which holds no camera in pixels"),
+        ("lcp", "is a lens profile of Adobe's"),
         ("python", "is a script in Python"),
         ("opencv-python", "is a script in Python"),
         ("corners", "holds corners, but no camera"),
         ("corners-csv", "holds corners, but no camera"),
+        ("corners-vnl", "holds corners, but no camera"),
     ],
 )
 def test_our_own_files_without_a_camera_name_the_result(
@@ -145,8 +162,11 @@ def test_our_own_files_without_a_camera_name_the_result(
 
 
 def test_all_of_our_own_files_are_read_or_named() -> None:
-    without = {"lensfun", "python", "opencv-python", "corners", "corners-csv"}
-    assert {"result", *_READ_BACK} | without == set(EXPORTERS)
+    without = {"lensfun", "lcp", "python", "opencv-python", "corners", "corners-csv", "corners-vnl"}
+    by_another_format = {"colmap-model", "openvins"}
+    of_undistorted_images = {"map", "usd"}
+    read = {"result", *_READ_BACK} | by_another_format
+    assert read | without | of_undistorted_images == set(EXPORTERS)
 
 
 def test_files_that_cannot_be_read_are_named(

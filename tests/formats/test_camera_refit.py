@@ -107,7 +107,18 @@ def fisheye() -> Result:
 REFITTING = [name for name, exporter in EXPORTERS.items() if exporter.refits]
 
 
-@pytest.mark.parametrize("name", REFITTING)
+PERSPECTIVE_ALONE = [name for name in REFITTING if len(EXPORTERS[name].refits) == 1]
+
+
+@pytest.mark.parametrize("name", PERSPECTIVE_ALONE)
+def test_a_fisheye_is_refused_where_there_is_no_such_model(
+    fisheye: Result, tmp_path: Path, name: str
+) -> None:
+    with pytest.raises(CalibrationError, match="cannot follow this lens"):
+        export(fisheye, name, tmp_path / EXPORTERS[name].file_name)
+
+
+@pytest.mark.parametrize("name", [name for name in REFITTING if name not in PERSPECTIVE_ALONE])
 def test_a_fisheye_is_refitted_in_a_model_that_follows_it(
     fisheye: Result, tmp_path: Path, name: str
 ) -> None:
@@ -117,7 +128,7 @@ def test_a_fisheye_is_refitted_in_a_model_that_follows_it(
     expressed = express_in_format(fisheye, exporter)
     assert expressed.calibration.camera.model == exporter.refits[1]
     assert expressed.covered_error < 1
-    file = (tmp_path / "camera").with_suffix(exporter.suffixes[0])
+    file = tmp_path / exporter.file_name
     report = export(fisheye, name, file)
     assert f"{expressed.covered_error:.3g} px where corners were seen" in report.note
 
@@ -200,7 +211,8 @@ def test_skew_that_a_format_cannot_hold_is_refitted_without() -> None:
 
 def test_the_same_lens_is_written_in_its_own_model(fisheye: Result, tmp_path: Path) -> None:
     for name in EXPORTERS.keys() - set(REFITTING):
-        export(fisheye, name, (tmp_path / name).with_suffix(EXPORTERS[name].suffixes[0]))
+        (tmp_path / name).mkdir()
+        export(fisheye, name, tmp_path / name / EXPORTERS[name].file_name)
     assert len(list(tmp_path.iterdir())) == len(EXPORTERS) - len(REFITTING)
 
 

@@ -21,14 +21,22 @@ from calibgui.engine.calibration.result import Calibration, ViewResiduals
 from calibgui.engine.camera.camera import Camera
 from calibgui.engine.errors import CalibrationError
 from calibgui.formats import EXPORTERS, export, find_exporter
+from calibgui.formats.adobe_lcp import format_profile as format_lcp
+from calibgui.formats.anipose_toml import format_calibration as format_anipose
 from calibgui.formats.basalt_json import format_calibration
+from calibgui.formats.bouguet_results import format_results, list_values
+from calibgui.formats.caliscope_toml import format_array
 from calibgui.formats.colmap_cameras import format_cameras
 from calibgui.formats.gyroflow_json import format_profile
 from calibgui.formats.kalibr_camchain import format_camchain
 from calibgui.formats.lensfun_xml import format_database
 from calibgui.formats.matlab_script import format_script
+from calibgui.formats.metashape_xml import format_calibration as format_metashape
 from calibgui.formats.mrcal_model import format_camera_model
+from calibgui.formats.nerfstudio_json import format_transforms
 from calibgui.formats.opencv_file import format_storage
+from calibgui.formats.openvins_yaml import format_chain
+from calibgui.formats.orb_slam_yaml import format_settings
 from calibgui.formats.result_json import read_result
 from calibgui.formats.ros_yaml import format_camera_info
 from tests.formats.records import same
@@ -41,8 +49,9 @@ def test_every_exporter_writes_what_it_lists(tmp_path: Path, name: str, result: 
     exporter = EXPORTERS[name]
     assert exporter.name == name
     for suffix in exporter.suffixes:
-        report = export(result, name, tmp_path / f"file{suffix.upper()}")
-        assert report.path.read_text(encoding="utf-8").strip()
+        file = tmp_path / f"{exporter.stem or 'file'}{suffix.upper()}"
+        report = export(result, name, file)
+        assert report.path.read_bytes().strip()
         assert report.note
         if report.largest_error_px is not None:
             assert 0 < report.largest_error_px < 1
@@ -55,17 +64,19 @@ def test_every_format_names_reader_convention_and_limits(name: str) -> None:
 
 
 def test_what_cannot_be_exported_is_refused_beforehand() -> None:
-    with pytest.raises(CalibrationError, match=r"no export format 'bouguet'.*Choose from result"):
-        find_exporter("bouguet", "a.mat")
+    with pytest.raises(CalibrationError, match=r"no export format 'word'.*Choose from result"):
+        find_exporter("word", "a.doc")
     with pytest.raises(CalibrationError, match=r"a\.txt is not named as .*\.yaml or \.yml"):
         find_exporter("ros", "a.txt")
+    with pytest.raises(CalibrationError, match=r"Name it images\.txt or images\.bin"):
+        find_exporter("colmap-model", "cameras.txt")
 
 
 @pytest.mark.parametrize("name", EXPORTERS)
 def test_a_file_that_cannot_be_written_is_named_and_nothing_is_left(
     tmp_path: Path, name: str, result: Result
 ) -> None:
-    file = (tmp_path / "camera").with_suffix(EXPORTERS[name].suffixes[0])
+    file = tmp_path / EXPORTERS[name].file_name
     file.mkdir()
     with pytest.raises(CalibrationError, match="cannot be written") as caught:
         export(result, name, file)
@@ -107,7 +118,8 @@ def test_results_are_written_as_they_always_were(tmp_path: Path, golden: Result)
 
 
 @pytest.mark.parametrize(
-    ("name", "kept"), [("corners", "corners.json"), ("corners-csv", "corners.csv")]
+    ("name", "kept"),
+    [("corners", "corners.json"), ("corners-csv", "corners.csv"), ("corners-vnl", "corners.vnl")],
 )
 def test_corners_are_written_as_they_always_were(
     tmp_path: Path, name: str, kept: str, golden: Result
@@ -127,6 +139,19 @@ def test_other_programs_files_are_written_as_they_always_were(golden: Result) ->
     assert model == (_GOLDEN / "camera.cameramodel").read_text()
     listed = format_cameras(calibration.camera, "How it was refitted.")
     assert listed == (_GOLDEN / "cameras.txt").read_text()
+    images = [f"photographs/{k}.png" for k, _ in enumerate(calibration.poses)]
+    transforms = format_transforms(calibration, images, "How it was refitted.")
+    assert transforms == (_GOLDEN / "transforms.json").read_text()
+    results = format_results(list_values(calibration), "How it was refitted.")
+    assert results == (_GOLDEN / "Calib_Results.m").read_text()
+    lcp = format_lcp(calibration.camera, "How it was refitted.")
+    assert lcp == (_GOLDEN / "camera.lcp").read_text()
+    anipose = format_anipose(calibration.camera, "How it was refitted.")
+    assert anipose == (_GOLDEN / "anipose.toml").read_text()
+    array = format_array(calibration.camera, "How it was refitted.")
+    assert array == (_GOLDEN / "camera_array.toml").read_text()
+    metashape = format_metashape(calibration.camera, "How it was refitted.")
+    assert metashape == (_GOLDEN / "metashape.xml").read_text()
     script = format_script(calibration.camera, "How it was refitted.")
     assert script == (_GOLDEN / "camera.m").read_text()
     fisheye = Camera(
@@ -134,6 +159,10 @@ def test_other_programs_files_are_written_as_they_always_were(golden: Result) ->
     )
     camchain = format_camchain(fisheye, "How it was refitted.")
     assert camchain == (_GOLDEN / "camchain.yaml").read_text()
+    chain = format_chain(fisheye, "How it was refitted.")
+    assert chain == (_GOLDEN / "openvins.yaml").read_text()
+    settings = format_settings(calibration.camera, "How it was refitted.")
+    assert settings == (_GOLDEN / "orb_slam.yaml").read_text()
     basalt = format_calibration(fisheye, "How it was refitted.")
     assert basalt == (_GOLDEN / "basalt.json").read_text()
     profile = format_profile([(24.0, fisheye), (35.5, fisheye)], "How it was refitted.")

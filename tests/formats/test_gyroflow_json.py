@@ -6,6 +6,7 @@ Gyroflow has no reader in Python. Its formulas are OpenCV's, which calibrates it
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -13,7 +14,7 @@ import cv2
 import numpy as np
 import pytest
 
-from calibgui.dataset import Result
+from calibgui.dataset import Hardware, Result
 from calibgui.engine.arrays import Array
 from calibgui.engine.camera.camera import Camera
 from calibgui.engine.camera.projection import pixels_from_rays
@@ -166,3 +167,12 @@ def test_pixels_that_are_not_square_are_stretched(
     read = read_camera(file).camera
     assert read.size == camera.size
     np.testing.assert_allclose(read.params, camera.params, rtol=1e-9)
+
+
+def test_camera_and_lens_are_named(tmp_path: Path, result: Result) -> None:
+    hardware = Hardware(maker="Sony", model="A7", lens="FE 24mm")
+    file = write_gyroflow(replace(result, hardware=hardware), tmp_path / "profile.json").path
+    profile = json.loads(file.read_text())
+    assert profile["name"] == "Sony A7 FE 24mm"
+    assert [profile[f"{key}_model"] for key in ("camera", "lens")] == ["A7", "FE 24mm"]
+    assert profile["camera_brand"] == "Sony"

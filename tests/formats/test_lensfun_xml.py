@@ -3,17 +3,19 @@
 from __future__ import annotations
 
 import xml.etree.ElementTree as ET
+from dataclasses import replace
 from pathlib import Path
 
 import lensfunpy
 import numpy as np
+import PIL.Image as Pillow
 import pytest
 
-from calibgui.dataset import Result
+from calibgui.dataset import Hardware, Result
 from calibgui.engine.arrays import Array
 from calibgui.engine.assessment.changes.comparison import compare_cameras
 from calibgui.engine.camera.camera import Camera
-from calibgui.engine.camera.projection import pixels_from_rays
+from calibgui.engine.camera.projection import pixels_from_rays, rays_from_pixels
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.images.sampling import make_mesh
 from calibgui.formats import EXPORTERS
@@ -83,6 +85,55 @@ def test_lensfun_turns_a_fisheye_into_a_pinhole_by_its_true_focal_length(tmp_pat
     assert focal == pytest.approx(real, rel=1e-5)
     found = correct(report.path, camera.size, focal, to_pinhole=True)
     assert np.abs(found - expected(camera)).max() < 0.02
+
+
+def barrel() -> Camera:
+    """A rectilinear lens of 55 degrees with the barrel distortion that a fisheye has as well."""
+    return Camera((640, 480), [640, 640, 320, 240, -0.3, 0.11, 0, 0, -0.02], "brown-conrady")
+
+
+def test_a_narrow_lens_is_rectilinear_although_a_fisheye_fits_better(tmp_path: Path) -> None:
+    """A photo editor corrects the distortion alone: straight lines stay straight to 0.5 px."""
+    report = export_camera(barrel(), EXPORTER, tmp_path / "lens.xml")
+    assert "rectilinear lens" in report.note
+    stated = export_camera(
+        barrel(), EXPORTER, tmp_path / "stated.xml", hardware=Hardware(type="fisheye")
+    )
+    assert "fisheye lens" in stated.note and stated.largest_error_px < report.largest_error_px
+    for path, straight in ((report.path, True), (stated.path, False)):
+        ((focal, _),) = list_focals(path)
+        found = correct(path, barrel().size, focal)
+        rays = rays_from_pixels(found, barrel())
+        top = rays[10, 10:-10]  # of a row of the new image
+        row = top[:, :2] / top[:, 2:] * barrel().focal
+        along = np.linalg.svd(row - row.mean(axis=0))[1]
+        assert bool(along[1] / np.sqrt(len(row)) < 0.2) is straight
+
+
+def test_a_narrow_lens_that_is_not_rectilinear_is_a_fisheye(tmp_path: Path) -> None:
+    lens = Camera((640, 480), [320, 320, 320, 240, 0.03, -0.004, 0, 0], "kannala-brandt")
+    cut = Camera((480, 480), [360, 360, 240, 240, 0.3, -0.9, 0, 0], "kannala-brandt")
+    for camera in (lens, cut):
+        assert "fisheye lens" in export_camera(camera, EXPORTER, tmp_path / "lens.xml").note
+
+
+def test_camera_and_lens_are_named_by_exif_and_by_the_user(tmp_path: Path, result: Result) -> None:
+    exif = Pillow.Exif()
+    exif[271], exif[272] = "Fuji & Co", "X-1"
+    directory = exif.get_ifd(0x8769)
+    directory |= {42036: "XF 18mm", 37386: 18.0, 41989: 27}
+    photograph = tmp_path / "a.jpg"
+    Pillow.new("RGB", (640, 480)).save(photograph, exif=exif)
+    views = [replace(view, image=str(photograph)) for view in result.views]
+    named = replace(result, views=tuple(views), hardware=Hardware(mount="Fuji X", model="X-1 II"))
+    report = write_lensfun(named, tmp_path / "lens.xml")
+    assert "yours to set" not in report.note
+    lens, camera = read(report.path)
+    assert (camera.maker, camera.model, camera.mount) == ("Fuji & Co", "X-1 II", "Fuji X")
+    assert (lens.maker, lens.model, lens.mounts) == ("Fuji & Co", "XF 18mm", ["Fuji X"])
+    assert camera.crop_factor == pytest.approx(1.5)
+    unknown = write_lensfun(result, tmp_path / "unknown.xml")
+    assert unknown.note.endswith("yours to set: maker, model, lens, mount, crop.")
 
 
 def test_lensfun_reads_every_focal_length_of_a_zoom_lens(tmp_path: Path) -> None:

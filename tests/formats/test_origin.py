@@ -14,7 +14,7 @@ from calibgui.formats.origin import is_own
 @pytest.mark.parametrize("name", EXPORTERS)
 def test_an_exported_file_is_known_by_its_kind(tmp_path: Path, name: str, result: Result) -> None:
     for suffix in EXPORTERS[name].suffixes:
-        path = tmp_path / f"file{suffix}"
+        path = (tmp_path / EXPORTERS[name].file_name).with_suffix(suffix)
         export(result, name, path)
         assert [kind for kind in EXPORTERS if is_own(path, kind)] == [name]
 

@@ -162,7 +162,9 @@ def test_no_text_of_the_window_is_left_in_english(
     for dialog in (help_dialog, export, *others):
         dialog.done(0)
     formats = {
-        text for exporter in EXPORTERS.values() for text in (exporter.title, exporter.limits)
+        text
+        for exporter in EXPORTERS.values()
+        for text in (exporter.title, exporter.readers, exporter.keeps, exporter.loses)
     }
     lenses = {
         text

@@ -47,7 +47,11 @@ def test_needs_the_standard_library_only() -> None:
 
 
 def test_package_list_is_complete() -> None:
-    lines = (SCRIPT.parent / "debian-packages.txt").read_text(encoding="utf-8").splitlines()
+    lines = (
+        (SCRIPT.parents[1] / "resources/system/debian-packages.txt")
+        .read_text(encoding="utf-8")
+        .splitlines()
+    )
     rows = [line.split() for line in lines if not line.startswith("#")]
     assert all(len(row) == 3 for row in rows)
     assert {purpose for _, _, purpose in rows} == {"qt", "window"}
@@ -58,8 +62,8 @@ def test_package_list_is_complete() -> None:
 def test_names_the_package_of_a_library_that_is_missing(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    folder = tmp_path / "packaging"
-    folder.mkdir()
+    folder = tmp_path / "resources" / "system"
+    folder.mkdir(parents=True)
     (folder / "debian-packages.txt").write_text(
         "# package library purpose\nlibc6 libc.so.6 qt\nabsent1 libabsent.so.1 qt\n"
         "other1 libother.so.1 window\n",

@@ -35,6 +35,8 @@ class _Tag(IntEnum):
     EXIF_DIRECTORY = 34665
     DATE_OF_EXPOSURE = 36867
     FOCAL_LENGTH = 37386
+    EQUIVALENT_FOCAL_LENGTH = 41989
+    LENS_MAKE = 42035
     LENS_MODEL = 42036
     DNG_VERSION = 50706
 
@@ -74,6 +76,10 @@ class Exif:
     """Nominal focal length, mm."""
     date: datetime | None = None
     """Local time of the exposure, or of the last change of the file."""
+    lens_maker: str | None = None
+    """Maker of the lens."""
+    equivalent_focal_length_mm: float | None = None
+    """Focal length of the same field of view on a film of 36 mm x 24 mm, mm."""
 
     @property
     def is_of_camera(self) -> bool:
@@ -165,6 +171,8 @@ def _read_tags(data: bytes | mmap) -> tuple[Any, Exif]:
         _read_text(tags.get(_Tag.LENS_MODEL)),
         _read_length(tags.get(_Tag.FOCAL_LENGTH)),
         _read_date(tags.get(_Tag.DATE_OF_EXPOSURE)) or _read_date(tags[_Tag.DATE_OF_CHANGE]),
+        _read_text(tags.get(_Tag.LENS_MAKE)),
+        _read_length(tags.get(_Tag.EQUIVALENT_FOCAL_LENGTH)),
     )
 
 

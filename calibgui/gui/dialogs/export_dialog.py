@@ -12,6 +12,7 @@ from PySide6.QtGui import QGuiApplication
 from PySide6.QtWidgets import (
     QDialog,
     QDialogButtonBox,
+    QFileDialog,
     QFormLayout,
     QHBoxLayout,
     QListWidget,
@@ -21,6 +22,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from calibgui.app.outputs.export_folder import ExportOutcome, export_all
 from calibgui.dataset import Result
 from calibgui.formats import EXPORTERS, export
 from calibgui.formats.exporter import Exporter, ExportReport
@@ -32,8 +34,6 @@ from calibgui.gui.widgets.kept_settings import keep, read_kept_text
 from calibgui.gui.widgets.save_names import ask_for_name
 from calibgui.gui.widgets.wrapped_label import WrappedLabel
 
-_NAME = "camera"
-"""The name that a file is given unless the user chooses another."""
 _FORMAT = "export format"
 """Setting with the name of the format that was saved last, which is shown first."""
 _SHOWN = 20_000
@@ -69,7 +69,8 @@ class ExportDialog(QDialog):
         self.formats.addItems([exporter.title for exporter in EXPORTERS.values()])
         self.formats.setAccessibleName(self.tr("Formats"))
         self.formats.setMaximumWidth(self.formats.sizeHintForColumn(0) + 4 * theme.SPACING)
-        self.limits, self.note, self.error, self.saved = (WrappedLabel() for _ in range(4))
+        self.readers, self.keeps, self.loses = (WrappedLabel() for _ in range(3))
+        self.note, self.error, self.saved = (WrappedLabel() for _ in range(3))
         self.text = QPlainTextEdit(readOnly=True)
         self.text.setFont(theme.fixed_font())
         self.text.setLineWrapMode(QPlainTextEdit.LineWrapMode.NoWrap)
@@ -79,7 +80,9 @@ class ExportDialog(QDialog):
             self.age = WrappedLabel(age)
             self.age.setStyleSheet(f"color: {theme.current().warning}")
             facts.addRow(self.tr("Result"), self.age)
-        facts.addRow(self.tr("Holds"), self.limits)
+        facts.addRow(self.tr("Read by"), self.readers)
+        facts.addRow(self.tr("Keeps"), self.keeps)
+        facts.addRow(self.tr("Loses"), self.loses)
         facts.addRow(self.tr("Camera"), self.note)
         facts.addRow(self.tr("Largest error"), self.error)
         right = QVBoxLayout()
@@ -90,11 +93,17 @@ class ExportDialog(QDialog):
         columns.addLayout(right, 1)
         self.copy = QPushButton(self.tr("&Copy text"), autoDefault=False)
         self.save = QPushButton(self.tr("&Save…"), default=True)
+        self.save_all = QPushButton(self.tr("Save &all…"), autoDefault=False)
+        self.save_all.setToolTip(
+            self.tr("Every format in a folder, with a page that tells who reads which file")
+        )
         buttons = add_close_button(self)
         buttons.addButton(self.copy, QDialogButtonBox.ButtonRole.ActionRole)
+        buttons.addButton(self.save_all, QDialogButtonBox.ButtonRole.ActionRole)
         buttons.addButton(self.save, QDialogButtonBox.ButtonRole.ActionRole)
         self.copy.clicked.connect(self._copy)
         self.save.clicked.connect(self._save)
+        self.save_all.clicked.connect(self._save_all)
         layout = QVBoxLayout(self)
         layout.addLayout(columns, 1)
         last = QHBoxLayout()
@@ -121,8 +130,12 @@ class ExportDialog(QDialog):
 
     def _chosen(self) -> None:
         exporter = self.exporter
-        self.limits.setText(exporter.limits)
+        self.readers.setText(exporter.readers)
+        self.keeps.setText(exporter.keeps)
+        self.loses.setText(exporter.loses)
         self.saved.clear()
+        if self._job is not None:
+            self._job.cancel()  # of a format that was passed by
         if exporter.name in self._drafts:
             self._show(self._drafts[exporter.name])
             return
@@ -133,7 +146,7 @@ class ExportDialog(QDialog):
         for button in (self.copy, self.save):
             button.setEnabled(False)
         # Some formats hold the file's own name.
-        draft = Path(self._folder.name) / exporter.name / f"{_NAME}{exporter.suffixes[0]}"
+        draft = Path(self._folder.name) / exporter.name / exporter.file_name
         draft.parent.mkdir(exist_ok=True)
         self._job = self._jobs.start(
             self.tr("Preparing {0}").format(exporter.title),
@@ -153,14 +166,19 @@ class ExportDialog(QDialog):
 
     def _show(self, report: ExportReport) -> None:
         self.note.setText(report.note)
-        self._facts.setRowVisible(self.note, report.note != self.limits.text())
         self.error.setText(self._error(report.largest_error_px))
-        with report.path.open(encoding="utf-8") as file:
-            shown = file.read(_SHOWN)
-            cut = bool(file.read(1))
-        self.text.setPlainText(shown + ("\n…" if cut else ""))
-        for button in (self.copy, self.save):
-            button.setEnabled(True)
+        is_text = True
+        try:
+            with report.path.open(encoding="utf-8") as file:
+                shown = file.read(_SHOWN)
+                shown += "\n…" if file.read(1) else ""
+        except UnicodeDecodeError:
+            is_text = False
+            size = report.path.stat().st_size / 1e6
+            shown = self.tr("A binary file of {0:.1f} MB").format(size)
+        self.text.setPlainText(shown)
+        self.save.setEnabled(True)
+        self.copy.setEnabled(is_text)
 
     def _error(self, largest: float | None) -> str:
         if largest is None:
@@ -180,7 +198,7 @@ class ExportDialog(QDialog):
         path = ask_for_name(
             self,
             self.tr("Export"),
-            f"{_NAME}{exporter.suffixes[0]}",
+            exporter.file_name,
             f"{exporter.title} ({pattern})",
         )
         if path is None:
@@ -192,6 +210,24 @@ class ExportDialog(QDialog):
             self._saved,
             failed=lambda error: self.saved.setText(str(error)),
             owner=self,
+        )
+
+    def _save_all(self) -> None:
+        folder = QFileDialog.getExistingDirectory(self, self.tr("Folder for all formats"))
+        if not folder:
+            return
+        self._jobs.start(
+            self.tr("Writing all formats"),
+            lambda _: export_all(self._result, Path(folder)),
+            lambda outcomes: self._saved_all(Path(folder), outcomes),
+            failed=lambda error: self.saved.setText(str(error)),
+            owner=self,
+        )
+
+    def _saved_all(self, folder: Path, outcomes: list[ExportOutcome]) -> None:
+        written = sum(one.report is not None for one in outcomes)
+        self.saved.setText(
+            self.tr("{0} of {1} formats are in {2}").format(written, len(outcomes), folder)
         )
 
     def _saved(self, report: ExportReport) -> None:

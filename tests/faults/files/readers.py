@@ -34,7 +34,9 @@ from calibgui.engine.images import is_video, read_image, read_image_header
 from calibgui.formats import IMPORTERS, read_camera
 from calibgui.formats.board_poses_json import read_board_poses
 from calibgui.formats.board_shape_json import read_board_shape, write_board_shape
+from calibgui.formats.bouguet_results import pack_results
 from calibgui.formats.camera_import import read_result_file
+from calibgui.formats.colmap_cameras import pack_cameras
 from calibgui.formats.corner_import import read_corner_file
 from calibgui.formats.corners_json import encode_corners, read_corners
 from calibgui.formats.detections_json import read_detections, write_detections
@@ -106,6 +108,24 @@ _VNL = "# filename x y level\n" + "".join(
     for j in range(3)
     for k in range(4)
 )
+_CAMERAS_BIN = pack_cameras(example("rational"), "A note.")
+_PLACES = np.array([[0.0, 30, 0, 30], [0, 0, 30, 30], [0, 0, 0, 0]])
+_CALIB_RESULTS = pack_results(
+    {
+        "fc": np.array([[600.0], [601.0]]),
+        "cc": np.array([[320.0], [240.0]]),
+        "alpha_c": np.zeros((1, 1)),
+        "kc": np.array([[-0.2], [0.1], [1e-3], [2e-3], [0.0]]),
+        "nx": np.array([[640.0]]),
+        "ny": np.array([[480.0]]),
+        "active_images": np.ones((1, 2)),
+        "x_1": 100 + 2 * _PLACES[:2],
+        "X_1": _PLACES,
+        "x_2": 150 + 3 * _PLACES[:2],
+        "X_2": _PLACES,
+    },
+    "A note.",
+)
 _REGIONS = {"a.png": [[0, 0], [90, 0], [90, 90], [0, 90]]}
 _RESAMPLED = {
     "format": "calibgui-resampled",
@@ -174,6 +194,8 @@ def _find_camera_readers() -> list[Reader]:
         if importer is not None and not file.startswith("project"):
             name = f"{importer.title}, {file}"
             readers.append(Reader(name, file, sample, _use_camera, ("read_camera",)))
+    for file, sample in {"cameras.bin": _CAMERAS_BIN, "Calib_Results.mat": _CALIB_RESULTS}.items():
+        readers.append(Reader(f"camera, {file}", file, sample, _use_camera, ("read_camera",)))
     return readers
 
 
@@ -191,6 +213,10 @@ def _list_calibration_readers(folder: Path) -> list[Reader]:
 
     def read_table(file: Path) -> object:
         return read_series([folder / "series" / "result.json"], Scalar.ZOOM, file)
+
+    def read_points_beside(file: Path) -> object:
+        (file.parent / "data1.txt").write_text("9 8 40 9 41 40 9 41\n70 9 99 9 98 41 71 40\n")
+        return dumps(encode_corners(read_corner_file(file, size=(640, 480))))
 
     return [
         Reader(
@@ -213,6 +239,36 @@ def _list_calibration_readers(folder: Path) -> list[Reader]:
             _VNL.encode(),
             lambda file: dumps(encode_corners(read_corner_file(file, (3, 4), 25.0, (640, 480)))),
             ("read_corner_file", "read_corners_vnl"),
+        ),
+        Reader(
+            "corners of Bouguet",
+            "Calib_Results.mat",
+            _CALIB_RESULTS,
+            lambda file: dumps(encode_corners(read_corner_file(file))),
+            ("read_corner_file", "read_bouguet_corners"),
+        ),
+        Reader(
+            "corners of OpenCV",
+            "corners.yml",
+            opencv.format_storage(
+                ".yml",
+                {
+                    "image_width": 640,
+                    "image_height": 480,
+                    "board_width": 4,
+                    "board_height": 3,
+                    "image_points": np.arange(48.0).reshape(2, 24),
+                },
+            ).encode(),
+            lambda file: dumps(encode_corners(read_corner_file(file))),
+            ("read_corner_file", "read_opencv_corners"),
+        ),
+        Reader(
+            "corners of Zhang",
+            "Model.txt",
+            b"0 0 30 0 30 30 0 30\n60 0 90 0 90 30 60 30\n",
+            read_points_beside,
+            ("read_corner_file", "read_zhang_corners"),
         ),
         Reader(
             "table of corners",

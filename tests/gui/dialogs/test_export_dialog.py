@@ -43,12 +43,19 @@ def test_shows_and_copies_the_file(
 ) -> None:
     choose(dialog, name, jobs, qtbot)
     exporter = EXPORTERS[name]
-    report = exporter.write(result, tmp_path / f"camera{exporter.suffixes[0]}")
-    text = report.path.read_text(encoding="utf-8")
-    assert dialog.text.toPlainText().removesuffix("\n…") == text[:20_000]
-    assert dialog.limits.text() == exporter.limits
+    report = exporter.write(result, tmp_path / exporter.file_name)
+    text = report.path.read_bytes().decode(errors="replace")
+    is_text = "\ufffd" not in text
+    if is_text:
+        assert dialog.text.toPlainText().removesuffix("\n…") == text[:20_000]
+    else:
+        assert dialog.text.toPlainText().startswith("A binary file of ")
+    shown = [label.text() for label in (dialog.readers, dialog.keeps, dialog.loses)]
+    assert shown == [exporter.readers, exporter.keeps, exporter.loses]
     assert dialog.note.text() == report.note
-    assert dialog.note.isVisible() is (report.note != exporter.limits)
+    assert dialog.copy.isEnabled() is is_text
+    if not is_text:
+        return
     qtbot.mouseClick(dialog.copy, Qt.MouseButton.LeftButton)
     assert QGuiApplication.clipboard().text() == text
 
@@ -85,6 +92,23 @@ def test_saves_under_the_chosen_name_and_begins_with_its_format_next_time(
     assert again.exporter.name == "ros"
     qtbot.waitUntil(lambda: not jobs.running)
     again.reject()
+
+
+def test_saves_all_formats_in_a_folder(
+    dialog: ExportDialog,
+    jobs: Jobs,
+    qtbot: QtBot,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(QFileDialog, "getExistingDirectory", lambda *_: "")
+    qtbot.mouseClick(dialog.save_all, Qt.MouseButton.LeftButton)
+    assert not jobs.running
+    monkeypatch.setattr(QFileDialog, "getExistingDirectory", lambda *_: str(tmp_path))
+    qtbot.mouseClick(dialog.save_all, Qt.MouseButton.LeftButton)
+    qtbot.waitUntil(lambda: not jobs.running, timeout=60_000)
+    assert f"of {len(EXPORTERS)} formats are in {tmp_path}" in dialog.saved.text()
+    assert (tmp_path / "README.md").is_file() and (tmp_path / "opencv.yaml").is_file()
 
 
 def test_a_wrong_suffix_is_explained(
