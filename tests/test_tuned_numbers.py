@@ -24,7 +24,7 @@ BUDGETS = {
     "detection": 262,
     "features": 41,
     "geometry": 3,
-    "hand_eye": 12,
+    "hand_eye": 14,
     "images": 27,
     "kernels": 40,
     "lattices": 82,

@@ -15,10 +15,11 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
+import scipy
 
 from calibgui.engine.arrays import Array
 from calibgui.engine.errors import CalibrationError
-from calibgui.engine.hand_eye.closed_form import ClosedForm, solve_closed_form
+from calibgui.engine.hand_eye.closed_form import ClosedForm, measure_scale, solve_closed_form
 from calibgui.engine.hand_eye.motions import Motions
 from calibgui.engine.hand_eye.readings import Reading
 
@@ -30,6 +31,10 @@ _MAX_SCATTER = 0.05
 _CLEARLY = 2.0
 """Ratio of scatters from which one reading is better than another: right ones have ratios beyond
 10, and equal ones of 1."""
+_LEAST_SCATTER_MM = 1e-6
+"""Scatter below which there is nothing to explain, mm: rounding."""
+_CHANCE = 1e-4
+"""Chance of a board of the stated size to be refused."""
 _MAX_SHIFTED = 10
 """Number of readings that are tried in a shifted order where one of them fits as it is: in smooth
 motions that one fits nearly."""
@@ -71,7 +76,7 @@ def choose_reading(
         eye_in_hand: whether the camera is in the hand; None if it is not known.
 
     Raises:
-        CalibrationError: if none fits.
+        CalibrationError: if none fits, or if the board is of another size than stated.
     """
     tried = [each for reading in readings for each in _try(reading, 0, boards, points)]
     likely = sorted(tried, key=lambda each: each[0])[:_MAX_SHIFTED]
@@ -83,7 +88,9 @@ def choose_reading(
             tried += [each for reading in shifted for each in _try(reading, shift, boards, points)]
     best = min(merit for merit, _ in tried)
     # Among equals the first: likely readings come first.
-    at = next(k for k, (merit, _) in enumerate(tried) if merit <= best * (1 + 1e-6) + 1e-9)
+    at = next(
+        k for k, (merit, _) in enumerate(tried) if merit <= best * (1 + 1e-6) + _LEAST_SCATTER_MM
+    )
     merit, choice = tried.pop(at)
     if choice.start.scatter > _MAX_SCATTER * distance:
         raise CalibrationError(
@@ -93,8 +100,13 @@ def choose_reading(
             "camera stayed fixed, one to the hand and the other to the base.",
         )
     others = [(m, other) for m, other in tried if other.shift == choice.shift]
-    rivals = [_describe(other, eye_in_hand) for m, other in others if m < _CLEARLY * merit + 1e-9]
+    rivals = [
+        _describe(other, eye_in_hand)
+        for m, other in others
+        if m < _CLEARLY * merit + _LEAST_SCATTER_MM
+    ]
     next_best = min((m for m, _ in others), default=np.inf)
+    _check_lengths(choice, boards, points)
     return choice._replace(next_best=float(next_best), rivals=tuple(rivals))
 
 
@@ -116,6 +128,29 @@ def _try(
         choice = Choice(reading, is_inverted, shift, start, np.inf, ())
         tried.append((float(handicap * start.scatter), choice))
     return tried
+
+
+def _check_lengths(choice: Choice, boards: Motions, points: Array) -> None:
+    """Refuse a board that is of another size than stated, by an F-test of the scatters.
+
+    Raises:
+        CalibrationError: if a board that is larger or smaller fits better, and not by chance.
+    """
+    photographs, rows = choice.pair(len(boards.R))
+    poses, seen = choice.reading.poses.select(rows), boards.select(photographs)
+    robot = poses.invert() if choice.is_inverted else poses
+    scale, other = 1.0, choice.start
+    for _ in range(2):  # the first rotation may be that of boards of a wrong size
+        scale = measure_scale(other.X.R, robot, seen)
+        other = solve_closed_form(robot, Motions(seen.R, scale * seen.t), scale * points)
+    freedom = 3 * len(seen.R) - 7
+    gain = choice.start.scatter**2 - other.scatter**2
+    ratio = freedom * gain / (other.scatter**2 + _LEAST_SCATTER_MM**2)
+    if scipy.stats.f.sf(ratio, 1, freedom) < _CHANCE:
+        raise CalibrationError(
+            f"By the robot's motions the board's squares are {scale:.3g} times as long as stated.",
+            "State the side of a square as it was printed, as --square 25 on the command line.",
+        )
 
 
 def _describe(choice: Choice, eye_in_hand: bool | None) -> str:

@@ -119,6 +119,15 @@ def _solve_translations(robot: Motions, moved: Array, others: Array | None = Non
     return np.asarray(np.linalg.lstsq(matrix.reshape(-1, matrix.shape[-1]), right.ravel())[0])
 
 
+def measure_scale(R_X: Array, robot: Motions, boards: Motions) -> float:
+    """Measure how many times as far away as stated the boards are, by the robot's motions.
+
+    It is the factor of t_Ck with which the translations are solved best.
+    """
+    moved = (robot.R @ (R_X @ boards.t[..., None]))[..., 0]
+    return 1.0 + float(_solve_translations(robot, moved, moved[..., None])[6])
+
+
 def _place(R_X: Array, robot: Motions, boards: Motions, points: Array) -> ClosedForm:
     """Add the translations and W to a rotation of X, and measure the scatter."""
     moved = (robot.R @ (R_X @ boards.t[..., None]))[..., 0]

@@ -150,6 +150,23 @@ def calibrate_hand_eye(
 
     Raises:
         CalibrationError: for fewer than three different poses, and if no reading of the poses fits.
+
+    Examples:
+        A hand 100 mm behind its camera looks at a board from four sides.
+
+        >>> from calibgui.engine import Board, Camera, Pose, project_points
+        >>> from calibgui.engine.geometry import rotation_from_vector
+        >>> camera = Camera((640, 480), [650, 650, 320, 240], "pinhole")
+        >>> xy = Board(rows=6, cols=7, square=30.0).points()
+        >>> turns = [(0.5, 0, 0), (-0.5, 0, 0), (0, 0.5, 0), (0.3, 0.4, 0)]
+        >>> views = [(project_points(xy, camera, Pose(w, (-90, -75, 500))), xy) for w in turns]
+        >>> R = rotation_from_vector(-np.array(turns))
+        >>> poses = np.concatenate([R, (R @ (90, 75, -600))[..., None]], axis=2)
+        >>> found = calibrate_hand_eye(camera, views, poses)
+        >>> abs(found.camera_pose.tvec.round(6)).tolist()
+        [0.0, 0.0, 100.0]
+        >>> found.reading
+        'matrices row by row, millimetres, base from hand'
     """
     names = tuple(names or name_views(len(views)))
     numbers = np.asarray(robot, np.float64)

@@ -95,6 +95,32 @@ def test_every_reading_reads_what_is_written_so() -> None:
         np.testing.assert_allclose(by_words[each].t, poses.t, atol=1e-9, err_msg=each)
 
 
+@pytest.mark.parametrize("count", [3, 5, 12])
+@pytest.mark.parametrize("ratio", [0.8, 1.02])
+def test_squares_of_another_length_than_stated_are_named(count: int, ratio: float) -> None:
+    """The camera would be off by 30 mm and more, and nothing else shows it."""
+    arm = make_arm(np.random.default_rng(4), count)
+    views = [(uv, xy / ratio) for uv, xy in arm.views]
+    message = f"squares are {ratio:g} times as long as stated"
+    with pytest.raises(CalibrationError, match=message):
+        calibrate_hand_eye(CAMERA, views, arm.take_matrices(), eye_in_hand=True)
+
+
+def test_squares_that_are_2_percent_shorter_are_named_in_spite_of_noise() -> None:
+    arm = make_arm(np.random.default_rng(0), 15, noise=0.1, robot=(5e-4, 0.3))
+    views = [(uv, 1.02 * xy) for uv, xy in arm.views]
+    with pytest.raises(CalibrationError, match=r"squares are 0\.98 times as long"):
+        calibrate_hand_eye(CAMERA, views, arm.take_matrices())
+
+
+@pytest.mark.parametrize("count", [3, 4, 12])
+def test_squares_as_stated_are_not(count: int) -> None:
+    for seed in range(10):
+        rng = np.random.default_rng(seed)
+        arm = make_arm(rng, count, noise=0.1, robot=(1e-3, 0.5))
+        calibrate_hand_eye(CAMERA, arm.views, arm.take_matrices(), eye_in_hand=True)
+
+
 def test_equal_readings_count_once() -> None:
     """A robot that turns about Z alone has the same poses in many orders of angles."""
     rows = np.zeros((4, 6))
