@@ -45,6 +45,7 @@ if TYPE_CHECKING:
     from calibgui.scripting.figures import (
         plot_uncertainty as plot_uncertainty,
     )
+    from calibgui.scripting.hand_eye import calibrate_hand_eye as calibrate_hand_eye
 
 load_on_demand(
     __name__,
@@ -58,5 +59,6 @@ load_on_demand(
             "plot_residuals",
             "plot_uncertainty",
         ],
+        "scripting.hand_eye": ["calibrate_hand_eye"],
     },
 )

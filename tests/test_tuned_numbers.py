@@ -25,6 +25,7 @@ BUDGETS = {
     "detection": 262,
     "features": 41,
     "geometry": 3,
+    "hand_eye": 14,
     "images": 27,
     "kernels": 40,
     "lattices": 82,

@@ -20,6 +20,7 @@ COMMANDS = {
     "undistort": "write photographs without lens distortion",
     "rectify": "write photographs of the board as seen from straight above",
     "pose": "locate the board in photographs of a camera that is known",
+    "hand-eye": "find where a camera is in a robot's hand, or beside the robot",
     "rays": "find the rays that pixels look along, or the points of a plane that they see",
     "models": "compare lens models on photographs, and recommend one",
     "compare": "compare methods of calibration on photographs, side by side",
@@ -35,7 +36,7 @@ COMMANDS = {
     "prepare": "compile what is slow in Python, once after an installation",
     "completion": "print what completes these commands in a shell at the press of the tab key",
 }
-"""Subcommands, which are also the names of their modules, and their help texts."""
+"""Subcommands, which but for hyphens are also the names of their modules, and their help texts."""
 
 
 _FIRST = (
@@ -168,7 +169,7 @@ def build_parser() -> tuple[Parser, dict[str, Parser]]:
 
 def configure(name: str, parser: Parser) -> Any:
     """Describe the arguments of the subcommand `name` to its parser, and return its module."""
-    command = import_module(f"calibgui.cli.{name}")
+    command = import_module(f"calibgui.cli.{name.replace('-', '_')}")
     parser.description = command.__doc__
     import_module("calibgui.cli.console").configure(parser)
     command.configure(parser)

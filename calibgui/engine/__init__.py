@@ -2,11 +2,10 @@
 
 This is the short face: photographs are read (`read_image`), corners found (`find_corners`), the
 camera calibrated (`calibrate`), boards located with it (`locate_board`) and its images undistorted
-(`undistort_image`, `rectify_image`).
-Everything else is on the faces of the rooms: ``calibgui.engine.camera``, ``.boards``, ``.images``,
-``.features``, ``.lattices``, ``.detection``, ``.calibration``, ``.redetection``, ``.uncertainty``
-and ``.assessment``. Angles are radians, lengths millimetres, image points pixels (0-based, integer
-at the pixel's centre, v down).
+(`undistort_image`, `rectify_image`). Everything else is on the faces of the rooms:
+``calibgui.engine.camera``, ``.boards``, ``.images``, ``.features``, ``.lattices``, ``.detection``,
+``.calibration``, ``.redetection``, ``.uncertainty``, ``.hand_eye`` and ``.assessment``. Angles are
+radians, lengths millimetres, image points pixels (0-based, integer at the pixel's centre, v down).
 
 Five views of a board are rendered here in place of photographs.
 

@@ -18,6 +18,7 @@ PAPER_PAGE, SERIES_CSV = "paper-page", "series-csv"
 FLEET_TABLE, FLEET_PAGE = "fleet-table", "fleet-page"
 EXPORT_PAGE = "export-page"
 POSES, POSES_CSV, RAYS_CSV = "poses", "poses-csv", "rays-csv"
+HAND_EYE, HAND_EYE_ROS, HAND_EYE_OPENCV = "hand-eye", "hand-eye-ros", "hand-eye-opencv"
 """Kinds of files; those of exporters are the exporters' names."""
 _LENGTH = 4096
 """Number of bytes at either end of a file in which its mark is."""
@@ -31,6 +32,7 @@ _OWN_WORDS: Mapping[str, re.Pattern[bytes]] = {
     SERIES_CSV: re.compile(rb"\Avalue,file,model,fx,sigma_fx,"),
     POSES: re.compile(rb'\A\s*\{\s*"format"\s*:\s*"calibgui-poses"'),
     POSES_CSV: re.compile(rb"\Aimage,corners,rms_px,x_mm,y_mm,z_mm,"),
+    HAND_EYE: re.compile(rb'\A\s*\{\s*"format"\s*:\s*"calibgui-hand-eye"'),
     RAYS_CSV: re.compile(rb"\Au_px,v_px,ray_x,ray_y,ray_z,"),
 }
 """Patterns of the files that say in words of their own what they are."""
@@ -52,6 +54,9 @@ _TITLES: Mapping[str, str] = {
     RAYS_CSV: "a table of rays",
     FLEET_PAGE: "a page on a fleet",
     EXPORT_PAGE: "a page on exports",
+    HAND_EYE: "a file of hand and eye",
+    HAND_EYE_ROS: "a file for easy_handeye2",
+    HAND_EYE_OPENCV: "a file of hand and eye for OpenCV",
 }
 
 

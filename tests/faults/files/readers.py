@@ -7,6 +7,7 @@ A format of cameras is found by itself: by the golden file that its importer rea
 from __future__ import annotations
 
 import contextlib
+import io
 import os
 import tempfile
 from collections.abc import Callable, Mapping
@@ -15,6 +16,7 @@ from pathlib import Path
 
 import cv2
 import numpy as np
+import scipy
 
 from calibgui.app.calibrating.series import Scalar, read_series
 from calibgui.app.calibrating.settings import Settings
@@ -47,6 +49,7 @@ from calibgui.formats.points_csv import read_points
 from calibgui.formats.poses_json import read_pose
 from calibgui.formats.resampled_json import read_resampled
 from calibgui.formats.result_json import encode_result
+from calibgui.formats.robot_poses import read_robot_poses
 from tests.formats.cameras import example, splined
 
 GOLDEN = Path(__file__).parents[2] / "golden"
@@ -331,6 +334,10 @@ def _list_other_readers(folder: Path) -> list[Reader]:
             lambda file: read_pose(file, _PINHOLE, "a.png"),
             ("read_pose",),
         ),
+        *(
+            Reader(f"robot's poses, {file}", file, sample, read_robot_poses, ("read_robot_poses",))
+            for file, sample in _list_robot_poses()
+        ),
         Reader("pixels", "points.csv", _PIXELS.encode(), read_points, ("read_points",)),
         Reader(
             "regions",
@@ -365,6 +372,20 @@ def _list_other_readers(folder: Path) -> list[Reader]:
             ("list_recent",),
             tells=False,
         ),
+    ]
+
+
+def _list_robot_poses() -> list[tuple[str, bytes]]:
+    """List files of a robot's poses in each language, with their names."""
+    rows = np.arange(18.0).reshape(3, 6) / 8
+    mat = io.BytesIO()
+    scipy.io.savemat(mat, {"poses": rows})
+    lines = [f"{k}.png,{','.join(map(str, row))}" for k, row in enumerate(rows.tolist())]
+    named = {"a.png": {"tvec": [1, 2, 3], "rvec": [0.1, 0.2, 0.3]}, "b.png": [1, 2, 3, 4, 5, 6]}
+    return [
+        ("robot.csv", "\n".join(["image,x,y,z,a,b,c", *lines]).encode()),
+        ("robot.json", _encode(named)),
+        ("robot.mat", mat.getvalue()),
     ]
 
 
