@@ -15,7 +15,7 @@ from calibgui.dataset.view import View
 from calibgui.engine import opencv
 from calibgui.engine.arrays import Array
 from calibgui.engine.boards import Board
-from calibgui.engine.calibration import Calibration, Observation
+from calibgui.engine.calibration import Calibration, Observation, compute_scale_covariance
 from calibgui.engine.camera import SensorMode
 from calibgui.engine.geometry import PaperPose, paper_from_pose
 from calibgui.version import __version__
@@ -75,6 +75,20 @@ class Result:
     def observations(self) -> list[Observation]:
         """Return the corners of the used views, with their points on the board."""
         return [view.observation(self.board) for view in self.used]
+
+    @property
+    def scale_sigma(self) -> float:
+        """Standard deviation of the board's scale, by which every length is in error, relative."""
+        return 0.0 if self.board is None else self.board.scale_sigma
+
+    @property
+    def pose_covariances(self) -> Array:
+        """(K, 6, 6) covariances of (rvec, tvec), rad and mm, the error of the board's scale
+        included."""
+        by_scale = [
+            compute_scale_covariance(pose, self.scale_sigma) for pose in self.calibration.poses
+        ]
+        return self.calibration.pose_covariances + np.reshape(by_scale, (-1, 6, 6))
 
     @property
     def condition(self) -> str:

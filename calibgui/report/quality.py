@@ -61,15 +61,16 @@ def describe_length_uncertainty(found: LengthUncertainty) -> str:
     """Describe how wrong a length is, with k = 2, where it is known worst and in the median."""
     k = found.worst
     sigma, (u, v) = found.sigma[k], found.uv[k]
-    share = float(found.by_calibration[k] ** 2 / sigma**2)
+    calibration, noise, scale = found.shares
     where = f"at pixel {u:.0f}, {v:.0f}"
     if len(found.uv) > 1:
         median = format_two_digits(2 * float(np.nanmedian(found.sigma)))
         where = f"{where}, where it is known worst; ± {median} mm in the median over the image"
     text = (
         f"{found.length:g} mm at {found.depth:g} mm: ± {format_two_digits(2 * float(sigma))} mm "
-        f"(k = 2) {where}. Of the variance {100 * share:.0f} % are the calibration's and "
-        f"{100 * (1 - share):.0f} % the noise of two corners. The distance counts as known."
+        f"(k = 2) {where}. Of the variance {100 * calibration:.0f} % are the calibration's, "
+        f"{100 * noise:.0f} % the noise of two corners and {100 * scale:.0f} % the board's scale"
+        f"{'' if found.by_scale else ', which counts as exact'}. The distance counts as known."
     )
     return fill_lines(text, "", "  ")
 

@@ -122,7 +122,8 @@ class CalibratedCamera:
         """Return how wrong a length, mm, is that is measured by its two ends in a plane across the
         axis `at` a distance, mm; at pixels (n, 2) or all over the image."""
         views = self.result.observations()
-        return estimate_length_uncertainty(self.calibration, views, length, at, uv)
+        scale_sigma = self.result.scale_sigma
+        return estimate_length_uncertainty(self.calibration, views, length, at, uv, scale_sigma)
 
     def find_rays(self, uv: npt.ArrayLike) -> Array:
         """Return the rays (..., 3) of length 1 of pixels (..., 2); NaN where the lens has none."""

@@ -58,7 +58,7 @@ def test_the_error_of_a_length_is_told_in_mm(result_file: Path, capsys: Capture)
     there = json.loads(capsys.readouterr().out)["length"]
     assert there["pixel"] == [160, 120] and there["sigma_mm"] < worst["sigma_mm"]
     assert worst["sigma_mm"] ** 2 == pytest.approx(
-        worst["by_calibration_mm"] ** 2 + worst["by_noise_mm"] ** 2
+        worst["by_calibration_mm"] ** 2 + worst["by_noise_mm"] ** 2 + worst["by_scale_mm"] ** 2
     )
     assert main(["uncertainty", str(result_file), "--length", "5000", "--at", "600"]) == 1
     assert "does not lie in the image" in capsys.readouterr().err

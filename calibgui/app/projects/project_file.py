@@ -3,7 +3,8 @@
     format, version     "calibgui-project", 4
     lengths_confirmed   whether the user has stated the side of a square; where missing, it is
                         as if so if there are results
-    target              the board: rows, cols (null: inferred from the images), square_mm, unit and
+    target              the board: rows, cols (null: inferred from the images), square_mm and its
+                        square_sigma_mm (0 where missing), unit and
                         pattern as in ``pattern_json.py``; corners, the method of locating them
                         ("edges" where missing)
     size                width and height of the images, px
@@ -57,7 +58,7 @@ from calibgui.engine.files import open_regular
 from calibgui.formats.board_shape_json import decode_board_shape, decode_prior, encode_board_shape
 from calibgui.formats.json_document import JsonWriter, are_same_values, check_format, read_json
 from calibgui.formats.node import Node
-from calibgui.formats.pattern_json import decode_pattern, encode_pattern
+from calibgui.formats.pattern_json import decode_pattern, decode_square_sigma, encode_pattern
 from calibgui.formats.result_json import decode_result, encode_result
 from calibgui.formats.verdict_json import decode_verdict, encode_verdict
 from calibgui.formats.views_json import decode_views, encode_view
@@ -121,7 +122,9 @@ def encode_project(project: Project, folder: Path) -> dict[str, Any]:
     project = _change_paths(project, lambda image: _make_relative(image, folder))
     rows, cols = project.grid_size or (None, None)
     board = project.board or Board(2, 2, project.square, project.pattern)
-    square = {"square_mm": project.square, "unit": project.unit}
+    square: dict[str, Any] = {"square_mm": project.square, "unit": project.unit}
+    if project.square_sigma:
+        square["square_sigma_mm"] = project.square_sigma
     pattern = {"pattern": encode_pattern(project.pattern), "corners": project.method}
     return {
         "format": FORMAT,
@@ -242,6 +245,7 @@ def _decode_project(node: Node) -> Project:
         grid_size=_decode_grid_size(board.get("rows"), board.get("cols")),
         method=method.choice(METHODS) if (method := board.get("corners")) else METHODS[0],
         square=square.number(),
+        square_sigma=decode_square_sigma(board),
         by_hand=by_hand.flag() if (by_hand := node.get("by_hand")) else False,
         unit=Unit(board["unit"].choice(list(Unit))),
         lengths_confirmed=bool(node["results"].value) if confirmed is None else confirmed.flag(),
