@@ -54,9 +54,9 @@ def test_command_lines(elsewhere: Path, capsys: pytest.CaptureFixture[str]) -> N
     lines = re.findall(r"^calibgui (.+)$", "".join(blocks("sh")), re.MULTILINE)
     window, *lines = lines
     assert Path(window).is_dir()
-    # The paper's images, those of other boards and of many cameras are not bundled; see
-    # cli/test_boards.py and cli/test_batch.py.
-    left_out = ("paper", "calibrate photographs", "batch", "fleet")
+    # The paper's images, those of other boards, of many cameras and of a board that stands still
+    # are not bundled; see cli/test_boards.py, cli/test_batch.py and cli/test_quality.py.
+    left_out = ("paper", "calibrate photographs", "batch", "fleet", "noise")
     lines = [line for line in lines if not line.startswith(left_out)]
     for line in lines:
         assert main(shlex.split(line)) == 0, capsys.readouterr().err

@@ -23,6 +23,7 @@ COMMANDS = {
     "models": "compare lens models on photographs, and recommend one",
     "compare": "compare methods of calibration on photographs, side by side",
     "uncertainty": "show how far a calibration can be trusted",
+    "noise": "measure how far corners scatter in frames of a board that stands still",
     "diff": "compare two calibrations of a camera",
     "series": "describe a camera whose zoom, focus or temperature varies",
     "fleet": "show a fleet of cameras as a page: distributions, outliers, drift",
