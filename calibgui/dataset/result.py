@@ -10,6 +10,7 @@ import numpy as np
 import scipy
 
 from calibgui.dataset.corner_set import describe_lengths
+from calibgui.dataset.limits import Limits
 from calibgui.dataset.stereo_rectification import StereoRectification
 from calibgui.dataset.view import View
 from calibgui.engine import opencv
@@ -56,6 +57,8 @@ class Result:
     is; None if it is for these."""
     improvements: tuple[str, ...] = ()
     """Sentences on what was done to make the camera better than the first that was found."""
+    limits: Limits | None = None
+    """What is demanded of the calibration; None if nothing is."""
     places: tuple[int, ...] = field(init=False, repr=False)
     """Indices in `views` of those that take part, in the order of the calibration's poses."""
 
