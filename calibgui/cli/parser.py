@@ -22,6 +22,7 @@ COMMANDS = {
     "rays": "find the rays that pixels look along, or the points of a plane that they see",
     "models": "compare lens models on photographs, and recommend one",
     "compare": "compare methods of calibration on photographs, side by side",
+    "report": "write a report on a calibration, or a certificate, as HTML or PDF",
     "uncertainty": "show how far a calibration can be trusted",
     "noise": "measure how far corners scatter in frames of a board that stands still",
     "diff": "compare two calibrations of a camera",

@@ -15,7 +15,7 @@ from calibgui.engine.files import open_regular
 RESULT, CORNERS, CORNERS_CSV, BOARD_SHAPE = "result", "corners", "corners-csv", "board-shape"
 FIGURE, LENS_COMPARISON, METHOD_COMPARISON = "figure", "lens-comparison", "method-comparison"
 PAPER_PAGE, SERIES_CSV = "paper-page", "series-csv"
-FLEET_TABLE, FLEET_PAGE = "fleet-table", "fleet-page"
+FLEET_TABLE, FLEET_PAGE, REPORT = "fleet-table", "fleet-page", "report"
 POSES, POSES_CSV, RAYS_CSV = "poses", "poses-csv", "rays-csv"
 """Kinds of files; those of exporters are the exporters' names."""
 _LENGTH = 4096
@@ -50,6 +50,7 @@ _TITLES: Mapping[str, str] = {
     POSES_CSV: "a table of poses",
     RAYS_CSV: "a table of rays",
     FLEET_PAGE: "a page on a fleet",
+    REPORT: "a report",
 }
 
 

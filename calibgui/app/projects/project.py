@@ -20,6 +20,7 @@ from calibgui.app.photographs.detection import (
     measure_largest_part,
 )
 from calibgui.dataset import DEFAULT_SQUARE, CornerSet, Result, View, ViewStatus
+from calibgui.dataset.details import NO_DETAILS, Details
 from calibgui.engine.arrays import GridSize, Size
 from calibgui.engine.boards import CHECKERBOARD, Board, Pattern
 from calibgui.engine.errors import CalibrationError
@@ -63,6 +64,8 @@ class Project:
     unit: Unit = Unit.MM
     by_hand: bool = False
     """True if the user marks every board: images are searched only where that is asked for."""
+    details: Details = NO_DETAILS
+    """What a person states of the calibration, for its report."""
     lengths_confirmed: bool = False
     """True once the user has stated the side of a square, or confirmed it."""
     settings: Settings = field(default_factory=Settings)

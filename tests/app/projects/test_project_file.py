@@ -23,6 +23,7 @@ from calibgui.app.projects.project import (
 )
 from calibgui.app.projects.project_file import VERSION, encode_project, read_project, write_project
 from calibgui.dataset import judging
+from calibgui.dataset.details import Details
 from calibgui.dataset.judging import judge_result, keep_verdict
 from calibgui.engine.assessment import Action, ActionKind, Cause, Finding, PixelError
 from calibgui.engine.boards.shape import BoardShape, BoardShapeModel, BoardShapePrior
@@ -369,3 +370,9 @@ def test_the_scale_of_the_board_is_kept(tmp_path: Path) -> None:
     (tmp_path / "project.json").write_text(dumps(content))
     with pytest.raises(CalibrationError, match=r"target\.square_sigma_mm"):
         read_project(tmp_path / "project.json")
+
+
+def test_what_is_stated_for_a_report_is_kept(tmp_path: Path) -> None:
+    project = replace(examples.calibrated(tmp_path), details=Details(operator="Zoë", lens="16 mm"))
+    write_project(project, tmp_path / "project.json")
+    assert read_project(tmp_path / "project.json").details == project.details
