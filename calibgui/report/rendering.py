@@ -12,6 +12,7 @@ import shutil
 import tempfile
 from dataclasses import asdict
 from datetime import UTC, datetime
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -62,6 +63,7 @@ def render_html(document: Document, mark: str, paper: str, template: Path | None
         ) from error
 
 
+@cache
 def _make_environment(*folders: Path) -> Environment:
     """Make what renders templates of folders; every text is escaped."""
     return Environment(
