@@ -348,7 +348,8 @@ def _tabulate_budget(result: Result) -> list[Block]:
         if sigma > 0:
             others = math.sqrt(max(sigma**2 - noise**2, 0.0))
             share = min(noise**2 / sigma**2, 1.0)
-            rows.append([name, f"{noise:.2g}", f"{others:.2g}", f"{sigma:.2g}", f"{share:.0%}"])
+            parts = [f"{part:.2g}".replace("e-0", "e-") for part in (noise, others, sigma)]
+            rows.append([name, *parts, f"{share:.0%}"])
     scale = result.scale_sigma
     board = result.board
     note = (
@@ -362,7 +363,7 @@ def _tabulate_budget(result: Result) -> list[Block]:
             else "it counts as exact."
         )
     )
-    head = ["Parameter", "Corners' noise", "Board, lens and views", "u", "Noise' share of u²"]
+    head = ["Parameter", "Corners' noise", "Board, lens and views", "u", "Share of noise in u²"]
     return [Table(head, rows, (0,), note)] if rows else []
 
 

@@ -29,6 +29,8 @@ _HALF_INCHES, _FULL_INCHES = 3.5, 7.2
 _HEIGHT_INCHES = 2.6
 _AXES, _AXES_BESIDE = (0.15, 0.17, 0.67, 0.77), (0.85, 0.22, 0.025, 0.67)
 """Left, bottom, width and height of a plot and of the scale of its colours, as shares."""
+_STROKE_SHARE = 0.025
+"""Share of the image's width that a residual of RMS length takes."""
 _MAX_MARKS = 500
 """Number of marks above which they are a picture: as outlines they would take most of the file."""
 _PICTURE_DPI = 300
@@ -56,15 +58,15 @@ def draw_report_figures(result: Result, uncertainty: ProjectionUncertainty) -> l
     """Draw the figures that take half of the page's width each."""
     with mpl.rc_context(_STYLE):
         return [
-            Picture(_draw_residual_map(result), "Corners in all views, each with its residual."),
+            _draw_residual_map(result),
             Picture(_draw_scatter(result), "Residuals of all corners, one colour for each view."),
             Picture(
                 _draw_distortion(result),
-                "Displacement by the lens' distortion.",
+                "Displacement by the lens' distortion, px, with the centre.",
             ),
             Picture(
                 _draw_uncertainty(result, uncertainty),
-                "Uncertainty of where far points are imaged, one standard deviation.",
+                "Uncertainty of where far points are imaged, one standard deviation, px.",
             ),
         ]
 
@@ -86,24 +88,30 @@ def draw_views(result: Result) -> Picture:
         )
 
 
-def _draw_residual_map(result: Result) -> str:
-    """Draw where corners were seen, with arrows of their residuals."""
+def _draw_residual_map(result: Result) -> Picture:
+    """Draw where corners were seen, with their residuals as strokes."""
     figure, axes = _make_image_axes(result.calibration.camera.size)
     uv = np.concatenate([view.uv for view in result.observations()])
     off = stack_residuals(result.calibration, on_reference=False)
-    length = float(np.percentile(np.linalg.norm(off, axis=1), 95)) or 1.0
-    arrows = axes.quiver(
+    typical = float(np.sqrt(np.mean(np.sum(off**2, axis=1)))) or 1.0
+    times = _STROKE_SHARE * result.calibration.camera.size[0] / typical
+    axes.quiver(
         *uv.T,
         *off.T,
         angles="xy",
         color=_BLUE,
-        scale=length / (0.03 * result.calibration.camera.size[0]),
-        scale_units="x",
-        width=0.0022,
+        scale=1 / times,
+        scale_units="xy",
+        width=0.0028,
+        headwidth=3,
+        headlength=3,
+        headaxislength=3,
         rasterized=len(uv) > _MAX_MARKS,
     )
-    axes.quiverkey(arrows, 0.86, 1.04, length, f"{length:.2g} px", labelpos="E", labelsep=0.05)
-    return _format_svg(figure)
+    words = (
+        f"Corners in all views with their residuals, {float(f'{times:.2g}'):,.0f} times as long."
+    )
+    return Picture(_format_svg(figure), words)
 
 
 def _draw_scatter(result: Result) -> str:
@@ -137,7 +145,7 @@ def _draw_distortion(result: Result) -> str:
     w, h = camera.size
     u, v = np.linspace(0, w - 1, 81), np.linspace(0, h - 1, 61)
     length = compute_displacement(make_mesh(u, v), camera).length
-    _fill(figure, axes, u, v, length, "px", "Blues")
+    _fill(figure, axes, u, v, length, "Blues")
     axes.plot(*camera.centre, "+", color=_RED, markersize=8)
     return _format_svg(figure)
 
@@ -146,7 +154,7 @@ def _draw_uncertainty(result: Result, found: ProjectionUncertainty) -> str:
     """Draw the map of the uncertainty."""
     figure, axes = _make_image_axes(result.calibration.camera.size)
     sigma = np.array(found.worst_direction)
-    _fill(figure, axes, np.asarray(found.u), np.asarray(found.v), sigma, "px", "YlOrBr")
+    _fill(figure, axes, np.asarray(found.u), np.asarray(found.v), sigma, "YlOrBr")
     return _format_svg(figure)
 
 
@@ -160,16 +168,14 @@ def _make_image_axes(size: Size) -> tuple[Figure, Axes]:
     return figure, axes
 
 
-def _fill(
-    figure: Figure, axes: Axes, u: Array, v: Array, values: Array, label: str, colours: str
-) -> None:
+def _fill(figure: Figure, axes: Axes, u: Array, v: Array, values: Array, colours: str) -> None:
     """Fill between lines of equal value, up to four times the median."""
     known = np.ma.masked_invalid(values)
     top = float(min(known.max(), 4 * np.median(known.compressed()))) if known.count() else 0.0
     levels = MaxNLocator(8).tick_values(0.0, max(top, 1e-9))
     shown = axes.contourf(u, v, known, levels=levels, extend="max", cmap=colours)
     beside = figure.add_axes(_AXES_BESIDE)
-    bar = figure.colorbar(shown, cax=beside, label=label, drawedges=False)
+    bar = figure.colorbar(shown, cax=beside, drawedges=False)
     bar.outline.set_visible(False)
 
 
