@@ -16,7 +16,8 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
-from jinja2 import Environment, FileSystemLoader, StrictUndefined, TemplateError
+from jinja2 import FileSystemLoader, StrictUndefined, TemplateError
+from jinja2.sandbox import SandboxedEnvironment
 
 from calibgui.engine.errors import CalibrationError
 from calibgui.report.document import Document
@@ -64,9 +65,9 @@ def render_html(document: Document, mark: str, paper: str, template: Path | None
 
 
 @cache
-def _make_environment(*folders: Path) -> Environment:
-    """Make what renders templates of folders; every text is escaped."""
-    return Environment(
+def _make_environment(*folders: Path) -> SandboxedEnvironment:
+    """Make what renders templates of folders: every text is escaped, and none runs programs."""
+    return SandboxedEnvironment(
         loader=FileSystemLoader(folders),
         autoescape=True,
         undefined=StrictUndefined,

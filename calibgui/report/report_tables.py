@@ -43,7 +43,7 @@ def tabulate_parameters(result: Result) -> list[Block]:
             rows.append([name, f"{value:z.6g}", told, "", unit])
             continue
         number, u = _split(format_with_sigma(value, sigma))
-        rows.append([name, number, u, _scale_text(u, COVERAGE_FACTOR), unit])
+        rows.append([name, number, u, _format_alike(COVERAGE_FACTOR * sigma, u), unit])
     freedom = _count_freedom(result)
     note = (
         f"u is one standard deviation and U = k u with k = {COVERAGE_FACTOR:g}, which covers some "
@@ -68,11 +68,12 @@ def _split(text: str) -> tuple[str, str]:
     return value + power, sigma + power
 
 
-def _scale_text(text: str, factor: float) -> str:
-    """Return a number that is `factor` times as large, with the same decimals."""
+def _format_alike(value: float, text: str) -> str:
+    """Format a value with the decimals and the power of ten of another one's text."""
     digits, _, power = text.partition("e")
     decimals = len(digits.partition(".")[2])
-    return f"{factor * float(digits):.{decimals}f}{'e' + power if power else ''}"
+    scaled = value / 10.0 ** int(power or 0)
+    return f"{scaled:.{decimals}f}{'e' + power if power else ''}"
 
 
 def _count_freedom(result: Result) -> int:

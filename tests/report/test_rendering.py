@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 import json
 import re
 import shutil
@@ -13,6 +14,7 @@ from html import unescape
 from pathlib import Path
 
 import numpy as np
+import PIL.Image
 import pytest
 
 from calibgui.app.outputs.report_files import ReportStyle, format_command, write_report
@@ -24,6 +26,7 @@ from calibgui.formats.result_json import encode_result, read_result
 from calibgui.report.calibration_report import Layout
 from calibgui.report.document import Document, Facts, Mood, Section, Table
 from calibgui.report.rendering import render_html, render_pdf
+from calibgui.report.report_tables import tabulate_parameters
 from tests.engine import scenes
 from tests.formats.conftest import solved
 
@@ -174,7 +177,7 @@ def test_a_users_template_gets_the_same_record(judged: Result, tmp_path: Path) -
     style = ReportStyle(template=template)
     write_report(judged, tmp_path / "r.html", DETAILS, style, issued=ISSUED)
     assert (tmp_path / "r.html").read_text().startswith("Camera calibration|12|")
-    for wrong in ("{{ document.nothing }}", "{% if %}"):
+    for wrong in ("{{ document.nothing }}", "{% if %}", "{{ mark.__class__.__mro__ }}"):
         template.write_text(wrong)
         with pytest.raises(CalibrationError, match=r"mine\.html cannot be rendered"):
             write_report(judged, tmp_path / "r.html", DETAILS, style)
@@ -235,3 +238,57 @@ def test_letters_without_a_font_are_named_and_not_printed_as_boxes(
     with pytest.raises(CalibrationError, match="could not be displayed") as caught:
         write_report(judged, tmp_path / "r.pdf", replace(DETAILS, place=unknown))
     assert "install fonts" in caught.value.hint
+
+
+def test_the_expanded_uncertainty_is_twice_the_standard_one(judged: Result) -> None:
+    (_, table) = tabulate_parameters(judged)
+    assert isinstance(table, Table)
+    sigmas = dict(
+        zip(judged.calibration.camera.names, judged.calibration.sigma.tolist(), strict=True)
+    )
+    rows = [row for row in table.rows if row[2] not in ("held", "undetermined")]
+    assert len(rows) >= 8
+    for name, _, u, expanded, _ in rows:
+        digits, _, power = u.partition("e")
+        last_place = 10.0 ** (int(power or 0) - len(digits.partition(".")[2]))
+        assert float(u) == pytest.approx(sigmas[name], abs=0.51 * last_place)
+        assert float(expanded) == pytest.approx(2 * sigmas[name], abs=0.51 * last_place)
+
+
+def test_photographs_tell_of_camera_and_date(judged: Result, tmp_path: Path) -> None:
+    exif = PIL.Image.Exif()
+    exif[0x010F], exif[0x0110] = "Canon", "Canon EOS R5"
+    exif.get_ifd(0x8769)[0x9003] = "2026:02:03 10:20:30"
+    PIL.Image.new("L", (64, 48), 128).save(tmp_path / "a.jpg", exif=exif)
+    views = (replace(judged.views[0], image="a.jpg"), *judged.views[1:])
+    write_report(replace(judged, views=views), tmp_path / "r.html", folder=tmp_path, issued=ISSUED)
+    page = (tmp_path / "r.html").read_text(encoding="utf-8")
+    digest = hashlib.sha256((tmp_path / "a.jpg").read_bytes()).hexdigest()
+    for words in ("<dd>Canon EOS R5</dd>", "<dd>2026-02-03</dd>", digest, "data:image/jpeg"):
+        assert words in page, words
+
+
+@pytest.mark.slow
+def test_a_browser_prints_the_page_whole(judged: Result, tmp_path: Path) -> None:
+    if (browser := shutil.which("chromium") or shutil.which("google-chrome")) is None:
+        pytest.skip("no chromium")
+    write_report(judged, tmp_path / "r.html", DETAILS, issued=ISSUED)
+    without_network = ("--headless", "--no-sandbox", "--host-resolver-rules=MAP * ~NOTFOUND")
+    subprocess.run(
+        [
+            browser,
+            *without_network,
+            f"--user-data-dir={tmp_path / 'profile'}",
+            "--no-pdf-header-footer",
+            f"--print-to-pdf={tmp_path / 'r.pdf'}",
+            (tmp_path / "r.html").as_uri(),
+        ],
+        check=True,
+        capture_output=True,
+        timeout=120,
+    )
+    text = squeeze(run("pdftotext", tmp_path / "r.pdf", "-"))
+    missing = [number for number in list_numbers(judged) if squeeze(number) not in text]
+    assert missing == []
+    # A figure that is cut by a page's end would stand on two.
+    assert text.count("RMSoftheresidualsineachview") == 1
