@@ -68,12 +68,13 @@ def parse_positive(text: str) -> float:
 
 
 def add_square_option(parser: argparse.ArgumentParser, need: str) -> None:
-    """Add --square, the length that scales the board.
+    """Add --square, the length that scales the board; `square_sigma` is 0.
 
     Args:
         parser: the parser to add it to.
         need: what the help says of when the length is needed.
     """
+    parser.set_defaults(square_sigma=0.0)
     parser.add_argument(
         "--square",
         type=parse_length,

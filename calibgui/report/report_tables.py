@@ -7,6 +7,7 @@ A value has its standard uncertainty u and the expanded one U = k u with k = 2, 
 from __future__ import annotations
 
 import math
+from itertools import islice
 
 import numpy as np
 
@@ -24,6 +25,8 @@ from calibgui.report.numbers import format_with_sigma
 
 COVERAGE_FACTOR = 2.0
 """k of the expanded uncertainty: some 95 % of errors lie within."""
+_MAX_TABULATED = 40
+"""Number of parameters up to which all are listed; a splined lens has hundreds of them."""
 _MAX_CORRELATED = 14
 """Number of parameters up to which their correlations are a table on one page."""
 
@@ -33,10 +36,9 @@ def tabulate_parameters(result: Result) -> list[Block]:
     calibration = result.calibration
     camera = calibration.camera
     open_names = {each.name for each in calibration.undetermined}
-    rows = []
-    for name, value, sigma in zip(
-        camera.names, camera.params.tolist(), calibration.sigma.tolist(), strict=True
-    ):
+    rows, count = [], _count_tabulated(result)
+    values = zip(camera.names, camera.params.tolist(), calibration.sigma.tolist(), strict=True)
+    for name, value, sigma in islice(values, count):
         unit = "px" if name in PINHOLE else ""
         if name in open_names or not sigma > 0:
             told = "undetermined" if name in open_names else "held"
@@ -50,6 +52,8 @@ def tabulate_parameters(result: Result) -> list[Block]:
         f"95 %, at {freedom:,} degrees of freedom. Pixels are counted from 0 at the centre of the "
         "upper left one, u to the right and v down."
     )
+    if count < len(camera.names):
+        note += f" The other {len(camera.names) - count:,} parameters are in result.json."
     title = f"{get_lens_title(camera.model)} ({camera.model})"
     return [
         Paragraph(f"Lens model: {title}."),
@@ -57,6 +61,12 @@ def tabulate_parameters(result: Result) -> list[Block]:
             ["Parameter", "Value", "u", f"U (k = {COVERAGE_FACTOR:g})", "Unit"], rows, (0, 4), note
         ),
     ]
+
+
+def _count_tabulated(result: Result) -> int:
+    """Count the parameters that are listed: all of them, or those of the pinhole alone."""
+    names = result.calibration.camera.names
+    return len(names) if len(names) <= _MAX_TABULATED else len(PINHOLE)
 
 
 def _split(text: str) -> tuple[str, str]:
@@ -100,12 +110,13 @@ def tabulate_budget(result: Result) -> list[Block]:
     """Tabulate what the standard uncertainty of each parameter consists of."""
     calibration = result.calibration
     rows = []
-    for name, sigma, noise in zip(
+    values = zip(
         calibration.camera.names,
         calibration.sigma.tolist(),
         calibration.sigma_by_noise.tolist(),
         strict=True,
-    ):
+    )
+    for name, sigma, noise in islice(values, _count_tabulated(result)):
         if sigma > 0:
             others = math.sqrt(max(sigma**2 - noise**2, 0.0))
             share = min(noise**2 / sigma**2, 1.0)

@@ -226,7 +226,12 @@ def test_other_suffixes_are_refused(judged: Result, tmp_path: Path) -> None:
 def test_the_command_names_what_was_asked(judged: Result) -> None:
     command = format_command(judged)
     assert command.startswith("calibgui calibrate")
-    for words in ("--board 6x8", "--square 30+-0.02", "--as-asked --model lucchese", "--exclude"):
+    for words in (
+        "--board 6x8",
+        "--square 30+-0.02",
+        "--as-asked --cost image --model lucchese",
+        "--exclude",
+    ):
         assert words in command, words
 
 

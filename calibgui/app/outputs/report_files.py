@@ -17,7 +17,8 @@ from calibgui.app.photographs.image_store import read_thumbnail
 from calibgui.app.photographs.paths import is_remote
 from calibgui.dataset import Result
 from calibgui.dataset.details import NO_DETAILS, Details
-from calibgui.engine.boards import CHECKERBOARD
+from calibgui.engine.boards import CHECKERBOARD, BoardShapeModel
+from calibgui.engine.calibration import DEFAULT_METHOD, Cost
 from calibgui.engine.camera import find_model
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.files import write_atomically
@@ -153,27 +154,39 @@ def _read_camera(header: Header) -> Mapping[str, str]:
 
 
 def format_command(result: Result) -> str:
-    """Format the command that makes a calibration again from its photographs."""
+    """Format the command that makes a calibration again from its photographs.
+
+    What no option states is a word in capitals: a file of corners, or of a board's shape.
+    """
+    calibration, board = result.calibration, result.board
+    settings, camera = calibration.settings, calibration.camera
     folders = {str(PurePath(view.image).parent) for view in result.views}
     paths = sorted(folders) if len(folders) == 1 else [view.image for view in result.views]
-    words = ["calibgui", "calibrate", *(path for path in paths)]
-    if board := result.board:
+    words = ["calibgui", "calibrate", *(paths if board else ["CORNERS"])]
+    if board:
         words += ["--board", f"{board.rows}x{board.cols}"]
         sigma = f"+-{board.square_sigma:.6g}" if board.square_sigma else ""
         words += ["--square", f"{board.square:g}{sigma}"]
         if board.pattern != CHECKERBOARD:
             words += ["--target", board.pattern.kind]
-    calibration, settings = result.calibration, result.calibration.settings
-    words += ["--as-asked", "--model", calibration.camera.model]
-    held = find_model(calibration.camera.model).held
-    values = dict(zip(calibration.camera.names, calibration.camera.params.tolist(), strict=True))
+    words.append("--as-asked")
+    if settings.method != DEFAULT_METHOD:
+        words += ["--method", settings.method]
+    if calibration.cost is Cost.PAPER:
+        words += ["--cost", Cost.PAPER.value]  # which has its own lens model
+    else:
+        words += ["--cost", calibration.cost.value, "--model", camera.model]
+    held = find_model(camera.model).held
+    values = dict(zip(camera.names, camera.params.tolist(), strict=True))
     if fixed := [f"{name}={values[name]:g}" for name in calibration.fixed if name not in held]:
         words += ["--fix", ",".join(fixed)]
     if freed := [name for name in held if name not in calibration.fixed]:
         words += ["--free", ",".join(freed)]
-    words += ["--board-shape", str(settings.board_shape or "nominal")]
-    if settings.robust:
-        words.append("--robust")
+    shape = str(settings.board_shape or BoardShapeModel.NOMINAL)
+    words += ["--board-shape", "SHAPE" if settings.is_board_shape_held else shape]
+    if settings.prior is not None:
+        words += ["--prior", f"{settings.prior.in_plane:g},{settings.prior.out_of_plane:g}"]
+    words += ["--robust"] * bool(settings.robust) + ["--weigh-views"] * bool(settings.weigh_views)
     if left_out := [view.name for view in result.views if not view.enabled]:
         words += ["--exclude", *left_out]
     return shlex.join(words)
