@@ -12,7 +12,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import fields
 from functools import cache
 from pathlib import Path
-from typing import BinaryIO
+from typing import Any, BinaryIO
 
 from calibgui.app.photographs.board_recognition import explain_missing_board, find_any_board
 from calibgui.app.photographs.detection import (
@@ -70,18 +70,82 @@ def parse_positive(text: str) -> float:
 
 
 def add_square_option(parser: argparse.ArgumentParser, need: str) -> None:
-    """Add --square, the length that scales the board.
+    """Add --square, the length that scales the board; `square_sigma` is 0.
 
     Args:
         parser: the parser to add it to.
         need: what the help says of when the length is needed.
     """
+    parser.set_defaults(square_sigma=0.0)
     parser.add_argument(
         "--square",
         type=parse_length,
         metavar="MM",
         help=f"side of a square, or distance of circles, mm, or with a unit as 0.025m; {need}",
     )
+
+
+def add_scale_option(parser: argparse.ArgumentParser, need: str) -> None:
+    """Add --square with its uncertainty: the options `square` and `square_sigma`, mm.
+
+    Args:
+        parser: the parser to add it to.
+        need: what the help says of when the length is needed.
+    """
+    parser.set_defaults(square_sigma=0.0)
+    parser.add_argument(
+        "--square",
+        type=parse_square,
+        action=_StoreSquare,
+        metavar="MM",
+        help="side of a square, or distance of circles, mm, or with a unit as 0.025m, perhaps with "
+        "one standard deviation as 30+-0.02, which all squares share and every length then has; "
+        "or as a certificate says it of the length of N squares: 300+-0.05/10, or "
+        f"'300+-0.05 (k=2)/10' where the uncertainty is expanded; {need}",
+    )
+
+
+class _StoreSquare(argparse.Action):
+    """Keeps the side of a square and its standard deviation as two options."""
+
+    def __call__(
+        self,
+        parser: argparse.ArgumentParser,
+        namespace: argparse.Namespace,
+        values: Any,
+        option_string: str | None = None,
+    ) -> None:
+        """Set both options."""
+        del parser, option_string
+        namespace.square, namespace.square_sigma = values
+
+
+def parse_square(text: str) -> tuple[float, float]:
+    """Read the side of a square and its standard deviation, mm.
+
+    The text is a length, "30"; one with a standard deviation, "30+-0.02" or "30±0.02"; or that of
+    several squares together, "300+-0.05/10". "(k=2)" says that the uncertainty is expanded.
+    """
+    match = re.fullmatch(
+        r"(?P<length>[^±/]+?)(?:\s*(?:±|\+-|\+/-)\s*(?P<sigma>[^±/(]+?))?"
+        r"\s*(?:\(\s*k\s*=\s*(?P<k>[\d.]+)\s*\))?\s*(?:/\s*(?P<count>\d+))?\s*",
+        text,
+    )
+    if match is None or (match["k"] and not match["sigma"]) or match["count"] == "0":
+        raise argparse.ArgumentTypeError(
+            f"{text!r} is no side of a square, as 30, 30+-0.02 or, of 10 squares, 300+-0.05/10"
+        )
+    count = int(match["count"] or 1)
+    square = parse_length(match["length"]) / count
+    if match["sigma"] is None:
+        return square, 0.0
+    unit = next((unit for unit in _UNITS_MM if match["length"].rstrip().endswith(unit)), "mm")
+    has_unit = any(match["sigma"].endswith(each) for each in _UNITS_MM)
+    sigma = parse_length(match["sigma"] if has_unit else match["sigma"] + unit) / count
+    sigma /= parse_positive(match["k"] or "1")
+    if sigma >= square:
+        raise argparse.ArgumentTypeError(f"{text!r} is less certain than it is long")
+    return square, sigma
 
 
 def parse_length(text: str) -> float:

@@ -14,28 +14,26 @@ import re
 from pathlib import Path
 
 from calibgui.app.fleet import (
-    NO_LIMITS,
     BatchSummary,
     BoardSought,
     describe_trust,
     open_scheduler,
-    read_limits,
     read_manifest,
     run_batch,
 )
 from calibgui.app.outputs.output_files import check_outputs, check_writable
+from calibgui.app.system.limit_presets import find_limits
 from calibgui.cli.arguments import add_corner_method, add_grid_size_option, add_square_option
 from calibgui.cli.boards import add_board_options, is_pattern_open, read_pattern_options
 from calibgui.cli.calibrate import add_settings_options, read_settings
 from calibgui.cli.console import Console
+from calibgui.cli.limits import BROKEN, add_limits_option
 from calibgui.cli.outputs import add_overwrite_option
+from calibgui.dataset.limits import NO_LIMITS
 from calibgui.formats.fleet_ledger import open_ledger
 from calibgui.formats.fleet_table import check_fleet_table, write_fleet_table
 from calibgui.formats.origin import FLEET_TABLE
 from calibgui.report.fleet import summarise_batch, tabulate_failures
-
-_HAS_FAILED = 3
-"""Exit code if a camera fails."""
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
@@ -65,12 +63,8 @@ def configure(parser: argparse.ArgumentParser) -> None:
         "whoever can reach it can run code as you, and you as its workers: with tls:// only who "
         "has a certificate (Dask's settings name yours), with tcp:// anyone",
     )
-    parser.add_argument(
-        "--limits",
-        type=Path,
-        metavar="LIMITS.toml",
-        help="what every camera has to keep: largest_edge_error_px, fewest_views, least_coverage "
-        "(0 to 1), largest_change_px since the last calibration of its serial number",
+    add_limits_option(
+        parser, ", or largest_change_px since the last calibration of its serial number"
     )
     parser.add_argument(
         "--parquet",
@@ -96,11 +90,11 @@ def run(options: argparse.Namespace, console: Console) -> int:
         None if is_pattern_open(options) else pattern,
         options.corners,
     )
-    limits = NO_LIMITS if options.limits is None else read_limits(options.limits)
+    limits = NO_LIMITS if options.limits is None else find_limits(options.limits)
     check_writable(options.output)
     if options.parquet:
         check_fleet_table(options.parquet)
-        read = [options.manifest, options.output, *filter(None, [options.limits])]
+        read = [options.manifest, options.output]
         check_outputs([(options.parquet, FLEET_TABLE)], read, options.overwrite)
     tasks = read_manifest(options.manifest, board, settings)
     if options.scheduler is not None:
@@ -114,7 +108,7 @@ def run(options: argparse.Namespace, console: Console) -> int:
         if options.parquet:
             write_fleet_table(ledger.read(), options.parquet)
     _print_summary(summary, options, console)
-    return _HAS_FAILED if summary.failed else 0
+    return BROKEN if summary.failed else 0
 
 
 def _print_summary(summary: BatchSummary, options: argparse.Namespace, console: Console) -> None:

@@ -1,7 +1,7 @@
 """Calibrate a camera from photographs of a board, or from a file of corners.
 
 If the views do not determine the camera, the command prints and writes a partial calibration,
-says what to photograph, and ends with exit code 1.
+says what to photograph, and ends with exit code 1. If it breaks one of --limits, it is 3.
 """
 
 from __future__ import annotations
@@ -25,6 +25,7 @@ from calibgui.app.calibrating.settings import (
     resolve_model_choice,
 )
 from calibgui.app.calibrating.true_board import GLASS, list_gains, measure_gain_of_glass
+from calibgui.app.system.limit_presets import find_limits
 from calibgui.cli.arguments import (
     add_export_folder_option,
     add_export_option,
@@ -36,6 +37,7 @@ from calibgui.cli.arguments import (
 )
 from calibgui.cli.console import Console
 from calibgui.cli.corners import add_corner_options, check_corner_options, read_or_search
+from calibgui.cli.limits import BROKEN, add_limits_option
 from calibgui.cli.notices import explain_solve
 from calibgui.cli.outputs import (
     add_overwrite_option,
@@ -44,7 +46,9 @@ from calibgui.cli.outputs import (
     refuse_other_format,
 )
 from calibgui.dataset import DEFAULT_SQUARE, Result
+from calibgui.dataset.acceptance import list_broken_limits
 from calibgui.dataset.judging import judge_result
+from calibgui.dataset.limits import Limits
 from calibgui.engine.assessment import CANDIDATES
 from calibgui.engine.boards import BoardShape, BoardShapeModel, BoardShapePrior
 from calibgui.engine.calibration import DEFAULT_METHOD, METHODS, Cost, DegenerateError
@@ -78,6 +82,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
         metavar="FILE",
         help="write the result as JSON, which other commands read; - for standard output",
     )
+    add_limits_option(parser)
     add_export_option(parser, "write another format as well")
     add_export_folder_option(parser)
     add_hardware_option(parser)
@@ -185,10 +190,11 @@ def add_settings_options(parser: argparse.ArgumentParser, is_automatic: bool = F
     )
 
 
-def run(options: argparse.Namespace, console: Console) -> None:
-    """Search, calibrate, write and print."""
+def run(options: argparse.Namespace, console: Console) -> int:
+    """Search, calibrate, write and print; return the exit code."""
     settings = read_settings(options)
     _check_usage(options, settings)
+    limits = _find_limits(options)
     if options.reader:
         options.export = [*options.export, options.reader]
     options.output = console.take_output(options.output)
@@ -211,6 +217,7 @@ def run(options: argparse.Namespace, console: Console) -> None:
         steps = calibrate_best(corner_set, settings, search=search, progress=tell, check=tell)
         *_, (_, _, result) = steps
         judge_result(result, check=tell)
+    result = replace(result, limits=limits)
     messages, errors = _write_files(result, options)
     _print_report(result, messages, options, console)
     diagnosis = result.calibration.diagnosis
@@ -221,6 +228,7 @@ def run(options: argparse.Namespace, console: Console) -> None:
         console.print_problem(f"calibgui: {error}")
     if errors:
         raise errors[-1]
+    return BROKEN if result.limits and list_broken_limits(result, result.limits) else 0
 
 
 def _print_report(
@@ -352,6 +360,24 @@ def _check_usage(options: argparse.Namespace, settings: Settings) -> None:
     in_mm = "--prior" if options.prior else "--save-board-shape" if options.save_board_shape else ""
     if in_mm and options.square is None and not is_corners_file(options.paths):
         options.usage_error(f"{in_mm} is in mm: add --square MM")
+
+
+def _find_limits(options: argparse.Namespace) -> Limits | None:
+    """Return what the calibration has to keep; None if nothing is demanded.
+
+    Raises:
+        CalibrationError: if there are no such limits, or one of them is for a fleet.
+    """
+    if options.limits is None:
+        return None
+    limits = find_limits(options.limits)
+    if limits.largest_change_px is not None:
+        raise CalibrationError(
+            f"The limits {limits.name} have largest_change_px, and there is no earlier calibration "
+            "to compare with.",
+            "Leave it out, or compare two results: `calibgui diff --limit`.",
+        )
+    return limits
 
 
 def _parse_model(text: str) -> str | None:

@@ -12,8 +12,8 @@ from calibgui.app.photographs.paths import describe_unread_folders, describe_unr
 from calibgui.app.photographs.videos import FrameChoice
 from calibgui.cli.arguments import (
     add_image_paths,
+    add_scale_option,
     add_search_options,
-    add_square_option,
     is_corners_file,
     open_input,
     require_board,
@@ -40,7 +40,7 @@ def add_corner_options(parser: argparse.ArgumentParser, need: str) -> None:
     add_image_paths(parser)
     add_search_options(parser)
     add_board_options(parser)
-    add_square_option(parser, need)
+    add_scale_option(parser, need)
     add_size_option(parser)
     parser.add_argument(
         "--exclude",
@@ -105,7 +105,7 @@ def search_board(options: argparse.Namespace, console: Console) -> tuple[CornerS
         FrameChoice(options.frames, _choose_frames_folder(options)),
     )
     require_board(detection, options.board, console, is_open)
-    corner_set = detection.corner_set(options.square)
+    corner_set = detection.corner_set(options.square, options.square_sigma)
     remarks = (
         describe_recognised_board(pattern, corner_set),
         detection.remark,
@@ -155,4 +155,6 @@ def _exclude_images(corner_set: CornerSet, names: Sequence[str]) -> CornerSet:
 def _read_corners_file(options: argparse.Namespace) -> CornerSet:
     """Return the views of a file of corners; --square replaces the side of the board's squares."""
     with open_input(options.paths[0]) as file:
-        return read_corner_file(file, options.board, options.square, options.size)
+        return read_corner_file(
+            file, options.board, options.square, options.size, options.square_sigma
+        )

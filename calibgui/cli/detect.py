@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from calibgui.cli.arguments import add_image_paths, add_search_options, add_square_option
+from calibgui.cli.arguments import add_image_paths, add_scale_option, add_search_options
 from calibgui.cli.boards import add_board_options
 from calibgui.cli.console import Console
 from calibgui.cli.corners import search_board
@@ -21,7 +21,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     add_image_paths(parser)
     add_search_options(parser)
     add_board_options(parser)
-    add_square_option(parser, "may be given to 'calibgui calibrate' instead")
+    add_scale_option(parser, "may be given to 'calibgui calibrate' instead")
     parser.add_argument(
         "-o",
         "--output",

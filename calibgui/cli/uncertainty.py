@@ -127,7 +127,12 @@ def _estimate_length(result: Result, options: argparse.Namespace) -> LengthUncer
     if options.length is None:
         return None
     return estimate_length_uncertainty(
-        result.calibration, result.observations(), options.length, options.at, options.pixel
+        result.calibration,
+        result.observations(),
+        options.length,
+        options.at,
+        options.pixel,
+        result.scale_sigma,
     )
 
 
@@ -141,6 +146,7 @@ def _encode_length(found: LengthUncertainty) -> dict[str, Any]:
         "sigma_mm": found.sigma[k],
         "by_calibration_mm": found.by_calibration[k],
         "by_noise_mm": found.by_noise[k],
+        "by_scale_mm": found.by_scale,
         "median_sigma_mm": float(np.nanmedian(found.sigma)),
     }
 

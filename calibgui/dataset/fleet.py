@@ -12,8 +12,14 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from enum import StrEnum
 
+import numpy as np
+
+from calibgui.dataset.judging import judge_result
+from calibgui.dataset.result import Result
+from calibgui.dataset.sensor_coverage import count_corners_per_cell
 from calibgui.engine.arrays import Size
-from calibgui.engine.assessment import SIGNIFICANCE, Grade, PixelError
+from calibgui.engine.assessment import SIGNIFICANCE, Grade, PixelError, summarise_residuals
+from calibgui.engine.boards import Board
 
 
 class FleetStatus(StrEnum):
@@ -71,7 +77,7 @@ class FleetFigures:
     noise: float
     """Estimated standard deviation of one coordinate of a corner, px."""
     coverage: float
-    """Share of the sensor's cells (``report/coverage.py``) that have corners, 0 to 1."""
+    """Share of the sensor's cells (``dataset/sensor_coverage.py``) that have corners, 0 to 1."""
     grade: Grade
     """Grade of the verdict (``assessment/verdict.py``)."""
     reason: str
@@ -162,3 +168,32 @@ class FleetCamera:
     def passed(self) -> bool:
         """True if there is nothing for which it fails."""
         return not self.failures
+
+
+def summarise_result(result: Result) -> FleetFigures:
+    """Return the figures of a result."""
+    calibration, verdict = result.calibration, judge_result(result)
+    camera, board = calibration.camera, result.board
+    fit = summarise_residuals(calibration.residuals)
+    uv = np.concatenate([view.uv for view in result.observations()])
+    cells = count_corners_per_cell(uv, camera.size)
+    values = zip(camera.names, camera.params.tolist(), calibration.sigma.tolist(), strict=True)
+    return FleetFigures(
+        size=camera.size,
+        board="" if board is None else _describe_board(board),
+        lens_model=camera.model,
+        views=len(result.used),
+        corners=fit.count,
+        rms=fit.rms,
+        noise=calibration.noise,
+        coverage=float(np.count_nonzero(cells) / cells.size),
+        grade=verdict.grade,
+        reason=verdict.reason,
+        times_better=verdict.times_better,
+        error=verdict.error,
+        parameters={name: Estimate(value, sigma) for name, value, sigma in values},
+    )
+
+
+def _describe_board(board: Board) -> str:
+    return f"{board.pattern.kind} {board.rows}x{board.cols} {board.square:g}mm"

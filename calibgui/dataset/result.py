@@ -11,12 +11,13 @@ import scipy
 
 from calibgui.dataset.corner_set import describe_lengths
 from calibgui.dataset.hardware import UNKNOWN_HARDWARE, Hardware, read_hardware
+from calibgui.dataset.limits import Limits
 from calibgui.dataset.stereo_rectification import StereoRectification
 from calibgui.dataset.view import View
 from calibgui.engine import opencv
 from calibgui.engine.arrays import Array
 from calibgui.engine.boards import Board
-from calibgui.engine.calibration import Calibration, Observation
+from calibgui.engine.calibration import Calibration, Observation, compute_scale_covariance
 from calibgui.engine.camera import SensorMode
 from calibgui.engine.geometry import PaperPose, paper_from_pose
 from calibgui.version import __version__
@@ -59,6 +60,8 @@ class Result:
     """The camera and the lens as far as somebody stated them; not what photographs state."""
     improvements: tuple[str, ...] = ()
     """Sentences on what was done to make the camera better than the first that was found."""
+    limits: Limits | None = None
+    """What is demanded of the calibration; None if nothing is."""
     places: tuple[int, ...] = field(init=False, repr=False)
     """Indices in `views` of those that take part, in the order of the calibration's poses."""
 
@@ -82,6 +85,20 @@ class Result:
     def find_hardware(self) -> Hardware:
         """Return the camera and the lens, as stated or else as the photographs state them."""
         return self.hardware.over(read_hardware(view.image for view in self.used))
+
+    @property
+    def scale_sigma(self) -> float:
+        """Standard deviation of the board's scale, by which every length is in error, relative."""
+        return 0.0 if self.board is None else self.board.scale_sigma
+
+    @property
+    def pose_covariances(self) -> Array:
+        """(K, 6, 6) covariances of (rvec, tvec), rad and mm, the error of the board's scale
+        included."""
+        by_scale = [
+            compute_scale_covariance(pose, self.scale_sigma) for pose in self.calibration.poses
+        ]
+        return self.calibration.pose_covariances + np.reshape(by_scale, (-1, 6, 6))
 
     @property
     def condition(self) -> str:

@@ -30,6 +30,7 @@ def read_corner_file(
     grid_size: GridSize | None = None,
     square: float | None = None,
     size: Size | None = None,
+    square_sigma: float = 0.0,
 ) -> CornerSet:
     """Read located corners from a file.
 
@@ -38,6 +39,7 @@ def read_corner_file(
         grid_size: rows and columns of the board's corners, for a file that does not state them.
         square: side of the board's squares, mm; it takes the place of that in the file.
         size: width and height of the images, px, for a file that does not state them.
+        square_sigma: standard deviation of `square`, mm, common to all squares.
 
     Raises:
         CalibrationError: if the file cannot be read, something in it is wrong or missing, or it
@@ -60,15 +62,19 @@ def read_corner_file(
         source.check_stated(corner_set)
     else:
         raise CalibrationError(f"{source.file} is not a file of corners.", corners_json.HINT)
-    return corner_set if square is None else _state_square(corner_set, square, source.file)
+    if square is None:
+        return corner_set
+    return _state_square(corner_set, square, square_sigma, source.file)
 
 
-def _state_square(corner_set: CornerSet, square: float, file: str) -> CornerSet:
-    """Return the corners on a board of squares of a side, mm."""
+def _state_square(
+    corner_set: CornerSet, square: float, square_sigma: float, file: str
+) -> CornerSet:
+    """Return the corners on a board of squares of a side with its standard deviation, mm."""
     if corner_set.board is None:
         raise CalibrationError(
             f"{file} already gives the corners' places on the board in millimetres.",
             "Leave the side of a square out.",
         )
-    board = replace(corner_set.board, square=square)
+    board = replace(corner_set.board, square=square, square_sigma=square_sigma)
     return replace(corner_set, board=board, lengths_confirmed=True)

@@ -4,7 +4,8 @@ A view that was used has, beside the members that ``views_json.py`` lists,
 
     corners, rms_px                  their number, and the RMS length of their residuals
     rvec, tvec_mm                    pose cam_from_board, array frame
-    sigma_rvec, sigma_tvec_mm        one standard deviation; `pose_covariance` is (6, 6) of both
+    sigma_rvec, sigma_tvec_mm        one standard deviation; `pose_covariance` is (6, 6) of both,
+                                     `pose_covariance_by_views` without the board's scale
     paper                            the pose as the paper writes it, with the distance L + f
     residuals_px                     (n, 2) measured minus predicted
     residuals_reference_px           (n, 2) Dx', Dy' of eq. 38; null for a corner beyond the fold
@@ -33,8 +34,9 @@ def encode_estimates(result: Result) -> list[dict[str, Any]]:
     """Return the JSON objects of the estimates of the used views."""
     calibration = result.calibration
     records = []
-    for pose, covariance, residuals, paper in zip(
+    for pose, covariance, by_views, residuals, paper in zip(
         calibration.poses,
+        result.pose_covariances,
         calibration.pose_covariances,
         calibration.residuals,
         result.paper_poses(),
@@ -52,6 +54,7 @@ def encode_estimates(result: Result) -> list[dict[str, Any]]:
                 "paper": {k: getattr(paper, k) for k in _PAPER_POSE_KEYS}
                 | {"distance_mm": paper.distance},
                 "pose_covariance": covariance,
+                **({"pose_covariance_by_views": by_views} if result.scale_sigma else {}),
                 "residuals_px": residuals.image,
                 "residuals_reference_px": residuals.reference,
             }
@@ -86,7 +89,8 @@ def decode_pose(view: Node) -> Pose:
 
 def decode_pose_covariance(view: Node) -> Array:
     """Return the covariance (6, 6) of a view's pose, rad and mm; NaN where unknown."""
-    return view["pose_covariance"].covariances(6, 6, nullable=True)
+    by_views = view.get("pose_covariance_by_views")
+    return (by_views or view["pose_covariance"]).covariances(6, 6, nullable=True)
 
 
 def decode_residuals(view: Node) -> ViewResiduals:

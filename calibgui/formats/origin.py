@@ -15,7 +15,7 @@ from calibgui.engine.files import open_regular
 RESULT, CORNERS, CORNERS_CSV, BOARD_SHAPE = "result", "corners", "corners-csv", "board-shape"
 FIGURE, LENS_COMPARISON, METHOD_COMPARISON = "figure", "lens-comparison", "method-comparison"
 PAPER_PAGE, SERIES_CSV = "paper-page", "series-csv"
-FLEET_TABLE, FLEET_PAGE = "fleet-table", "fleet-page"
+FLEET_TABLE, FLEET_PAGE, REPORT = "fleet-table", "fleet-page", "report"
 EXPORT_PAGE = "export-page"
 POSES, POSES_CSV, RAYS_CSV = "poses", "poses-csv", "rays-csv"
 HAND_EYE, HAND_EYE_ROS, HAND_EYE_OPENCV = "hand-eye", "hand-eye-ros", "hand-eye-opencv"
@@ -57,6 +57,7 @@ _TITLES: Mapping[str, str] = {
     HAND_EYE: "a file of hand and eye",
     HAND_EYE_ROS: "a file for easy_handeye2",
     HAND_EYE_OPENCV: "a file of hand and eye for OpenCV",
+    REPORT: "a report",
 }
 
 

@@ -75,7 +75,9 @@ _FIELD_READERS: Mapping[str, Callable[[Node], str | float | bool | GridSize]] = 
 
 def encode_board(board: Board) -> dict[str, Any]:
     """Return the JSON object of a board."""
-    record = {"rows": board.rows, "cols": board.cols, "square_mm": board.square}
+    record: dict[str, Any] = {"rows": board.rows, "cols": board.cols, "square_mm": board.square}
+    if board.square_sigma:
+        record["square_sigma_mm"] = board.square_sigma
     if board.pattern == CHECKERBOARD:
         return record
     return record | {"pattern": encode_pattern(board.pattern)}
@@ -91,5 +93,14 @@ def decode_board(node: Node | None) -> Board | None:
     for side in (rows, cols):
         if not 2 <= side.integer() <= MAX_LINES:
             side.fail(f"a number of corners from 2 to {MAX_LINES}")
-    pattern = decode_pattern(node.get("pattern"))
-    return Board(rows.integer(), cols.integer(), square.number(), pattern)
+    pattern, sigma = decode_pattern(node.get("pattern")), decode_square_sigma(node)
+    return Board(rows.integer(), cols.integer(), square.number(), pattern, sigma)
+
+
+def decode_square_sigma(node: Node) -> float:
+    """Return the standard deviation of the side of a board's squares, mm; 0 if not stated."""
+    if (sigma := node.get("square_sigma_mm")) is None:
+        return 0.0
+    if not 0 <= sigma.number() < node["square_mm"].number():
+        sigma.fail("a length from 0 on, below the side of a square")
+    return sigma.number()

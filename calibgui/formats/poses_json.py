@@ -9,7 +9,8 @@
 Reader: any JSON reader; `read_pose`. A point X of the board, mm, is at R X + tvec in the camera's
 frame (X right, Y down, Z ahead), R = exp(rvec), rad. `pose_covariance` (6 x 6) is that of (rvec,
 tvec); where `camera_errors_count` it includes the errors of the camera, which all views share, and
-`pose_by_camera` (6 x P) says how. A view without a pose has null and the `reason`.
+`pose_by_camera` (6 x P) says how. It includes the error of the board's scale, which they share too,
+where `target` has one. A view without a pose has null and the `reason`.
 `mirrored_worse_by_sigmas` is null where the board cannot look alike from its other side.
 Cannot hold: the corners (``corners_json.py``), correlations between views.
 """
@@ -30,7 +31,7 @@ from calibgui.engine.errors import CalibrationError
 from calibgui.formats.estimates_json import decode_pose, decode_pose_covariance
 from calibgui.formats.json_document import check_format, read_json, write_json
 from calibgui.formats.node import Node
-from calibgui.formats.pattern_json import encode_board
+from calibgui.formats.pattern_json import decode_board, encode_board
 
 FORMAT = "calibgui-poses"
 VERSION = 1
@@ -80,7 +81,9 @@ def read_pose(path: str | os.PathLike[str], camera: Camera, image: str | None = 
     remedy = "Name a file that `calibgui pose -o` wrote."
     check_format(node, FORMAT, VERSION, "a file of poses", remedy)
     _check_camera(node, camera)
-    return _decode_view(_choose_view(node, image), len(camera.params))
+    board = decode_board(node.get("target"))
+    scale_sigma = 0.0 if board is None else board.scale_sigma
+    return _decode_view(_choose_view(node, image), len(camera.params), scale_sigma)
 
 
 def _check_camera(node: Node, camera: Camera) -> None:
@@ -115,7 +118,7 @@ def _choose_view(node: Node, image: str | None) -> Node:
     return named[0]
 
 
-def _decode_view(view: Node, parameters: int) -> BoardPose:
+def _decode_view(view: Node, parameters: int, scale_sigma: float) -> BoardPose:
     """Return the pose of a view; its residuals are not in the file."""
     lead = view["mirrored_worse_by_sigmas"]
     return BoardPose(
@@ -126,6 +129,7 @@ def _decode_view(view: Node, parameters: int) -> BoardPose:
         residuals=np.empty((0, 2)),
         noise=view["noise_px"].number(nullable=True),
         lead=math.inf if lead.value is None else lead.number(),
+        scale_sigma=scale_sigma,
     )
 
 

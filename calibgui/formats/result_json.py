@@ -29,6 +29,7 @@ from typing import Any
 import numpy as np
 
 from calibgui.dataset import Result, find_orientation
+from calibgui.dataset.acceptance import list_broken_limits
 from calibgui.dataset.judging import judge_result
 from calibgui.engine.arrays import Array, Size
 from calibgui.engine.assessment import summarise_residuals
@@ -68,6 +69,7 @@ from calibgui.formats.estimates_json import (
 from calibgui.formats.exporter import Exporter, ExportReport
 from calibgui.formats.importer import CameraText, ImportedCamera, Importer
 from calibgui.formats.json_document import check_format, parse_json, read_json, write_json
+from calibgui.formats.limits_toml import decode_limits, encode_limits
 from calibgui.formats.node import Node
 from calibgui.formats.pattern_json import decode_board, encode_board
 from calibgui.formats.verdict_json import encode_verdict
@@ -89,11 +91,15 @@ def write_result(result: Result, path: str | os.PathLike[str]) -> None:
 
 
 def encode_result_with_findings(result: Result) -> dict[str, Any]:
-    """Return the content of result.json, with the verdict and what is wrong.
+    """Return the content of result.json, with the verdict, what is wrong and whether limits hold.
 
-    Both follow from the rest, which takes its time; they are not read back.
+    All three follow from the rest, which takes its time; they are not read back.
     """
-    return encode_result(result) | encode_verdict(judge_result(result), result)
+    content = encode_result(result) | encode_verdict(judge_result(result), result)
+    if result.limits is not None:
+        reasons = list_broken_limits(result, result.limits)
+        content["acceptance"] = {"passed": not reasons, "reasons": reasons}
+    return content
 
 
 def encode_result(result: Result) -> dict[str, Any]:
@@ -140,6 +146,7 @@ def encode_result(result: Result) -> dict[str, Any]:
         "settings": calibration.settings.encode(),
         "versions": result.versions,
         "lengths_confirmed": result.lengths_confirmed,
+        **({} if result.limits is None else {"limits": encode_limits(result.limits)}),
         "inputs_sha256": calibration.digest,
         "target": None if result.board is None else encode_board(result.board),
         "plate": None
@@ -244,6 +251,7 @@ def decode_result(node: Node) -> Result:
         board,
         {name: version.text() for name, version in node["versions"].members().items()},
         confirmed.flag() if (confirmed := node.get("lengths_confirmed")) else True,
+        limits=decode_limits(node.get("limits")),
         mode=_decode_mode(node.get("sensor_mode"), calibration.camera.size),
     )
 

@@ -11,9 +11,10 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from calibgui.dataset import Result
+from calibgui.dataset.sensor_coverage import count_corners_per_cell
 from calibgui.engine.arrays import Array
 from calibgui.engine.calibration import Calibration
-from calibgui.report.coverage import count_corners_per_cell, measure_attitudes
+from calibgui.report.coverage import measure_attitudes
 from calibgui.report.names import join_words
 
 _MIN_TILT = np.deg2rad(15)

@@ -1,4 +1,4 @@
-"""Coverage of a set of views: the sensor, the board's tilts and distances.
+"""Attitudes of the board in a set of views: its tilts and distances.
 
 The tilt of a view is the angle between the board's normal and the optical axis, r3 being the
 board's third axis in the camera frame: tilt = acos |r33|, and its direction is where the part of
@@ -15,27 +15,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from calibgui.dataset import Result
-from calibgui.engine.arrays import Array, IntArray, Size
+from calibgui.engine.arrays import Array
 from calibgui.engine.calibration import Calibration, Observation
 from calibgui.engine.geometry import rotation_from_vector
 from calibgui.engine.images import Extent, compute_board_extent
-
-COVERAGE_CELLS = (9, 6)
-"""Numbers of columns and rows of cells by which the coverage of the sensor is judged."""
-
-
-def count_corners_per_cell(
-    uv: Array, size: Size, cells: tuple[int, int] = COVERAGE_CELLS
-) -> IntArray:
-    """Count corners `uv` (n, 2), px, in equal cells (rows, columns) of the sensor."""
-    w, h = size
-    counts, _, _ = np.histogram2d(
-        uv[:, 1],
-        uv[:, 0],
-        bins=(cells[1], cells[0]),
-        range=((-0.5, h - 0.5), (-0.5, w - 0.5)),
-    )
-    return counts.astype(np.int64)
 
 
 @dataclass(frozen=True, eq=False, slots=True)

@@ -7,8 +7,8 @@ what is compared here (`fleet_overview.py`) is said to be.
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
-from html import escape
+from collections.abc import Iterator, Mapping, Sequence
+from typing import NamedTuple
 from urllib.parse import quote
 
 from calibgui.dataset.fleet import Estimate, FleetFigures
@@ -18,34 +18,25 @@ from calibgui.formats.origin import FLEET_PAGE, make_mark
 from calibgui.report.fleet_figures import Histogram, Measured, draw_history, make_histogram
 from calibgui.report.fleet_overview import FleetOverview, Kind, PlacedCamera
 from calibgui.report.numbers import format_with_sigma
+from calibgui.report.rendering import render_page
 from calibgui.report.verdict import join_names
 
 _MAX_HISTORIES = 12
 """Largest number of serial numbers whose drift is drawn on the first page: those that changed most.
 The others are drawn on the pages of their cameras."""
-_STYLE = """
-:root { color-scheme: light dark; --line: #8886; --bar: #3b7dd8; --good: #1a7f4b; --bad: #c0392b;
-  --soft: #777 }
-@media (prefers-color-scheme: dark) { :root { --bar: #6aa5f0; --good: #4cc38a; --bad: #ff7b6b;
-  --soft: #aaa } }
-body { font: 15px/1.5 sans-serif; max-width: 78rem; margin: 2rem auto; padding: 0 1rem }
-h1 { font-size: 1.6rem } h2 { font-size: 1.2rem; margin-top: 2.2rem }
-table { border-collapse: collapse; font-size: 13px; font-variant-numeric: tabular-nums }
-th, td { padding: .25rem .7rem; text-align: right; border-bottom: 1px solid var(--line) }
-th { position: sticky; top: 0; background: Canvas; vertical-align: bottom }
-th.text, td.text { text-align: left } .bad { color: var(--bad) } .good { color: var(--good) }
-.soft { color: var(--soft) } .plots { display: flex; flex-wrap: wrap; gap: 1rem }
-.tiles { display: flex; flex-wrap: wrap; gap: 1rem; margin: 1rem 0 }
-.tile { border: 1px solid var(--line); border-radius: 6px; padding: .5rem 1rem }
-.tile b { display: block; font-size: 1.5rem } .scroll { overflow-x: auto }
-.date { white-space: nowrap }
-svg text { font: 10px sans-serif; fill: var(--soft) }
-svg .title { font-size: 12px; fill: CanvasText }
-svg .bar { fill: var(--bar) } svg .axis { fill: none; stroke: var(--line) }
-svg .line { fill: none; stroke: var(--line) } svg .mark { stroke: var(--bad); stroke-width: 2 }
-svg .good { stroke: var(--good); fill: var(--good) }
-svg .bad { stroke: var(--bad); fill: var(--bad) }
-"""
+
+
+class Cell(NamedTuple):
+    """A cell of a table that is more than its text."""
+
+    text: str
+    address: str = ""
+    """Where it leads."""
+    look: str = ""
+    """Class of the page's style."""
+
+
+Row = list["str | Cell"]
 
 
 class FleetPages:
@@ -79,25 +70,45 @@ class FleetPages:
         """Make the page of all cameras."""
         overview, folder = self._overview, quote(self._folder)
         links = {key: f"{folder}/{page}" for key, page in self._pages.items()}
-        parts = [f"<h1>{escape(self._name)}</h1>", _make_tiles(overview)]
-        parts += _describe_outliers(overview, links)
-        if overview.failed:
-            rows = [
-                [*_name_camera(one, links), escape(" ".join(one.camera.failures))]
+        serials = dict.fromkeys(one.camera.entry.serial for one in overview.changed)
+        drawn = [serial for serial in serials if serial in overview.histories][:_MAX_HISTORIES]
+        return render_page(
+            "fleet.html",
+            make_mark(FLEET_PAGE),
+            name=self._name,
+            counts=_count_cameras(overview),
+            outlier_z=f"{OUTLIER_Z:g}",
+            min_fleet=MIN_FLEET,
+            undetermined=join_names([one.camera.id for one in overview.undetermined]),
+            outliers=[
+                [
+                    *_name_camera(one, links),
+                    _format(one.difference, 3),
+                    _format(one.worst, 3),
+                    _format(one.z, 1),
+                ]
+                for one in overview.outliers
+            ],
+            failed=[
+                [*_name_camera(one, links), " ".join(one.camera.failures)]
                 for one in overview.failed
-            ]
-            parts.append("<h2>Cameras that fail</h2>")
-            parts.append(_make_table([*_NAMES, "Why"], rows, texts=(0, 1, 2, 3)))
-        parts += _describe_drift(overview, links)
-        for kind, histograms in self._histograms.items():
-            plots = "".join(one.draw() for one in histograms.values())
-            count = len(overview.kinds[kind])
-            parts.append(f"<h2>{_name_kind(kind)}: {_count(count)}</h2>")
-            parts.append(f'<div class="plots">{plots}</div>')
-        parts.append("<h2>All cameras</h2>")
-        rows = [[*_name_camera(one, links), *_list_figures(one)] for one in overview.placed]
-        parts.append(_make_table([*_NAMES, *_FIGURES], rows, texts=(0, 1, 2, 3, 4)))
-        return _make_page(self._name, parts)
+            ],
+            histories=len(overview.histories),
+            changed=[
+                [*_name_camera(one, links), *_list_change(one, links)] for one in overview.changed
+            ],
+            drift={serial: _draw_histories(overview.histories[serial]) for serial in drawn},
+            kinds={
+                f"{_name_kind(kind)}: {_count(len(overview.kinds[kind]))}": [
+                    one.draw() for one in histograms.values()
+                ]
+                for kind, histograms in self._histograms.items()
+            },
+            cameras=[[*_name_camera(one, links), *_list_figures(one)] for one in overview.placed],
+            names=_NAMES,
+            figures_head=_FIGURES,
+            change_head=_CHANGE,
+        )
 
     def make_cameras(self) -> Iterator[tuple[str, str]]:
         """Yield the name and the content of each camera's page."""
@@ -107,40 +118,35 @@ class FleetPages:
     def _make_camera(self, one: PlacedCamera) -> str:
         """Make the page of one camera, in HTML."""
         camera, figures = one.camera, one.camera.figures
-        verdict = "passes" if camera.passed else "fails"
-        parts = [
-            f'<p><a href="../{quote(self._first)}">{escape(self._name)}</a></p>',
-            f"<h1>{escape(camera.id)}</h1>",
-            f'<p class="{"good" if camera.passed else "bad"}">This camera {verdict}.</p>',
-            _make_list([*camera.failures, camera.remedy]),
-            _make_table(["", ""], _list_facts(one), texts=(0, 1)),
-        ]
-        if address := self._results.get(camera.id):
-            parts.append(f'<p><a href="{escape(address)}">result.json</a></p>')
+        histograms: Mapping[str, Histogram] = {}
         if figures is not None:
-            rows = [
-                [escape(name), escape(_format_estimate(value)), unit]
-                for name, value, unit in _list_parameters(figures)
-            ]
-            parts.append("<h2>Camera</h2>")
-            parts.append(_make_table(["Parameter", "Value ± 1σ", "Unit"], rows, texts=(0, 2)))
             kind = (figures.size, figures.lens_model)
-            if histograms := self._histograms.get(kind):
-                values = _measure(one)
-                plots = "".join(
-                    histogram.draw(values[name]) for name, histogram in histograms.items()
-                )
-                parts.append(
-                    f"<h2>Among {_count(len(self._overview.kinds[kind]))} of its kind</h2>"
-                )
-                parts.append(f'<div class="plots">{plots}</div>')
-        if history := self._overview.histories.get(camera.entry.serial):
-            parts.append(f"<h2>Serial number {escape(camera.entry.serial)}</h2>")
-            parts.append(f'<div class="plots">{_draw_histories(history)}</div>')
-            links = self._pages
-            rows = [[*_name_camera(past, links), *_list_change(past, links)] for past in history]
-            parts.append(_make_table([*_NAMES, *_CHANGE], rows, texts=(0, 1, 2, 3)))
-        return _make_page(f"{camera.id}, {self._name}", parts)
+            histograms = self._histograms.get(kind) or {}
+        values = _measure(one) if histograms else {}
+        history = self._overview.histories.get(camera.entry.serial) or ()
+        links = self._pages
+        return render_page(
+            "fleet_camera.html",
+            make_mark(FLEET_PAGE),
+            id=camera.id,
+            name=self._name,
+            first=f"../{quote(self._first)}",
+            passed=camera.passed,
+            sentences=[text for text in [*camera.failures, camera.remedy] if text],
+            facts=_list_facts(one),
+            result=self._results.get(camera.id),
+            parameters=[
+                [name, _format_estimate(value), unit]
+                for name, value, unit in (() if figures is None else _list_parameters(figures))
+            ],
+            kind=_count(len(self._overview.kinds[kind])) if histograms else "",
+            drawn=[histogram.draw(values[name]) for name, histogram in histograms.items()],
+            serial=camera.entry.serial,
+            drift=_draw_histories(history),
+            history=[[*_name_camera(past, links), *_list_change(past, links)] for past in history],
+            names=_NAMES,
+            change_head=_CHANGE,
+        )
 
 
 _NAMES = ("Camera", "Serial number", "Date")
@@ -158,10 +164,10 @@ _FIGURES = (
 _CHANGE = ("Against", "Changed by [px rms]", "Largest [px]", "Explained [px rms]", "Probability")
 
 
-def _make_tiles(overview: FleetOverview) -> str:
+def _count_cameras(overview: FleetOverview) -> dict[str, int]:
     """Count the cameras by what became of them."""
     refused = sum(one.camera.figures is None for one in overview.placed)
-    counts = {
+    return {
         "cameras": len(overview.placed),
         "pass": len(overview.placed) - len(overview.failed),
         "fail": len(overview.failed),
@@ -169,64 +175,9 @@ def _make_tiles(overview: FleetOverview) -> str:
         "unlike the others": len(overview.outliers),
         "have changed": len(overview.changed),
     }
-    tiles = "".join(f'<div class="tile"><b>{n}</b>{text}</div>' for text, n in counts.items())
-    return f'<div class="tiles">{tiles}</div>'
 
 
-def _describe_outliers(overview: FleetOverview, links: Mapping[str, str]) -> list[str]:
-    """Describe in HTML which cameras are unlike the others, with links to their pages."""
-    parts = ["<h2>Cameras unlike the others</h2>"]
-    parts.append(
-        "<p>Each camera is compared with the median of its image size and lens model by where both "
-        "image the same far points, after the rotation that brings them together. The difference "
-        "contains the calibration's own error. Robust z is its distance from the median difference "
-        f"in standard deviations; beyond {OUTLIER_Z:g} a camera is listed here, if its own error "
-        f"does not explain it. Of fewer than {MIN_FLEET} cameras none is.</p>"
-    )
-    if overview.undetermined:
-        names = escape(join_names([one.camera.id for one in overview.undetermined]))
-        parts.append(f"<p>Not compared, as photographs do not determine them: {names}.</p>")
-    if not overview.outliers:
-        return [*parts, "<p>There is none.</p>"]
-    rows = [
-        [
-            *_name_camera(one, links),
-            _format(one.difference, 3),
-            _format(one.worst, 3),
-            _format(one.z, 1),
-        ]
-        for one in overview.outliers
-    ]
-    head = [*_NAMES, "Difference [px rms]", "Largest [px]", "Robust z"]
-    return [*parts, _make_table(head, rows, texts=(0, 1, 2))]
-
-
-def _describe_drift(overview: FleetOverview, links: Mapping[str, str]) -> list[str]:
-    """List the cameras that have changed, and draw the serial numbers that changed most."""
-    if not overview.histories:
-        return []
-    parts = ["<h2>Drift</h2>"]
-    if not overview.changed:
-        return [
-            *parts,
-            f"<p>Of {len(overview.histories)} serial numbers with several dates none has changed "
-            "by more than the calibrations' uncertainties explain.</p>",
-        ]
-    rows = [[*_name_camera(one, links), *_list_change(one, links)] for one in overview.changed]
-    parts.append(
-        "<p>Differences from the last calibration of the same serial number that uncertainties do "
-        "not explain.</p>"
-    )
-    parts.append(_make_table([*_NAMES, *_CHANGE], rows, texts=(0, 1, 2, 3)))
-    serials = dict.fromkeys(one.camera.entry.serial for one in overview.changed)
-    drawn = [serial for serial in serials if serial in overview.histories][:_MAX_HISTORIES]
-    for serial in drawn:
-        parts.append(f"<h3>Serial number {escape(serial)}</h3>")
-        parts.append(f'<div class="plots">{_draw_histories(overview.histories[serial])}</div>')
-    return parts
-
-
-def _draw_histories(history: Sequence[PlacedCamera]) -> str:
+def _draw_histories(history: Sequence[PlacedCamera]) -> list[str]:
     """Draw the changes, focal length and centre of a serial number over time."""
     known = [one for one in history if one.camera.figures is not None]
     changes = [
@@ -254,7 +205,7 @@ def _draw_histories(history: Sequence[PlacedCamera]) -> str:
             if one.camera.figures is not None and name in one.camera.figures.parameters
         ]
         plots.append(draw_history(points, f"{name} ± 1σ [px]"))
-    return "".join(plots)
+    return plots
 
 
 def _lay_out(members: Sequence[PlacedCamera]) -> dict[str, Histogram]:
@@ -321,21 +272,20 @@ def _list_facts(one: PlacedCamera) -> list[list[str]]:
             f"{_format(one.worst, 3)} px at most, robust z {_format(one.z, 1)}",
         }
     facts["Versions"] = ", ".join(f"{name} {text}" for name, text in camera.versions.items())
-    return [[escape(name), escape(text)] for name, text in facts.items() if text]
+    return [[name, text] for name, text in facts.items() if text]
 
 
-def _name_camera(one: PlacedCamera, links: Mapping[str, str]) -> list[str]:
+def _name_camera(one: PlacedCamera, links: Mapping[str, str]) -> Row:
     """Return the cells of a camera's link, serial number and date."""
     camera = one.camera
-    link = f'<a href="{escape(links[camera.id])}">{escape(camera.id)}</a>'
-    date = f'<span class="date">{escape(camera.entry.date)}</span>'
-    return [link, escape(camera.entry.serial), date]
+    link = Cell(camera.id, links[camera.id])
+    return [link, camera.entry.serial, Cell(camera.entry.date, look="date")]
 
 
-def _list_figures(one: PlacedCamera) -> list[str]:
+def _list_figures(one: PlacedCamera) -> Row:
     """Return the cells of a camera's figures, under `_FIGURES`."""
     camera, figures, change = one.camera, one.camera.figures, one.camera.change
-    verdict = '<span class="good">pass</span>' if camera.passed else '<span class="bad">fail</span>'
+    verdict = Cell("pass", look="good") if camera.passed else Cell("fail", look="bad")
     if figures is None:
         return [verdict, "–", *["–"] * (len(_FIGURES) - 2)]
     return [
@@ -351,16 +301,14 @@ def _list_figures(one: PlacedCamera) -> list[str]:
     ]
 
 
-def _list_change(one: PlacedCamera, links: Mapping[str, str]) -> list[str]:
+def _list_change(one: PlacedCamera, links: Mapping[str, str]) -> Row:
     """Return the cells of a camera's change, under `_CHANGE`."""
     change = one.camera.change
     if change is None:
         return ["–"] * len(_CHANGE)
-    against = escape(change.against)
-    if address := links.get(change.against):
-        against = f'<a href="{escape(address)}">{against}</a>'
+    address = links.get(change.against)
     return [
-        against,
+        Cell(change.against, address) if address else change.against,
         _format(change.rms, 3),
         _format(change.worst, 3),
         _format(change.expected, 3),
@@ -389,38 +337,8 @@ def _format(value: float, decimals: int) -> str:
 
 def _name_kind(kind: Kind) -> str:
     (width, height), model = kind
-    return f"{width} × {height} px, {escape(model)}"
+    return f"{width} × {height} px, {model}"
 
 
 def _count(count: int) -> str:
     return f"{count} camera{'s' * (count != 1)}"
-
-
-def _make_list(sentences: Iterable[str]) -> str:
-    items = "".join(f"<li>{escape(sentence)}</li>" for sentence in sentences if sentence)
-    return f"<ul>{items}</ul>" if items else ""
-
-
-def _make_table(
-    head: Sequence[str], rows: Iterable[Sequence[str]], texts: Collection[int] = ()
-) -> str:
-    """Make a table of cells in HTML; the columns `texts` are aligned on the left."""
-    align = [' class="text"' if k in texts else "" for k in range(len(head))]
-    top = "".join(f"<th{a}>{escape(cell)}</th>" for a, cell in zip(align, head, strict=True))
-    body = "".join(
-        f"<tr>{''.join(f'<td{a}>{c}</td>' for a, c in zip(align, row, strict=True))}</tr>\n"
-        for row in rows
-    )
-    above = f"<thead><tr>{top}</tr></thead>" if any(head) else ""
-    return f'<div class="scroll"><table>{above}<tbody>\n{body}</tbody></table></div>'
-
-
-def _make_page(title: str, parts: Iterable[str]) -> str:
-    return (
-        '<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8">'
-        f'<meta name="generator" content="{make_mark(FLEET_PAGE)}">'
-        '<meta name="viewport" content="width=device-width">'
-        f"<title>{escape(title)}</title><style>{_STYLE}</style></head>\n<body>\n"
-        + "\n".join(filter(None, parts))
-        + "\n</body></html>\n"
-    )

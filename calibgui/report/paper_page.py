@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from html import escape
 
 import numpy as np
 
@@ -12,15 +11,7 @@ from calibgui.report import paper_tables, printed_values
 from calibgui.report.figures import LOCATED_BY
 from calibgui.report.paper_stage_one import StageOneEvidence, examine_stage_one
 from calibgui.report.paper_tables import Reproduction
-
-_STYLE = """
-body { font: 15px/1.5 sans-serif; max-width: 70rem; margin: 2rem auto; padding: 0 1rem }
-table { border-collapse: collapse; margin: 1rem 0; font-size: 13px }
-th, td { padding: .2rem .6rem; text-align: right; border-bottom: 1px solid #ddd }
-th:first-child, td:first-child { text-align: left }
-td { white-space: nowrap } th { vertical-align: bottom }
-figure { margin: 1.5rem 0 } img { max-width: 100% } figcaption { color: #555 }
-"""
+from calibgui.report.rendering import render_page
 
 _PAPERS_METHOD = "saddle"
 """The method by which the paper locates corners."""
@@ -49,41 +40,41 @@ def make_paper_page(reproduction: Reproduction, figures: Mapping[str, str]) -> s
     papers = reproduction.by_method[_PAPERS_METHOD]
     evidence = examine_stage_one(papers, printed)
     ours = {_PAPERS_METHOD: papers, **reproduction.by_method}
-    parts = [
-        "<h1>Lucchese 2005, printed and reproduced</h1>",
-        "<p>Printed values are the paper's; <i>SD</i> is its sqrt(diag((2 JᵀJ)⁻¹)), which does "
-        "not know the residuals; <i>1σ</i> is σ sqrt(diag((JᵀJ)⁻¹)), what the residuals support. "
-        "Differences are in units of the printed SD. Where it is not said, ours are from corners "
-        f"located by {LOCATED_BY[reproduction.method]}.</p>",
-        "<h2>Table 1: Stage I</h2>",
-        paper_tables.make_table_1(ours, evidence),
-        f"<p>{escape(_explain_table_1(reproduction, evidence))}</p>",
-        "<h2>Table 2: intrinsics from the real images</h2>",
-        paper_tables.make_intrinsics_table(
-            reproduction.real.calibration, printed_values.TABLE_2, printed_values.TABLE_2_SD
+    tables = [
+        (
+            "Table 1: Stage I",
+            paper_tables.make_table_1(ours, evidence),
+            _explain_table_1(reproduction, evidence),
         ),
-        "<h2>Section 5.1: Bouguet's result on the same images</h2>",
-        paper_tables.make_bouguet_table(reproduction),
-        f"<p>{escape(_ABOUT_BOUGUET)}</p>",
-        "<h2>Table 3: intrinsics from the synthetic images</h2>",
-        paper_tables.make_intrinsics_table(
-            reproduction.synthetic.calibration, printed_values.TABLE_3, printed_values.TABLE_3_SD
+        (
+            "Table 2: intrinsics from the real images",
+            paper_tables.make_intrinsics_table(
+                reproduction.real.calibration, printed_values.TABLE_2, printed_values.TABLE_2_SD
+            ),
+            "",
         ),
-        "<h2>Other figures in the text</h2>",
-        paper_tables.make_table_of_others(reproduction),
-        "<h2>Figures</h2>",
-        *(
-            f'<figure><img src="{escape(name)}" alt="{escape(caption)}">'
-            f"<figcaption>{escape(caption)}</figcaption></figure>"
-            for caption, name in figures.items()
+        (
+            "Section 5.1: Bouguet's result on the same images",
+            paper_tables.make_bouguet_table(reproduction),
+            _ABOUT_BOUGUET,
         ),
+        (
+            "Table 3: intrinsics from the synthetic images",
+            paper_tables.make_intrinsics_table(
+                reproduction.synthetic.calibration,
+                printed_values.TABLE_3,
+                printed_values.TABLE_3_SD,
+            ),
+            "",
+        ),
+        ("Other figures in the text", paper_tables.make_table_of_others(reproduction), ""),
     ]
-    return (
-        '<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8">'
-        f'<meta name="generator" content="{make_mark(PAPER_PAGE)}">'
-        f"<title>Lucchese 2005 reproduced</title><style>{_STYLE}</style></head>\n<body>\n"
-        + "\n".join(parts)
-        + "\n</body></html>\n"
+    return render_page(
+        "paper.html",
+        make_mark(PAPER_PAGE),
+        located_by=LOCATED_BY[reproduction.method],
+        tables=tables,
+        figures=figures,
     )
 
 

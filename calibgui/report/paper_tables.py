@@ -1,10 +1,9 @@
-"""Tables of HTML that set the numbers printed in the paper beside ours."""
+"""Tables that set the numbers printed in the paper beside ours."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from html import escape
 
 import numpy as np
 
@@ -14,6 +13,7 @@ from calibgui.engine.assessment import summarise_residuals
 from calibgui.engine.calibration import Calibration, make_paper_table
 from calibgui.engine.geometry import PAPER_NAMES
 from calibgui.report import printed_values
+from calibgui.report.document import Table
 from calibgui.report.figures import EXTRINSIC_NAMES, LOCATED_BY
 from calibgui.report.numbers import format_with_sigma
 from calibgui.report.paper_stage_one import StageOneEvidence
@@ -44,7 +44,7 @@ class Reproduction:
         return self.by_method[self.method]
 
 
-def make_table_1(results: Mapping[str, Result], evidence: StageOneEvidence) -> str:
+def make_table_1(results: Mapping[str, Result], evidence: StageOneEvidence) -> Table:
     """Make table 1: xp, yp and k1 of every view after Stage I.
 
     Args:
@@ -75,7 +75,7 @@ def make_table_1(results: Mapping[str, Result], evidence: StageOneEvidence) -> s
     header = ["view"]
     for name in ("xp, px", "yp, px", "k1, 1e-7 px⁻²"):
         header += [f"{name}: printed", *(f"{names[0]} ± SD", *names[1:])]
-    return make_table([*header, f"rms e′, {names[0]}", "the same, printed values held"], rows)
+    return Table([*header, f"rms e′, {names[0]}", "the same, printed values held"], rows)
 
 
 def stack_stage_one(result: Result) -> Array:
@@ -98,7 +98,7 @@ def _get_intrinsics(result: Result) -> Array:
 
 def make_intrinsics_table(
     ours: Calibration, theirs: Sequence[float], their_sd: Sequence[float]
-) -> str:
+) -> Table:
     """Make table 2 or 3: the intrinsics with their standard deviations."""
     values, honest, sd = make_paper_table(ours)
     rows = [
@@ -116,10 +116,10 @@ def make_intrinsics_table(
         )
     ]
     header = ("", "printed", "ours", "difference / SD", "SD printed", "SD ours", "1σ ours")
-    return make_table(header, rows)
+    return Table(header, rows)
 
 
-def make_bouguet_table(reproduction: Reproduction) -> str:
+def make_bouguet_table(reproduction: Reproduction) -> Table:
     """Make the table of section 5.1: what Bouguet's toolbox and the paper's method estimate."""
     ours = {f"ours, {LOCATED_BY[m]}": r for m, r in reproduction.by_method.items()}
     ours[f"ours, {LOCATED_BY[reproduction.method]}, image cost"] = reproduction.image_cost
@@ -149,10 +149,10 @@ def make_bouguet_table(reproduction: Reproduction) -> str:
         ]
     )
     header = ("", "the paper's, as printed", "Bouguet's, as printed", "Bouguet's, 1σ, our frame")
-    return make_table((*header, *ours), rows)
+    return Table((*header, *ours), rows)
 
 
-def make_table_of_others(reproduction: Reproduction) -> str:
+def make_table_of_others(reproduction: Reproduction) -> Table:
     """Make the table of the numbers in the text."""
     real = reproduction.real.calibration
     on_plane, made, image = (
@@ -197,7 +197,7 @@ def make_table_of_others(reproduction: Reproduction) -> str:
         (f"extrinsics within {most:.2f} %", "most", f"{below:.0f} %"),
         ("corners", "3900", str(on_plane.count)),
     ]
-    return make_table(("", "printed", "ours"), rows)
+    return Table(("", "printed", "ours"), rows)
 
 
 def _describe_largest_error(reproduction: Reproduction) -> str:
@@ -215,12 +215,3 @@ def _describe_largest_error(reproduction: Reproduction) -> str:
 
 def _format_pair(a: float, b: float, digits: int, join: str = " ± ") -> str:
     return f"{a:.{digits}f}{join}{b:.{digits}f}"
-
-
-def make_table(header: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
-    """Make an HTML table."""
-    head = "".join(f"<th>{escape(cell)}</th>" for cell in header)
-    body = "\n".join(
-        "<tr>" + "".join(f"<td>{escape(cell)}</td>" for cell in row) + "</tr>" for row in rows
-    )
-    return f"<table>\n<tr>{head}</tr>\n{body}\n</table>"

@@ -17,13 +17,14 @@ from calibgui.engine.assessment import (
     Finding,
     LengthUncertainty,
     NoiseReport,
+    Repeatability,
 )
 from calibgui.engine.boards import Board
 from calibgui.engine.calibration import Calibration
 from calibgui.engine.numbers import format_two_digits
 from calibgui.engine.uncertainty import QUANTITIES, NextView, ProjectionUncertainty, ViewCountStudy
 from calibgui.report.boards import name_point
-from calibgui.report.numbers import format_count
+from calibgui.report.numbers import format_count, format_with_sigma
 from calibgui.report.tables import align_columns, fill_lines, format_bullet
 
 _TABULATED_COUNTS = (
@@ -61,17 +62,48 @@ def describe_length_uncertainty(found: LengthUncertainty) -> str:
     """Describe how wrong a length is, with k = 2, where it is known worst and in the median."""
     k = found.worst
     sigma, (u, v) = found.sigma[k], found.uv[k]
-    share = float(found.by_calibration[k] ** 2 / sigma**2)
+    calibration, noise, scale = found.shares
     where = f"at pixel {u:.0f}, {v:.0f}"
     if len(found.uv) > 1:
         median = format_two_digits(2 * float(np.nanmedian(found.sigma)))
         where = f"{where}, where it is known worst; ± {median} mm in the median over the image"
     text = (
         f"{found.length:g} mm at {found.depth:g} mm: ± {format_two_digits(2 * float(sigma))} mm "
-        f"(k = 2) {where}. Of the variance {100 * share:.0f} % are the calibration's and "
-        f"{100 * (1 - share):.0f} % the noise of two corners. The distance counts as known."
+        f"(k = 2) {where}. Of the variance {100 * calibration:.0f} % are the calibration's, "
+        f"{100 * noise:.0f} % the noise of two corners and {100 * scale:.0f} % the board's scale"
+        f"{'' if found.by_scale else ', which counts as exact'}. The distance counts as known."
     )
     return fill_lines(text, "", "  ")
+
+
+def describe_repeatability(found: Repeatability, residuals: float | None = None) -> str:
+    """Describe how far corners scatter where nothing moves, beside what else is known of it.
+
+    Args:
+        found: the scatter.
+        residuals: standard deviation of a calibration's residuals along an axis, px, if one is
+            named.
+    """
+    sentences = [
+        f"Corners repeat to {format_with_sigma(found.rms, found.rms_sigma)} px along each axis: "
+        f"{format_count(found.frames, 'frame')} of {format_count(len(found.uv), 'corner')}, "
+        f"{found.sigma.min():.2g} px at the best and {found.sigma.max():.2g} px at the worst."
+    ]
+    if math.isfinite(found.stated):
+        sentences.append(f"Where they were located they are stated to {found.stated:.2g} px.")
+    sentences.append(
+        f"The frames move by {found.motion:.2g} px rms, which is left out: fasten board and camera."
+        if found.motion
+        else "Nothing has moved meanwhile."
+    )
+    if residuals is not None:
+        share = min(found.rms**2 / residuals**2, 1.0)
+        sentences.append(
+            f"The calibration's residuals are {residuals:.2g} px along each axis. Of their "
+            f"variance {100 * share:.0f} % is this noise. The rest is the same in every frame: "
+            "errors of the lens model, the board's shape, blur and light."
+        )
+    return "\n".join(map(format_bullet, sentences))
 
 
 def describe_distance(distance: float) -> str:

@@ -32,6 +32,7 @@ from calibgui.report.summary import (
     is_board_shape_held,
 )
 from calibgui.report.verdict import (
+    describe_acceptance,
     describe_error,
     describe_error_in_scene,
     describe_fit,
@@ -128,6 +129,8 @@ def _format_verdict(result: Result, verdict: Verdict) -> Iterator[str]:
     )
     in_scene = describe_error_in_scene(verdict, result.condition)
     yield fill_lines("; ".join(filter(None, [describe_error(verdict), in_scene])) + ".", "", "  ")
+    if result.limits is not None:
+        yield fill_lines(describe_acceptance(result, result.limits), "", "  ")
     for finding in verdict.findings:
         yield format_bullet(f"{finding.message} {finding.evidence}")
         advice = _describe_advice(finding, result) + _describe_gain(finding)
@@ -155,6 +158,8 @@ def summarise_in_a_line(result: Result) -> str:
         f"{format_headline(verdict)}. {describe_reason(verdict, result)}",
         f"{describe_error(verdict)}; {describe_fit(result)}, {_count_used(result)}.",
     ]
+    if result.limits is not None:
+        words.append(describe_acceptance(result, result.limits))
     if verdict.findings:
         words.append(f"Do: {_describe_advice(verdict.findings[0], result).removesuffix('.')}.")
     return " ".join(words)

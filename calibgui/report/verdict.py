@@ -11,6 +11,8 @@ from fnmatch import fnmatchcase
 import numpy as np
 
 from calibgui.dataset import Result, View
+from calibgui.dataset.acceptance import list_broken_limits
+from calibgui.dataset.limits import Limits
 from calibgui.engine.assessment import (
     Action,
     Grade,
@@ -71,6 +73,12 @@ def _find_blurred(views: Sequence[View]) -> list[str]:
         return []
     least = max(_MIN_BLUR, _MIN_RELATIVE_BLUR * float(np.nanmedian(blurs)))
     return [view.name for view, blur in zip(views, blurs, strict=True) if blur > least]
+
+
+def describe_acceptance(result: Result, limits: Limits) -> str:
+    """Describe whether a calibration keeps limits, with what it breaks."""
+    reasons = list_broken_limits(result, limits)
+    return " ".join([f"{'FAIL' if reasons else 'PASS'} by the limits {limits.name}.", *reasons])
 
 
 def describe_error(verdict: Verdict) -> str:

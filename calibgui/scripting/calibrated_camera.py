@@ -3,26 +3,30 @@
 from __future__ import annotations
 
 import os
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from functools import cached_property
 from html import escape
+from pathlib import Path as FilePath
 from typing import Any, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
 
+from calibgui.app.outputs.report_files import ReportStyle, write_report
 from calibgui.dataset import Result
+from calibgui.dataset.details import Details
 from calibgui.dataset.judging import judge_result
 from calibgui.engine.arrays import Array
 from calibgui.engine.assessment import LengthUncertainty, Verdict, estimate_length_uncertainty
 from calibgui.engine.calibration import Calibration
 from calibgui.engine.camera import Camera, pixels_from_rays, rays_from_pixels
-from calibgui.engine.errors import CalibrationError
+from calibgui.engine.errors import CalibrationError, parse_choice
 from calibgui.engine.images import undistort_image
 from calibgui.formats import EXPORTERS, export
 from calibgui.formats.camera_refit import express_in_format
 from calibgui.formats.opencv_lens import FISHEYE, list_coefficients
 from calibgui.formats.result_json import write_result
+from calibgui.report.calibration_report import Layout
 from calibgui.report.tables import format_report, summarise_in_a_line
 from calibgui.report.verdict import describe_error, describe_fit, format_headline
 
@@ -122,7 +126,28 @@ class CalibratedCamera:
         """Return how wrong a length, mm, is that is measured by its two ends in a plane across the
         axis `at` a distance, mm; at pixels (n, 2) or all over the image."""
         views = self.result.observations()
-        return estimate_length_uncertainty(self.calibration, views, length, at, uv)
+        scale_sigma = self.result.scale_sigma
+        return estimate_length_uncertainty(self.calibration, views, length, at, uv, scale_sigma)
+
+    def report(self, path: Path, *, layout: str = "report", **details: str) -> None:
+        """Write the report on the calibration, or its certificate, as .html or .pdf.
+
+        Args:
+            path: the file.
+            layout: "report" or "certificate".
+            details: what is printed of what the program cannot know, as operator="N. N."; the names
+                are those of ``calibgui report``.
+
+        Raises:
+            CalibrationError: if the suffix or a name is another one, or the file cannot be written.
+        """
+        known = [field.name for field in fields(Details)]
+        if unknown := sorted(set(details) - set(known)):
+            raise CalibrationError(
+                f"A report has no {unknown[0]!r}.", f"Choose from {', '.join(known)}."
+            )
+        style = ReportStyle(parse_choice(Layout, layout, "layout"))
+        write_report(self.result, FilePath(path), Details(**details), style)
 
     def find_rays(self, uv: npt.ArrayLike) -> Array:
         """Return the rays (..., 3) of length 1 of pixels (..., 2); NaN where the lens has none."""

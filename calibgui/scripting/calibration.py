@@ -62,6 +62,7 @@ def calibrate(
     photographs: File | Iterable[File],
     *,
     square: float | None = None,
+    square_sigma: float = 0.0,
     board: GridSize | None = None,
     pattern: Pattern | None = None,
     size: Size | None = None,
@@ -76,6 +77,8 @@ def calibrate(
         photographs: a folder, files, patterns or videos; or a file of corners: corners.json, as
             ``calibgui detect`` writes it, mrcal's corners.vnl, or a table in CSV.
         square: side of a square, or distance of circles, mm; lengths are not confirmed if None.
+        square_sigma: standard deviation of `square`, mm, common to all squares: the board's scale,
+            which enters every length.
         board: rows and columns of inner corners or circles; the photographs tell them if None.
         pattern: what is printed on the board, as ``engine.Charuco()``; the photographs tell if
             None.
@@ -97,11 +100,11 @@ def calibrate(
     tell = progress or (lambda *_: None)
     paths = [photographs] if isinstance(photographs, str | os.PathLike) else list(photographs)
     if len(paths) == 1 and Path(paths[0]).suffix.lower() in SUFFIXES:
-        corner_set, search = read_corner_file(paths[0], board, square, size), False
+        corner_set, search = read_corner_file(paths[0], board, square, size, square_sigma), False
     else:
         choice = FrameChoice(frames, Path(frames_folder))
         found = _search(paths, board, pattern, choice, tell)
-        corner_set, search = found.corner_set(square), True
+        corner_set, search = found.corner_set(square, square_sigma), True
     return _calibrate(corner_set, settings, search, tell)
 
 

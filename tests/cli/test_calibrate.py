@@ -549,3 +549,24 @@ def test_a_reader_and_a_lens_model_do_not_go_together(
     with pytest.raises(SystemExit):
         main(["calibrate", str(corners_file), "--for", reader, "--model", "pinhole"])
     assert "with --model say --export ros=FILE" in capsys.readouterr().err
+
+
+def test_limits_decide_the_exit_code_and_are_written(
+    corners_file: Path, tmp_path: Path, capsys: Capture
+) -> None:
+    file, limits = tmp_path / "result.json", tmp_path / "mine.toml"
+    command = ["calibrate", str(corners_file), "--as-asked", "-o", str(file), "--limits"]
+    assert main([*command, "hobby-robot"]) == 3
+    printed = " ".join(capsys.readouterr().out.split())
+    assert "FAIL by the limits hobby-robot. 6 views are used, fewer than the limit of 8." in printed
+    written = json.loads(file.read_text(encoding="utf-8"))
+    assert written["limits"]["fewest_views"] == 8 and not written["acceptance"]["passed"]
+    assert "6 views are used, fewer than the limit of 8." in written["acceptance"]["reasons"]
+    limits.write_text("fewest_views = 6")
+    assert main([*command, str(limits), "-q"]) == 0
+    assert "PASS by the limits mine." in capsys.readouterr().out
+    again = read_result(file)
+    assert again.limits is not None and again.limits.fewest_views == 6
+    limits.write_text("largest_change_px = 6")
+    assert main([*command, str(limits)]) == 1
+    assert "largest_change_px" in capsys.readouterr().err

@@ -10,6 +10,8 @@ from pathlib import Path
 import pytest
 
 from calibgui.cli.main import main
+from calibgui.engine.images import render_view, write_image
+from tests.photographs import BOARD, CAMERA, draw_poses
 
 Capture = pytest.CaptureFixture[str]
 
@@ -58,7 +60,7 @@ def test_the_error_of_a_length_is_told_in_mm(result_file: Path, capsys: Capture)
     there = json.loads(capsys.readouterr().out)["length"]
     assert there["pixel"] == [160, 120] and there["sigma_mm"] < worst["sigma_mm"]
     assert worst["sigma_mm"] ** 2 == pytest.approx(
-        worst["by_calibration_mm"] ** 2 + worst["by_noise_mm"] ** 2
+        worst["by_calibration_mm"] ** 2 + worst["by_noise_mm"] ** 2 + worst["by_scale_mm"] ** 2
     )
     assert main(["uncertainty", str(result_file), "--length", "5000", "--at", "600"]) == 1
     assert "does not lie in the image" in capsys.readouterr().err
@@ -137,3 +139,22 @@ def test_a_place_that_cannot_be_written_is_told_first(
     assert "does not exist" in capsys.readouterr().err
     assert main([command, str(result_file), "-o", str(tmp_path / "map.txt")]) == 1
     assert "Give it the suffix .png or .svg or .pdf" in capsys.readouterr().err
+
+
+def test_the_noise_floor_is_shown_beside_residuals(
+    result_file: Path, tmp_path: Path, capsys: Capture
+) -> None:
+    pose = draw_poses()[0]
+    for seed in range(6):
+        image = render_view(CAMERA, pose, BOARD, blur=0.7, noise=2.0, seed=seed)
+        write_image(tmp_path / f"frame{seed}.png", image)
+    command = ["noise", str(tmp_path), "--result", str(result_file)]
+    assert main(command) == 0
+    out = capsys.readouterr().out
+    assert "6 frames of 42 corners" in " ".join(out.split())
+    assert "Nothing has moved meanwhile." in out and "% is this noise" in " ".join(out.split())
+    assert main([*command, "--json"]) == 0
+    found = json.loads(capsys.readouterr().out)
+    # The corner finder states what corners scatter by.
+    assert found["sigma_px"] == pytest.approx(found["stated_sigma_px"], rel=0.3)
+    assert main(["noise", str(tmp_path.parent / "none")]) == 1

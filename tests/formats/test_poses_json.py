@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -12,6 +13,7 @@ from calibgui.dataset import LocatedView, PoseSet
 from calibgui.engine import Camera, locate_board
 from calibgui.engine.calibration import BoardPose
 from calibgui.engine.errors import CalibrationError
+from calibgui.engine.uncertainty import find_board_points
 from calibgui.formats.poses_json import read_pose, write_poses
 from tests.engine.scenes import BOARD, brown, imaged, looking
 
@@ -70,3 +72,22 @@ def test_other_file_is_refused(file: Path) -> None:
     file.write_text('{"views": []}')
     with pytest.raises(CalibrationError, match="is not a file of poses"):
         read_pose(file, CAMERA)
+
+
+def test_the_scale_of_the_board_comes_back(found: BoardPose, tmp_path: Path) -> None:
+    rng = np.random.default_rng(3)
+    board = replace(BOARD, square_sigma=0.002 * BOARD.square)
+    xy = BOARD.points()
+    uv = imaged(CAMERA, looking(CAMERA, rng), xy) + rng.normal(scale=0.1, size=xy.shape)
+    errors = np.diag(np.full(len(CAMERA.params), 1e-6))
+    scaled = locate_board(CAMERA, (uv, xy), errors, scale_sigma=board.scale_sigma)
+    along = scaled.pose.tvec / np.linalg.norm(scaled.pose.tvec)
+    added = along @ (scaled.covariance - found.covariance)[3:, 3:] @ along
+    assert added == pytest.approx((0.002 * np.linalg.norm(scaled.pose.tvec)) ** 2)
+    write_poses(PoseSet(CAMERA, (LocatedView("a.png", scaled),), board), tmp_path / "poses.json")
+    read = read_pose(tmp_path / "poses.json", CAMERA)
+    assert read.scale_sigma == board.scale_sigma
+    np.testing.assert_allclose(read.covariance, scaled.covariance, rtol=1e-12)
+    corner = find_board_points(uv[-1:], CAMERA, read).covariance[0]
+    exact = find_board_points(uv[-1:], CAMERA, replace(read, scale_sigma=0.0)).covariance[0]
+    np.testing.assert_allclose(corner - exact, 0.002**2 * np.outer(xy[-1], xy[-1]), rtol=0.01)

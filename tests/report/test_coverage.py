@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 
 from calibgui import engine
+from calibgui.dataset.sensor_coverage import count_corners_per_cell
 from calibgui.engine.geometry import rotations
-from calibgui.report.coverage import count_corners_per_cell, measure_attitudes
+from calibgui.report.coverage import measure_attitudes
 from tests.engine import scenes
 
 

@@ -140,3 +140,11 @@ def test_a_progress_that_raises_abandons_the_work(photographs: Path) -> None:
 
     with pytest.raises(KeyboardInterrupt):
         calibgui.calibrate(photographs, progress=stop)
+
+
+def test_a_camera_writes_its_report(camera: calibgui.CalibratedCamera, tmp_path: Path) -> None:
+    camera.report(tmp_path / "c.html", layout="certificate", operator="N. N.")
+    page = (tmp_path / "c.html").read_text(encoding="utf-8")
+    assert "Calibration certificate" in page and "N. N." in page
+    with pytest.raises(CalibrationError, match="no 'operater'"):
+        camera.report(tmp_path / "d.html", operater="N. N.")

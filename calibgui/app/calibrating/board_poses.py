@@ -54,7 +54,8 @@ def _locate_in_view(
     if not view.usable:
         return LocatedView(view.image, None, view.why_unused)
     try:
-        found = locate_board(camera, view.observation(board), covariance, view.name)
+        scale_sigma = 0.0 if board is None else board.scale_sigma
+        found = locate_board(camera, view.observation(board), covariance, view.name, scale_sigma)
     except CalibrationError as error:
         return LocatedView(view.image, None, str(error))
     return LocatedView(view.image, found)

@@ -1,25 +1,21 @@
 """Fleets: many cameras calibrated from a list, each a task of its own, with a ledger of all.
 
-`read_manifest` says which cameras there are, `read_limits` what is demanded of them, and
-`run_batch` calibrates those that are not done, on a scheduler of `open_scheduler`.
+`read_manifest` says which cameras there are, and `run_batch` calibrates those that are not done, on
+a scheduler of `open_scheduler`.
 """
 
 from __future__ import annotations
 
 from calibgui.app.fleet.batch import BatchSummary, run_batch
-from calibgui.app.fleet.limits import NO_LIMITS, Limits, read_limits
 from calibgui.app.fleet.manifest import BoardSought, CameraTask, read_manifest
 from calibgui.app.fleet.schedulers import describe_trust, open_scheduler
 
 __all__ = [
-    "NO_LIMITS",
     "BatchSummary",
     "BoardSought",
     "CameraTask",
-    "Limits",
     "describe_trust",
     "open_scheduler",
-    "read_limits",
     "read_manifest",
     "run_batch",
 ]

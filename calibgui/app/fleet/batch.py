@@ -21,16 +21,19 @@ from calibgui.app.fleet.camera_task import (
     measure_change,
     refuse_camera,
 )
-from calibgui.app.fleet.limits import NO_LIMITS, Limits, list_failures
 from calibgui.app.fleet.manifest import CameraTask
 from calibgui.app.fleet.photographs import list_photographs
 from calibgui.app.fleet.schedulers import Scheduler
 from calibgui.app.photographs.paths import is_remote
 from calibgui.app.system.workers import Crashed
+from calibgui.dataset.acceptance import list_failures, measure_length
 from calibgui.dataset.fleet import FleetCamera
+from calibgui.dataset.limits import NO_LIMITS, Limits
 from calibgui.engine.arrays import Size
+from calibgui.engine.assessment import LengthUncertainty
 from calibgui.engine.errors import CalibrationError, Progress
 from calibgui.formats.fleet_ledger import Ledger
+from calibgui.formats.result_json import read_result
 
 
 @dataclass(frozen=True, slots=True)
@@ -182,5 +185,20 @@ def _judge(tasks: Iterable[CameraTask], ledger: Ledger, limits: Limits) -> Itera
     """Yield the rows of a manifest whose reasons to fail are others than before."""
     for task in tasks:
         row = ledger.find(task.entry.id)
-        if row is not None and (failures := list_failures(row, limits)) != row.failures:
+        if row is None:
+            continue
+        length = _measure_length(row, ledger, limits)
+        if (failures := list_failures(row, limits, length)) != row.failures:
             yield replace(row, failures=failures)
+
+
+def _measure_length(
+    camera: FleetCamera, ledger: Ledger, limits: Limits
+) -> LengthUncertainty | None:
+    """Measure how certain the length is that the limits name, with the result of a camera."""
+    if limits.length is None or not camera.result:
+        return None
+    try:
+        return measure_length(read_result(ledger.path.parent / camera.result), limits)
+    except CalibrationError:  # the result is gone
+        return None

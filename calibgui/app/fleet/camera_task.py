@@ -40,21 +40,18 @@ from calibgui.app.system.workers import do_tasks_here
 from calibgui.dataset import Result, View, ViewStatus, list_installed_versions
 from calibgui.dataset.fleet import (
     Change,
-    Estimate,
     FleetCamera,
-    FleetFigures,
     FleetStatus,
+    summarise_result,
 )
-from calibgui.dataset.judging import judge_result
 from calibgui.engine import opencv
 from calibgui.engine.arrays import GridSize
 from calibgui.engine.assessment import (
     UncertainCamera,
     choose_covariance,
     measure_drift,
-    summarise_residuals,
 )
-from calibgui.engine.boards import Board, BoardShape, Pattern
+from calibgui.engine.boards import BoardShape, Pattern
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.threads import limit_blas_threads
 from calibgui.formats.board_shape_json import encode_board_shape
@@ -62,7 +59,6 @@ from calibgui.formats.detections_json import drop_details, read_detections, writ
 from calibgui.formats.json_document import dumps
 from calibgui.formats.pattern_json import encode_pattern
 from calibgui.formats.result_json import read_result, write_result
-from calibgui.report.coverage import count_corners_per_cell
 
 _MAX_NAME_LENGTH = 200
 """Length of an escaped id above which its files are named by a digest; names may have 255 bytes."""
@@ -234,7 +230,7 @@ def _calibrate(work: Work) -> FleetCamera:
     file = work.folder.locate_result(task.entry.id)
     write_result(result, file)
     relative = file.relative_to(work.folder.ledger.parent).as_posix()
-    return replace(camera, result=relative, figures=_summarise(result))
+    return replace(camera, result=relative, figures=summarise_result(result))
 
 
 def _is_kept(known: FleetCamera, work: Work) -> bool:
@@ -322,35 +318,6 @@ def _detect(board: BoardSought, files: Sequence[Path], search: _Search) -> Detec
     if board.pattern is None:
         return find_any_board(find, board.grid_size)
     return find(board.pattern, board.grid_size)
-
-
-def _summarise(result: Result) -> FleetFigures:
-    """Return the figures of a result."""
-    calibration, verdict = result.calibration, judge_result(result)
-    camera, board = calibration.camera, result.board
-    fit = summarise_residuals(calibration.residuals)
-    uv = np.concatenate([view.uv for view in result.observations()])
-    cells = count_corners_per_cell(uv, camera.size)
-    values = zip(camera.names, camera.params.tolist(), calibration.sigma.tolist(), strict=True)
-    return FleetFigures(
-        size=camera.size,
-        board="" if board is None else _describe_board(board),
-        lens_model=camera.model,
-        views=len(result.used),
-        corners=fit.count,
-        rms=fit.rms,
-        noise=calibration.noise,
-        coverage=np.count_nonzero(cells) / cells.size,
-        grade=verdict.grade,
-        reason=verdict.reason,
-        times_better=verdict.times_better,
-        error=verdict.error,
-        parameters={name: Estimate(value, sigma) for name, value, sigma in values},
-    )
-
-
-def _describe_board(board: Board) -> str:
-    return f"{board.pattern.kind} {board.rows}x{board.cols} {board.square:g}mm"
 
 
 def compute_state(task: CameraTask, photographs: Sequence[Photograph]) -> str:

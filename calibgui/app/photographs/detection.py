@@ -64,10 +64,11 @@ class Detection:
     remark: str = ""
     """A sentence on how the size was inferred, where the user should check it; mostly empty."""
 
-    def corner_set(self, square: float | None) -> CornerSet:
+    def corner_set(self, square: float | None, square_sigma: float = 0.0) -> CornerSet:
         """Return the views for a calibration, on a board of squares of side `square` mm.
 
-        If it is None they are `DEFAULT_SQUARE`, and lengths not confirmed.
+        If it is None they are `DEFAULT_SQUARE`, and lengths not confirmed. `square_sigma` is its
+        standard deviation, mm, common to all squares.
 
         Raises:
             CalibrationError: if no image could be read, or the size of the board that was found is
@@ -78,7 +79,9 @@ class Detection:
         if self.grid_size is None and (error := explain_unknown_size(self.views, self.pattern)):
             raise error
         side = DEFAULT_SQUARE if square is None else square
-        board = None if self.grid_size is None else Board(*self.grid_size, side, self.pattern)
+        board = None
+        if self.grid_size is not None:
+            board = Board(*self.grid_size, side, self.pattern, square_sigma)
         return CornerSet(self.size, self.views, board, lengths_confirmed=square is not None)
 
 

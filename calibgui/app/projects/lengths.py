@@ -26,23 +26,44 @@ def set_square(project: Project, square: float) -> Project:
 
     Markers and circles keep their size, or become unknown if they do not fit. The user has stated
     the length: it needs no confirmation. Results from other squares, or for which other lengths
-    were stated, stay as they are.
+    were stated, stay as they are. The length stays as uncertain as it was, unless it is shorter.
     """
     pattern = _scale_pattern(project.pattern, project.square / square)
-    after = replace(project, square=square, pattern=pattern, lengths_confirmed=True)
+    sigma = project.square_sigma if project.square_sigma < square else 0.0
+    after = replace(
+        project, square=square, square_sigma=sigma, pattern=pattern, lengths_confirmed=True
+    )
+    return _scale_results(after, project.square)
+
+
+def set_square_sigma(project: Project, sigma: float) -> Project:
+    """Return the project with squares whose side has a standard deviation of `sigma` mm, in its
+    results too. Raises CalibrationError if the side is no longer than that."""
+    if project.board is not None:
+        replace(project.board, square_sigma=sigma)  # refuses what cannot be
+    return _scale_results(replace(project, square_sigma=sigma), project.square)
+
+
+def _scale_results(project: Project, square: float) -> Project:
+    """Return the project with its board's squares in its results that had those of `square` mm."""
     results = {
-        name: scale_result(result, square)
-        if result.board is not None and result.board.square == project.square
+        name: scale_result(result, project.square, project.square_sigma)
+        if result.board is not None and result.board.square == square
         else result
         for name, result in project.results.items()
     }
-    return replace(after, results=MappingProxyType(results))
+    return replace(project, results=MappingProxyType(results))
 
 
-def scale_result(result: Result, square: float) -> Result:
-    """Return a result with squares of `square` mm; the same one if it has them, or if it would be
-    another with them, as other lengths were stated."""
+def scale_result(result: Result, square: float, square_sigma: float = 0.0) -> Result:
+    """Return a result with squares of `square` mm, with their standard deviation; the same one if
+    it has them, or if it would be another with them, as other lengths were stated."""
     board = result.board
+    if board is not None and board.square == square and board.square_sigma != square_sigma:
+        stated = replace(result, board=replace(board, square_sigma=square_sigma))
+        if (verdict := recall_verdict(result)) is not None:
+            keep_verdict(stated, verdict)
+        return stated
     if (
         board is None
         or board.square == square
@@ -57,7 +78,13 @@ def scale_result(result: Result, square: float) -> Result:
         calibration=replace(
             calibration, warnings=tuple(_scale_text(text, ratio) for text in calibration.warnings)
         ),
-        board=Board(board.rows, board.cols, square, _scale_pattern(board.pattern, 1 / ratio)),
+        board=Board(
+            board.rows,
+            board.cols,
+            square,
+            _scale_pattern(board.pattern, 1 / ratio),
+            square_sigma,
+        ),
         lengths_confirmed=True,
         improvements=tuple(_scale_text(text, ratio) for text in result.improvements),
     )

@@ -20,6 +20,7 @@ from calibgui.app.photographs.detection import (
     measure_largest_part,
 )
 from calibgui.dataset import DEFAULT_SQUARE, CornerSet, Result, View, ViewStatus
+from calibgui.dataset.details import NO_DETAILS, Details
 from calibgui.engine.arrays import GridSize, Size
 from calibgui.engine.boards import CHECKERBOARD, Board, Pattern
 from calibgui.engine.errors import CalibrationError
@@ -58,9 +59,13 @@ class Project:
     """Method of locating corners, one of ``features.METHODS``."""
     square: float = DEFAULT_SQUARE
     """Side of a square, mm."""
+    square_sigma: float = 0.0
+    """Standard deviation of the side, mm, common to all squares; 0 if it counts as exact."""
     unit: Unit = Unit.MM
     by_hand: bool = False
     """True if the user marks every board: images are searched only where that is asked for."""
+    details: Details = NO_DETAILS
+    """What a person states of the calibration, for its report."""
     lengths_confirmed: bool = False
     """True once the user has stated the side of a square, or confirmed it."""
     settings: Settings = field(default_factory=Settings)
@@ -80,7 +85,9 @@ class Project:
         found = [view.corners for view in self.views if view.corners is not None]
         grid_size = self.grid_size or infer_grid_size(self.views) or measure_largest_part(found)
         pattern = infer_pattern(self.views, self.pattern)
-        return None if grid_size is None else Board(*grid_size, self.square, pattern)
+        if grid_size is None:
+            return None
+        return Board(*grid_size, self.square, pattern, self.square_sigma)
 
     @property
     def corner_set(self) -> CornerSet | None:

@@ -3,10 +3,13 @@
     format, version     "calibgui-project", 4
     lengths_confirmed   whether the user has stated the side of a square; where missing, it is
                         as if so if there are results
-    target              the board: rows, cols (null: inferred from the images), square_mm, unit and
+    target              the board: rows, cols (null: inferred from the images), square_mm and its
+                        square_sigma_mm (0 where missing), unit and
                         pattern as in ``pattern_json.py``; corners, the method of locating them
                         ("edges" where missing)
     size                width and height of the images, px
+    details             texts on operator, place and so on, for a report (``dataset/details.py``);
+                        what is empty may be missing
     by_hand             whether the user marks every board (false where missing)
     settings            cost, model (of the lens; "auto" if it is chosen automatically), method,
                         freed, fixed (names, or an object of them with their values or null); plate
@@ -30,7 +33,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import replace
+from dataclasses import asdict, fields, replace
 from pathlib import Path, PurePath
 from types import MappingProxyType
 from typing import Any
@@ -46,6 +49,7 @@ from calibgui.app.calibrating.settings import (
 from calibgui.app.photographs.paths import is_remote
 from calibgui.app.projects.project import GRID_LINES, Project, Unit, relocate_images
 from calibgui.dataset import Result, View
+from calibgui.dataset.details import Details
 from calibgui.dataset.judging import keep_verdict, recall_verdict
 from calibgui.engine.arrays import GridSize
 from calibgui.engine.boards import CHECKERBOARD, Board, BoardShape, BoardShapeModel
@@ -57,7 +61,7 @@ from calibgui.engine.files import open_regular
 from calibgui.formats.board_shape_json import decode_board_shape, decode_prior, encode_board_shape
 from calibgui.formats.json_document import JsonWriter, are_same_values, check_format, read_json
 from calibgui.formats.node import Node
-from calibgui.formats.pattern_json import decode_pattern, encode_pattern
+from calibgui.formats.pattern_json import decode_pattern, decode_square_sigma, encode_pattern
 from calibgui.formats.result_json import decode_result, encode_result
 from calibgui.formats.verdict_json import decode_verdict, encode_verdict
 from calibgui.formats.views_json import decode_views, encode_view
@@ -121,7 +125,9 @@ def encode_project(project: Project, folder: Path) -> dict[str, Any]:
     project = _change_paths(project, lambda image: _make_relative(image, folder))
     rows, cols = project.grid_size or (None, None)
     board = project.board or Board(2, 2, project.square, project.pattern)
-    square = {"square_mm": project.square, "unit": project.unit}
+    square: dict[str, Any] = {"square_mm": project.square, "unit": project.unit}
+    if project.square_sigma:
+        square["square_sigma_mm"] = project.square_sigma
     pattern = {"pattern": encode_pattern(project.pattern), "corners": project.method}
     return {
         "format": FORMAT,
@@ -129,6 +135,7 @@ def encode_project(project: Project, folder: Path) -> dict[str, Any]:
         "target": {"rows": rows, "cols": cols, **square, **pattern},
         "lengths_confirmed": project.lengths_confirmed,
         "size": project.size,
+        "details": {name: text for name, text in asdict(project.details).items() if text},
         "by_hand": project.by_hand,
         "settings": _encode_settings(project.settings),
         "views": [_encode_view(view, project, board) for view in project.views],
@@ -242,6 +249,8 @@ def _decode_project(node: Node) -> Project:
         grid_size=_decode_grid_size(board.get("rows"), board.get("cols")),
         method=method.choice(METHODS) if (method := board.get("corners")) else METHODS[0],
         square=square.number(),
+        square_sigma=decode_square_sigma(board),
+        details=_decode_details(node.get("details")),
         by_hand=by_hand.flag() if (by_hand := node.get("by_hand")) else False,
         unit=Unit(board["unit"].choice(list(Unit))),
         lengths_confirmed=bool(node["results"].value) if confirmed is None else confirmed.flag(),
@@ -250,6 +259,13 @@ def _decode_project(node: Node) -> Project:
         settings_of_results=MappingProxyType(_decode_settings_of_results(node, settings)),
         digests=MappingProxyType(digests),
     )
+
+
+def _decode_details(node: Node | None) -> Details:
+    """Return what is stated of the calibration; nothing in older projects."""
+    known = {field.name for field in fields(Details)}
+    stated = {} if node is None else node.members()
+    return Details(**{name: text.text() for name, text in stated.items() if name in known})
 
 
 def _decode_grid_size(rows: Node | None, cols: Node | None) -> GridSize | None:

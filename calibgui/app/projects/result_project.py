@@ -42,7 +42,13 @@ def make_project(path: Path, name: str) -> Project:
     )
     if (board := result.board) is None:
         return project
-    return replace(project, pattern=board.pattern, grid_size=board.grid_size, square=board.square)
+    return replace(
+        project,
+        pattern=board.pattern,
+        grid_size=board.grid_size,
+        square=board.square,
+        square_sigma=board.square_sigma,
+    )
 
 
 def _recover_settings(result: Result) -> Settings:

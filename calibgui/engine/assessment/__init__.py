@@ -4,7 +4,8 @@
 is wrong with it and matters, the most harmful first; `find_explanation` picks the one of them that
 explains residuals which are not noise.
 `summarise_residuals` states how well the model fits, `check_residuals` whether what is left is
-noise or has a cause, `separate_error_sources` how many pixels lens, board, single views and noise
+noise or has a cause, `measure_repeatability` how far corners scatter where nothing moves,
+`separate_error_sources` how many pixels lens, board, single views and noise
 contribute; `screen_outliers` leaves wrong corners out, `calibrate_weighted` weighs views
 by their noise; `cross_validate` and `bootstrap_views` measure errors without trusting the model,
 `choose_board_shape` and `choose_lens` recommend models of board and lens by them; `compare_methods`
@@ -96,6 +97,10 @@ if TYPE_CHECKING:
         Rejection as Rejection,
         Screening as Screening,
         screen_outliers as screen_outliers,
+    )
+    from calibgui.engine.assessment.changes.repeatability import (
+        Repeatability as Repeatability,
+        measure_repeatability as measure_repeatability,
     )
     from calibgui.engine.assessment.residuals.residual_checks import (
         FAR_OFF as FAR_OFF,
@@ -189,6 +194,7 @@ load_on_demand(
             "measure_radial_shift",
         ],
         "residuals.outliers": ["Rejection", "Screening", "screen_outliers"],
+        "changes.repeatability": ["Repeatability", "measure_repeatability"],
         "residuals.residual_checks": ["FAR_OFF", "NoiseCheck", "NoiseReport", "check_residuals"],
         "residuals.residual_statistics": [
             "Histogram",

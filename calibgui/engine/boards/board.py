@@ -38,6 +38,9 @@ class Board:
     """The pattern's pitch, mm: the side of a square (the paper's D_o) or the distance of rows."""
     pattern: Pattern = CHECKERBOARD
     """The pattern that is printed on the board."""
+    square_sigma: float = 0.0
+    """Standard deviation of the pitch, mm, which all squares share: the board's scale. 0 if it
+    counts as exact."""
 
     def __post_init__(self) -> None:
         if not (self.rows >= 1 and self.cols >= 1 and 0 < self.square < math.inf):
@@ -45,11 +48,21 @@ class Board:
                 f"There is no board of {self.rows} x {self.cols} points {self.square} mm apart.",
                 "Count its rows and columns of inner corners, and measure a square in mm.",
             )
+        if not 0 <= self.square_sigma < self.square:
+            raise CalibrationError(
+                f"Squares of {self.square:g} mm cannot be uncertain by {self.square_sigma:g} mm.",
+                "State the standard deviation of their side, mm, as in 30 ± 0.02.",
+            )
 
     @property
     def grid_size(self) -> GridSize:
         """Rows and columns."""
         return self.rows, self.cols
+
+    @property
+    def scale_sigma(self) -> float:
+        """Standard deviation of the board's scale, by which every length is in error, relative."""
+        return self.square_sigma / self.square
 
     def points(self, grid: npt.ArrayLike | None = None) -> Array:
         """Compute board coordinates (n, 2), mm, of points (n, 2) = (row, column).

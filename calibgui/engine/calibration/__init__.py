@@ -64,6 +64,7 @@ if TYPE_CHECKING:
     )
     from calibgui.engine.calibration.refit import Refit as Refit, refit as refit
     from calibgui.engine.calibration.scaling import (
+        compute_scale_covariance as compute_scale_covariance,
         has_own_lengths as has_own_lengths,
         scale_lengths as scale_lengths,
     )
@@ -114,6 +115,6 @@ load_on_demand(
             "Undetermined",
             "ViewResiduals",
         ],
-        "scaling": ["has_own_lengths", "scale_lengths"],
+        "scaling": ["compute_scale_covariance", "has_own_lengths", "scale_lengths"],
     },
 )

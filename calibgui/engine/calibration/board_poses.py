@@ -7,7 +7,8 @@ P the derivatives of the whitened residuals r by the pose and Q those by the cam
     cov(pose) = sigma^2 V^-1 + G cov(camera) G^T:
 
 the residuals' own variance, and what an error of the camera does to the pose, which is the same for
-all views of the camera. It does not measure an error of the board, which is taken as drawn.
+all views of the camera. An error of the board's scale moves the board along the ray of its origin
+(``scaling.py``). It does not measure other errors of the board, which is taken as drawn.
 
 From far away a plane looks alike from two sides (``geometry/planar_pose.py``). Both poses are
 refined, and the worse one says how certain the better one is.
@@ -37,6 +38,7 @@ from calibgui.engine.calibration.refinement.whitening import (
 )
 from calibgui.engine.calibration.resection import estimate_poses, refine_poses
 from calibgui.engine.calibration.result import Cost
+from calibgui.engine.calibration.scaling import compute_scale_covariance
 from calibgui.engine.camera.camera import Camera
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.geometry.pose import Pose
@@ -55,7 +57,8 @@ class BoardPose:
 
     pose: Pose
     covariance: Array
-    """(6, 6) covariance of (rvec, tvec), rad and mm, the errors of the camera included."""
+    """(6, 6) covariance of (rvec, tvec), rad and mm, the errors of the camera and of the board's
+    scale included."""
     noise_covariance: Array
     """(6, 6) the same from the corners' noise alone."""
     by_camera: Array
@@ -67,6 +70,8 @@ class BoardPose:
     covariances."""
     lead: float
     """Standard deviations by which the mirrored pose fits worse; infinite if there is none."""
+    scale_sigma: float = 0.0
+    """Standard deviation of the board's scale, relative."""
 
     def __post_init__(self) -> None:
         freeze(self, "covariance", "noise_covariance", "by_camera", "residuals")
@@ -87,6 +92,7 @@ def locate_board(
     view: Observation | tuple[Array, Array],
     covariance: Array | None = None,
     name: str = "The view",
+    scale_sigma: float = 0.0,
 ) -> BoardPose:
     """Estimate the pose of a flat board in front of a known camera.
 
@@ -97,6 +103,7 @@ def locate_board(
         covariance: (P, P) covariance of the camera's parameters, which then counts in that of the
             pose; None if the camera counts as exact.
         name: name of the view, for messages.
+        scale_sigma: standard deviation of the board's scale, relative (`Board.scale_sigma`).
 
     Raises:
         CalibrationError: if the view cannot be used, or no pose in front of the camera explains it.
@@ -134,14 +141,16 @@ def locate_board(
     by_camera = -inverse @ products[_POSE, _CAMERA]
     by_camera[:3] = compute_inverse_left_jacobian(rvec[0]) @ by_camera[:3]
     from_camera = 0.0 if covariance is None else by_camera @ covariance @ by_camera.T
+    pose = Pose(rvec[0], state.T[0])
     return BoardPose(
-        pose=Pose(rvec[0], state.T[0]),
-        covariance=own + from_camera,
+        pose=pose,
+        covariance=own + from_camera + compute_scale_covariance(pose, scale_sigma),
         noise_covariance=own,
         by_camera=by_camera,
         residuals=compute_misses(state, packed, camera.model, Cost.IMAGE)[0],
         noise=float(np.sqrt(variance)),
         lead=float(np.sqrt(rise / variance)) if variance > 0 else np.inf,
+        scale_sigma=scale_sigma,
     )
 
 

@@ -11,6 +11,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from calibgui.engine.arrays import Array
 from calibgui.engine.boards.shape import BoardShape
 from calibgui.engine.calibration.result import Calibration
 from calibgui.engine.geometry.pose import Pose
@@ -40,6 +41,19 @@ def scale_lengths(calibration: Calibration, ratio: float) -> Calibration:
         board_shape=None if shape is None else _scale_board_shape(shape, ratio),
         board_shape_error=ratio * calibration.board_shape_error,
     )
+
+
+def compute_scale_covariance(pose: Pose, scale_sigma: float) -> Array:
+    """Compute the covariance (6, 6) of (rvec, tvec) that an error of the board's scale brings.
+
+    A board that is longer by a share s is farther away by that share: d tvec = s tvec.
+
+    Args:
+        pose: the pose of the board.
+        scale_sigma: standard deviation of s.
+    """
+    moved = scale_sigma * np.concatenate([np.zeros(3), pose.tvec])
+    return np.outer(moved, moved)
 
 
 def _scale_board_shape(shape: BoardShape, ratio: float) -> BoardShape:

@@ -11,6 +11,8 @@ D dc + e with D = d pose / d camera and e by the corners' noise (``calibration/b
 and most of what dc does to the ray D undoes again near the corners. With A = d(X, Y)/d(...)
 
     cov(X, Y) = s_uv^2 A_uv A_uv^T + (A_c + A_p D) cov(c) (A_c + A_p D)^T + A_p cov(e) A_p^T.
+
+If the board is longer than stated by a share of s, so are X and Y: (X, Y) (X, Y)^T s^2 is added.
 """
 
 from __future__ import annotations
@@ -135,6 +137,8 @@ def find_board_points(
         A_p = _differentiate_by_pose(inverse @ across, points @ R[:, :2].T, pose)
         A_c = A_c + A_p @ plane.by_camera
         total = total + A_p @ plane.noise_covariance @ np.swapaxes(A_p, 1, 2)
+        scaled = plane.scale_sigma * points
+        total = total + scaled[:, :, None] * scaled[:, None]
     if covariance is not None:
         total = total + A_c @ covariance @ np.swapaxes(A_c, 1, 2)
     return BoardPoints(points, total, seen)

@@ -276,6 +276,14 @@ class Files(QObject):
             age = self._session.describe_age(result)
             show_dialog(ExportDialog(self._session.jobs, result, self._window, age=age))
 
+    def report(self) -> None:
+        """Offer the report on the shown result."""
+        from calibgui.gui.dialogs.report_dialog import ReportDialog
+
+        if (result := self._session.result) is not None:
+            age = self._session.describe_age(result)
+            show_dialog(ReportDialog(self._session, result, self._window, age=age))
+
     def print_board(self) -> None:
         """Offer a board to print, like the project's."""
         from calibgui.gui.dialogs.print_dialog import PrintDialog

@@ -77,7 +77,7 @@ class HelpDialog(QDialog):
                 self.tr("zoom, before and after as well; Ctrl+0 fits, Ctrl+1 shows pixels"),
             ),
             ("Shift+1 … 0, N", self.tr("layers over the image")),
-            ("Ctrl+E / Ctrl+P", self.tr("export / print the result")),
+            ("Ctrl+E / Ctrl+P", self.tr("export the camera / write the report")),
             ("Ctrl+Shift+P", self.tr("find any action or panel by typing a part of it")),
             ("Ctrl+Z / Ctrl+Shift+Z", self.tr("undo and redo: everything can be taken back")),
         )

@@ -178,7 +178,8 @@ class Calibrator(QObject):
         inputs, result = self._views, step.result
 
         def change(project: Project) -> Project:  # a length may have been stated meanwhile
-            return record_result(project, name, inputs, scale_result(result, project.square))
+            scaled = scale_result(result, project.square, project.square_sigma)
+            return record_result(project, name, inputs, scaled)
 
         label = self.tr("Make camera better") if step.action else self.tr("Calibrate")
         self._is_recording = True

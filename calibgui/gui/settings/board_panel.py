@@ -18,7 +18,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from calibgui.app.projects.lengths import set_square
+from calibgui.app.projects.lengths import set_square, set_square_sigma
 from calibgui.app.projects.project import (
     GRID_LINES,
     Project,
@@ -76,6 +76,15 @@ class BoardPanel(QWidget):
             )
         )
         self.square.setAccessibleName(self.tr("Side of a square"))
+        self.square_sigma = QDoubleSpinBox(decimals=4, minimum=0.0, maximum=1000.0, singleStep=0.01)
+        self.square_sigma.setSpecialValueText(self.tr("exact"))
+        self.square_sigma.setToolTip(
+            self.tr(
+                "One standard deviation of the side, which all squares share: every length is "
+                "uncertain by the same share. A certificate's U (k = 2) is twice as much."
+            )
+        )
+        self.square_sigma.setAccessibleName(self.tr("Standard deviation of the side of a square"))
         self.unit = QComboBox()
         self.unit.addItems(list(Unit))
         self.unit.setAccessibleName(self.tr("Unit"))
@@ -117,6 +126,8 @@ class BoardPanel(QWidget):
         corners.addWidget(self.cols, 1)
         side = QHBoxLayout()
         side.addWidget(self.square, 1)
+        side.addWidget(QLabel("±"))
+        side.addWidget(self.square_sigma, 1)
         side.addWidget(self.unit)
         others = QHBoxLayout()
         others.addWidget(self.by_hand)
@@ -137,7 +148,9 @@ class BoardPanel(QWidget):
             box.valueChanged.connect(self._begin_typing)
             box.editingFinished.connect(partial(self._leave_box, other))
         self.square.valueChanged.connect(self._edit_square)
-        self.square.editingFinished.connect(lambda: session.document.end_sliding_edit())
+        self.square_sigma.valueChanged.connect(self._edit_square_sigma)
+        for length in (self.square, self.square_sigma):
+            length.editingFinished.connect(lambda: session.document.end_sliding_edit())
         self.method.activated.connect(self._edit_method)
         self.by_hand.clicked.connect(self._edit_by_hand)
         self.unit.activated.connect(self._edit_unit)
@@ -164,10 +177,10 @@ class BoardPanel(QWidget):
         self.side.setText(self.tr("Distance") if circles else square)
         if not self._typing:
             self._show_board()
-        self.square.blockSignals(True)
-        if abs(self.square.value() * project.unit.mm - project.square) > 1e-9:
-            self.square.setValue(project.square / project.unit.mm)
-        self.square.blockSignals(False)
+        for box, mm in ((self.square, project.square), (self.square_sigma, project.square_sigma)):
+            with QSignalBlocker(box):
+                if abs(box.value() * project.unit.mm - mm) > 1e-9:
+                    box.setValue(mm / project.unit.mm)
         self.unit.setCurrentText(project.unit)
 
     def _describe_pattern(self, project: Project) -> str:
@@ -247,10 +260,18 @@ class BoardPanel(QWidget):
         mm = value * self._session.project.unit.mm
         self._session.edit(self.tr("Size of squares"), lambda p: set_square(p, mm), sliding=True)
 
+    def _edit_square_sigma(self, value: float) -> None:
+        mm = value * self._session.project.unit.mm
+        if mm < self._session.project.square:
+            label = self.tr("Uncertainty of squares")
+            self._session.edit(label, lambda p: set_square_sigma(p, mm), sliding=True)
+
     def _edit_unit(self) -> None:
         unit = Unit(self.unit.currentText())
-        mm = self.square.value() * unit.mm
+        mm, sigma = (box.value() * unit.mm for box in (self.square, self.square_sigma))
+
+        def change(project: Project) -> Project:
+            return set_square_sigma(replace(set_square(project, mm), unit=unit), sigma)
+
         if unit is not self._session.project.unit:
-            self._session.edit(
-                self.tr("Unit of squares"), lambda p: replace(set_square(p, mm), unit=unit)
-            )
+            self._session.edit(self.tr("Unit of squares"), change)

@@ -245,6 +245,14 @@ class Commands(QObject):
                     why_disabled=self.tr("Nothing is calibrated yet: press Calibrate first."),
                 ),
                 Command(
+                    text=self.tr("&Report…"),
+                    shortcut=Key.Print,
+                    tip=self.tr("Write what is known as PDF or a web page, or a certificate"),
+                    run=files.report,
+                    is_enabled=lambda: session.result is not None,
+                    why_disabled=self.tr("Nothing is calibrated yet: press Calibrate first."),
+                ),
+                Command(
                     text=self.tr("&Series of calibrations…"),
                     tip=self.tr("How a camera varies with zoom, focus, temperature or date"),
                     run=self._many.show_series,

@@ -10,9 +10,9 @@ import pytest
 
 from calibgui.app.calibrating.settings import Settings
 from calibgui.app.fleet.batch import BatchSummary, run_batch
-from calibgui.app.fleet.limits import NO_LIMITS, Limits
 from calibgui.app.fleet.manifest import BoardSought, CameraTask, read_manifest
 from calibgui.dataset.fleet import FleetCamera
+from calibgui.dataset.limits import NO_LIMITS, Limits
 from calibgui.formats.fleet_ledger import open_ledger
 from tests.scenes.fleet import write_fleet
 

@@ -18,13 +18,13 @@ from calibgui.app.calibrating.redetection import calibrate_twice
 from calibgui.app.calibrating.settings import Settings
 from calibgui.app.fleet import camera_task, photographs
 from calibgui.app.fleet.batch import BatchSummary
-from calibgui.app.fleet.limits import Limits
 from calibgui.app.fleet.manifest import BoardSought, CameraTask, read_manifest
 from calibgui.app.photographs.detection import find_views
 from calibgui.app.photographs.paths import find_images
 from calibgui.app.system.workers import Crashed, do_tasks_here
 from calibgui.dataset import View
 from calibgui.dataset.fleet import FleetStatus
+from calibgui.dataset.limits import Limits
 from calibgui.engine.assessment import (
     Grade,
     UncertainCamera,

@@ -8,11 +8,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from calibgui.app.projects.lengths import set_square
+from calibgui.app.projects.lengths import set_square, set_square_sigma
 from calibgui.app.projects.project import record_result
 from calibgui.dataset.judging import judge_result, keep_verdict, recall_verdict
 from calibgui.engine.assessment import Cause, Finding
 from calibgui.engine.boards import BoardShapePrior
+from calibgui.engine.errors import CalibrationError
 from tests.app import examples
 
 
@@ -56,3 +57,24 @@ def test_results_of_other_lengths_stay_as_they_are(tmp_path: Path) -> None:
     after = set_square(project, 60.0)
     assert after.results["told"] is project.results["told"]
     assert not after.is_current(after.results["told"])
+
+
+def test_how_uncertain_squares_are_is_stated_of_results_too(tmp_path: Path) -> None:
+    project = examples.calibrated(tmp_path)
+    before = project.results["Calibration 1"]
+    keep_verdict(before, judge_result(before))
+    after = set_square_sigma(project, 0.06)
+    result = after.results["Calibration 1"]
+    assert after.is_current(result) and result.scale_sigma == pytest.approx(0.002)
+    assert recall_verdict(result) is recall_verdict(before)
+    k = 0
+    added = result.pose_covariances[k] - before.calibration.pose_covariances[k]
+    tvec = before.calibration.poses[k].tvec
+    np.testing.assert_allclose(added[3:, 3:], 0.002**2 * np.outer(tvec, tvec), rtol=1e-6)
+    np.testing.assert_allclose(added[:3], 0.0, atol=1e-12)
+    longer = set_square(after, 60.0)
+    assert longer.square_sigma == 0.06 and longer.board is not None
+    assert longer.results["Calibration 1"].board == longer.board
+    assert set_square(after, 0.05).square_sigma == 0.0
+    with pytest.raises(CalibrationError, match="cannot be uncertain by 31 mm"):
+        set_square_sigma(project, 31.0)

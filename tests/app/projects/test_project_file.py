@@ -14,6 +14,7 @@ import pytest
 
 from calibgui.app.calibrating.settings import Settings
 from calibgui.app.projects import project_file
+from calibgui.app.projects.lengths import set_square_sigma
 from calibgui.app.projects.project import (
     record_result,
     relocate_images,
@@ -22,6 +23,7 @@ from calibgui.app.projects.project import (
 )
 from calibgui.app.projects.project_file import VERSION, encode_project, read_project, write_project
 from calibgui.dataset import judging
+from calibgui.dataset.details import Details
 from calibgui.dataset.judging import judge_result, keep_verdict
 from calibgui.engine.assessment import Action, ActionKind, Cause, Finding, PixelError
 from calibgui.engine.boards.shape import BoardShape, BoardShapeModel, BoardShapePrior
@@ -355,3 +357,22 @@ def test_lengths_are_confirmed_in_older_files_with_results_only(tmp_path: Path) 
     assert read_project(file).lengths_confirmed
     file.write_text(json.dumps(content | {"results": {}}), encoding="utf-8")
     assert not read_project(file).lengths_confirmed
+
+
+def test_the_scale_of_the_board_is_kept(tmp_path: Path) -> None:
+    project = set_square_sigma(examples.calibrated(tmp_path), 0.02)
+    write_project(project, tmp_path / "project.json")
+    again = read_project(tmp_path / "project.json")
+    assert again.square_sigma == 0.02 and again.board == project.board
+    assert all(again.is_current(result) for result in again.results.values())
+    content = encode_project(project, tmp_path)
+    content["target"]["square_sigma_mm"] = 40.0
+    (tmp_path / "project.json").write_text(dumps(content))
+    with pytest.raises(CalibrationError, match=r"target\.square_sigma_mm"):
+        read_project(tmp_path / "project.json")
+
+
+def test_what_is_stated_for_a_report_is_kept(tmp_path: Path) -> None:
+    project = replace(examples.calibrated(tmp_path), details=Details(operator="Zoë", lens="16 mm"))
+    write_project(project, tmp_path / "project.json")
+    assert read_project(tmp_path / "project.json").details == project.details

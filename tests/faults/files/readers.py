@@ -20,7 +20,6 @@ import scipy
 
 from calibgui.app.calibrating.series import Scalar, read_series
 from calibgui.app.calibrating.settings import Settings
-from calibgui.app.fleet.limits import read_limits
 from calibgui.app.fleet.manifest import BoardSought, read_manifest
 from calibgui.app.photographs.regions import read_regions
 from calibgui.app.photographs.videos import sample_video
@@ -43,6 +42,7 @@ from calibgui.formats.corner_import import read_corner_file
 from calibgui.formats.corners_json import encode_corners, read_corners
 from calibgui.formats.detections_json import read_detections, write_detections
 from calibgui.formats.json_document import dumps
+from calibgui.formats.limits_toml import read_limits
 from calibgui.formats.matlab_script import format_script
 from calibgui.formats.mrcal_model import format_camera_model
 from calibgui.formats.points_csv import read_points

@@ -247,3 +247,16 @@ def test_marking_by_hand_is_for_one_project(session: Session, panel: BoardPanel)
     assert session.project.by_hand and panel.by_hand.isChecked()
     session.begin(make_empty_document())
     assert not session.project.by_hand and not panel.by_hand.isChecked()
+
+
+def test_how_uncertain_squares_are_is_stated_beside_their_side(
+    session: Session, panel: BoardPanel
+) -> None:
+    panel.square_sigma.setValue(0.02)
+    assert session.project.square_sigma == 0.02
+    choose(panel.unit, 1)  # centimetres: both numbers stay as typed
+    assert session.project.square_sigma == pytest.approx(0.2)
+    assert panel.square_sigma.value() == pytest.approx(0.02)
+    while session.document.undo_label:
+        session.document.undo()
+    assert session.project.square_sigma == 0.0 and panel.square_sigma.text() == "exact"

@@ -7,9 +7,10 @@ S^-1 e with an error e of the corner that is seen there. Along the length's dire
 
     dL = d^T (S2^-1 (e2 - J2 dc) - S1^-1 (e1 - J1 dc)),
 
-of which both ends share dc: what moves them alike is no error of the length. It counts that the
-depth is known, and the plane across the axis; an error of the depth goes into the length in
-proportion.
+of which both ends share dc: what moves them alike is no error of the length. The scale of lengths
+is that of the board: an error of it by a share s is one of s L, wherever the length is. It counts
+that the depth is known, and the plane across the axis; an error of the depth goes into the length
+in proportion.
 """
 
 from __future__ import annotations
@@ -47,14 +48,24 @@ class LengthUncertainty:
     where an end is not in the image."""
     by_noise: Array
     """(n,) mm, by the noise of the corners at its ends."""
+    by_scale: float = 0.0
+    """By the board's scale, mm, the same everywhere."""
 
     def __post_init__(self) -> None:
         freeze(self, "uv", "by_calibration", "by_noise")
 
     @property
     def sigma(self) -> Array:
-        """(n,) mm, by both."""
-        return np.hypot(self.by_calibration, self.by_noise)
+        """(n,) mm, by all three."""
+        return np.hypot(np.hypot(self.by_calibration, self.by_noise), self.by_scale)
+
+    @property
+    def shares(self) -> tuple[float, float, float]:
+        """Shares of calibration, noise and scale in the variance where it is largest."""
+        k = self.worst
+        parts = np.array([self.by_calibration[k], self.by_noise[k], self.by_scale])
+        calibration, noise, scale = (parts**2 / self.sigma[k] ** 2).tolist()
+        return calibration, noise, scale
 
     @property
     def worst(self) -> int:
@@ -68,6 +79,7 @@ def estimate_length_uncertainty(
     length: float,
     depth: float,
     uv: npt.ArrayLike | None = None,
+    scale_sigma: float = 0.0,
 ) -> LengthUncertainty:
     """Estimate how wrong a length is that is measured by its two ends.
 
@@ -77,6 +89,7 @@ def estimate_length_uncertainty(
         length: the length, mm.
         depth: depth of the plane in which it lies, mm.
         uv: (n, 2) pixels of its middle; all over the image if None.
+        scale_sigma: standard deviation of the board's scale, relative (`Board.scale_sigma`).
 
     Raises:
         CalibrationError: if length or depth is not positive, or the length is nowhere in the image.
@@ -119,6 +132,7 @@ def estimate_length_uncertainty(
         middles,
         np.where(is_first, first, second),
         np.where(is_first, first_noise, second_noise),
+        length * scale_sigma,
     )
     if not np.isfinite(found.sigma).any():
         raise CalibrationError(

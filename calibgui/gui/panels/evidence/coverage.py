@@ -11,6 +11,7 @@ from PySide6.QtCore import QT_TRANSLATE_NOOP, QRectF, Qt
 from PySide6.QtWidgets import QVBoxLayout
 
 from calibgui.dataset import Result
+from calibgui.dataset.sensor_coverage import count_corners_per_cell
 from calibgui.engine.numbers import format_two_digits
 from calibgui.engine.uncertainty import NextView, propose_views
 from calibgui.gui.panels.evidence.view_scatter import ViewScatter
@@ -23,7 +24,7 @@ from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.lengths import describe_condition
 from calibgui.gui.widgets.reserved_label import ReservedLabel
 from calibgui.report.boards import name_point
-from calibgui.report.coverage import count_corners_per_cell, measure_attitudes
+from calibgui.report.coverage import measure_attitudes
 
 _CELLS = (24, 18)
 """Columns and rows of the density that is drawn."""

@@ -10,6 +10,7 @@ import pytest
 from calibgui.engine.arrays import Array
 from calibgui.engine.assessment.changes.comparison import compare_cameras
 from calibgui.engine.assessment.changes.length_uncertainty import estimate_length_uncertainty
+from calibgui.engine.boards.board import Board
 from calibgui.engine.calibration.calibrate import calibrate
 from calibgui.engine.camera.camera import Camera
 from calibgui.engine.camera.image_circle import ImageCircle
@@ -76,3 +77,17 @@ def test_lengths_that_do_not_lie_in_the_image_are_unknown() -> None:
     lit = replace(calibration, camera=replace(calibration.camera, circle=circle))
     within = estimate_length_uncertainty(lit, views, 10.0, DEPTH)
     assert circle.contains(within.uv[np.isfinite(within.sigma)]).all()
+
+
+def test_the_scale_of_the_board_goes_one_to_one_into_lengths() -> None:
+    views = scene(barrel(), 8).noisy(0.1, np.random.default_rng(1))
+    calibration = calibrate(views, VGA)
+    uv = [[320.0, 240.0]]
+    exact = estimate_length_uncertainty(calibration, views, LENGTH, DEPTH, uv)
+    board = Board(5, 6, 30.0, square_sigma=0.06)
+    found = estimate_length_uncertainty(calibration, views, LENGTH, DEPTH, uv, board.scale_sigma)
+    # A camera from a board that is 0.2 % longer than stated measures lengths 0.2 % too short.
+    assert found.by_scale == pytest.approx(0.2)
+    assert found.sigma[0] ** 2 == pytest.approx(exact.sigma[0] ** 2 + 0.2**2)
+    assert sum(found.shares) == pytest.approx(1.0)
+    assert exact.shares[2] == 0.0

@@ -1,52 +1,19 @@
-"""Limits: which are read, which are refused, and the sentence on each that is broken."""
+"""The sentence on each limit that is broken."""
 
 from __future__ import annotations
 
 from dataclasses import replace
-from pathlib import Path
 
 import pytest
 
-from calibgui.app.fleet.limits import NO_LIMITS, Limits, list_failures, read_limits
-from calibgui.dataset.fleet import Change
+from calibgui.dataset import Result
+from calibgui.dataset.acceptance import list_broken_limits, list_failures, measure_length
+from calibgui.dataset.fleet import Change, summarise_result
+from calibgui.dataset.limits import LengthLimit, Limits
 from calibgui.engine.assessment import Grade, PixelError
-from calibgui.engine.errors import CalibrationError
 from tests.formats.test_fleet_ledger import DONE, FIGURES, REFUSED
 
 KEPT = Limits(0.2, 11, 0.75, 0.3)
-
-
-def test_limits_are_read(tmp_path: Path) -> None:
-    file = tmp_path / "limits.toml"
-    file.write_text("largest_edge_error_px = 0.5\nfewest_views = 8\n")
-    assert read_limits(file) == Limits(largest_edge_error_px=0.5, fewest_views=8)
-    file.write_text("")
-    assert read_limits(file) == NO_LIMITS
-
-
-@pytest.mark.parametrize(
-    ("text", "problem"),
-    [
-        ("largest_edge_px = 0.5", "no limit 'largest_edge_px'"),
-        ("fewest_views = '8'", "fewest_views is not a finite number"),
-        ("fewest_views = true", "fewest_views is not a finite number"),
-        ("least_coverage = -0.1", "least_coverage is not a number from 0 on"),
-        ("least_coverage = nan", "least_coverage is not a finite number"),
-        (f"fewest_views = 1{'0' * 400}", "fewest_views is not a finite number"),
-        (f"fewest_views = {'[' * 3000}{']' * 3000}", "nests too deeply"),
-        (f"{'a.' * 3000}b = 1", "nests too deeply"),
-        ("fewest_views: 8", "not a TOML file"),
-    ],
-)
-def test_other_limits_are_refused_by_name(tmp_path: Path, text: str, problem: str) -> None:
-    file = tmp_path / "limits.toml"
-    file.write_text(text)
-    with pytest.raises(CalibrationError, match=problem) as caught:
-        read_limits(file)
-    assert "limits.toml" in caught.value.message
-    assert caught.value.hint
-    with pytest.raises(CalibrationError, match=r"none\.toml"):
-        read_limits(tmp_path / "none.toml")
 
 
 def test_a_camera_at_its_limits_passes() -> None:
@@ -85,3 +52,20 @@ def test_what_one_view_does_not_tell_is_no_number(error: float) -> None:
         "The error of a pixel at the image's edge is not determined, against the limit of 0.2 px.",
         "1 view is used, fewer than the limit of 11.",
     )
+
+
+def test_a_result_is_judged_by_the_same_limits(result: Result) -> None:
+    edge, covered = summarise_result(result).error.edge, summarise_result(result).coverage
+    kept = Limits(1.001 * edge, len(result.used), covered, length=LengthLimit(5.0, 50.0, 600.0))
+    assert list_broken_limits(result, kept) == ()
+    broken = Limits(
+        0.9 * edge, len(result.used) + 1, min(covered + 0.1, 1.0), length=LengthLimit(1e-6, 50, 600)
+    )
+    sentences = list_broken_limits(result, broken)
+    assert len(sentences) == 4
+    length = measure_length(result, broken)
+    assert length is not None
+    assert f"{length.sigma[length.worst]:.3g} mm, beyond the limit of 1e-06 mm" in sentences[-1]
+    assert "50 mm at 600 mm" in sentences[-1]
+    nowhere = Limits(length=LengthLimit(1.0, 5000.0, 600.0))
+    assert "not determined, against" in list_broken_limits(result, nowhere)[0]

@@ -1,0 +1,32 @@
+"""What a person states of a calibration for its report: the program cannot know it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+
+@dataclass(frozen=True, slots=True)
+class Details:
+    """What is stated of a calibration; empty of what is not."""
+
+    id: str = field(default="", metadata={"label": "Number of the report"})
+    operator: str = field(default="", metadata={"label": "Operator"})
+    laboratory: str = field(default="", metadata={"label": "Laboratory"})
+    place: str = field(default="", metadata={"label": "Place of calibration"})
+    temperature: str = field(default="", metadata={"label": "Temperature"})
+    customer: str = field(default="", metadata={"label": "Customer"})
+    camera: str = field(default="", metadata={"label": "Camera"})
+    camera_serial: str = field(default="", metadata={"label": "Serial number of the camera"})
+    lens: str = field(default="", metadata={"label": "Lens"})
+    lens_serial: str = field(default="", metadata={"label": "Serial number of the lens"})
+    setting: str = field(default="", metadata={"label": "Aperture, focus, zoom"})
+    condition: str = field(default="", metadata={"label": "Condition of the item"})
+    received: str = field(default="", metadata={"label": "Date of receipt"})
+    calibrated: str = field(default="", metadata={"label": "Date of calibration"})
+    board: str = field(default="", metadata={"label": "Identification of the board"})
+    board_certificate: str = field(default="", metadata={"label": "Certificate of the board"})
+    remarks: str = field(default="", metadata={"label": "Remarks"})
+    signatory: str = field(default="", metadata={"label": "Authorised by"})
+
+
+NO_DETAILS = Details()
