@@ -30,6 +30,7 @@ from calibgui.engine.boards import CHECKERBOARD, AprilGrid, Board, Pattern
 from calibgui.engine.errors import CalibrationError, MirroredError, NoBoardError
 from calibgui.engine.features import METHODS, Corners
 from calibgui.engine.images import Image, find_image_circle, mirror_orientation, read_image
+from calibgui.engine.lattices import LIKE_DOTS
 
 _MIN_PARTS = 3
 """Number of photographs in which the largest part of a board has one size, from which it counts as
@@ -357,7 +358,12 @@ def _is_worth_searching_again(view: View, grid_size: GridSize, pattern: Pattern)
     if view.corners is not None:
         is_numbered_alike = _get_first_tag(view.corners.pattern) == _get_first_tag(pattern)
         return view.corners.shape != grid_size or view.corners.relative or not is_numbered_alike
-    is_easier = view.roi is not None or pattern.identifies_points or not pattern.has_squares
+    is_easier = (
+        view.roi is not None
+        or pattern.identifies_points
+        or not pattern.has_squares
+        or LIKE_DOTS in view.reason
+    )
     return view.status is ViewStatus.NO_BOARD and is_easier
 
 
