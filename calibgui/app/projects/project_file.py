@@ -60,7 +60,7 @@ from calibgui.formats.node import Node
 from calibgui.formats.pattern_json import decode_pattern, encode_pattern
 from calibgui.formats.result_json import decode_result, encode_result
 from calibgui.formats.verdict_json import decode_verdict, encode_verdict
-from calibgui.formats.views_json import decode_views, encode_view
+from calibgui.formats.views_json import decode_field, decode_views, encode_view
 
 FORMAT = "calibgui-project"
 VERSION = 4
@@ -123,9 +123,11 @@ def encode_project(project: Project, folder: Path) -> dict[str, Any]:
     board = project.board or Board(2, 2, project.square, project.pattern)
     square = {"square_mm": project.square, "unit": project.unit}
     pattern = {"pattern": encode_pattern(project.pattern), "corners": project.method}
+    field = {} if project.field is None else {"field": project.field}
     return {
         "format": FORMAT,
         "version": VERSION,
+        **field,
         "target": {"rows": rows, "cols": cols, **square, **pattern},
         "lengths_confirmed": project.lengths_confirmed,
         "size": project.size,
@@ -241,6 +243,7 @@ def _decode_project(node: Node) -> Project:
         pattern=pattern,
         grid_size=_decode_grid_size(board.get("rows"), board.get("cols")),
         method=method.choice(METHODS) if (method := board.get("corners")) else METHODS[0],
+        field=decode_field(node.get("field")),
         square=square.number(),
         by_hand=by_hand.flag() if (by_hand := node.get("by_hand")) else False,
         unit=Unit(board["unit"].choice(list(Unit))),

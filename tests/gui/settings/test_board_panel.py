@@ -12,6 +12,7 @@ from PySide6.QtTest import QSignalSpy, QTest
 from PySide6.QtWidgets import QApplication, QComboBox
 from pytestqt.qtbot import QtBot
 
+from calibgui.app.photographs.interlacing import INTERLACED
 from calibgui.app.projects.document import Document
 from calibgui.app.projects.project import change_views, set_grid_size
 from calibgui.app.projects.project_file import read_project, write_project
@@ -21,6 +22,7 @@ from calibgui.engine.boards.board import Board
 from calibgui.engine.boards.charuco import Charuco
 from calibgui.engine.boards.checkerboard import CHECKERBOARD
 from calibgui.engine.boards.circle_grid import Circles
+from calibgui.engine.images import Field
 from calibgui.gui.dialogs.print_dialog import PrintDialog
 from calibgui.gui.session.session import Session, make_empty_document
 from calibgui.gui.settings.board_panel import BoardPanel
@@ -247,3 +249,25 @@ def test_marking_by_hand_is_for_one_project(session: Session, panel: BoardPanel)
     assert session.project.by_hand and panel.by_hand.isChecked()
     session.begin(make_empty_document())
     assert not session.project.by_hand and not panel.by_hand.isChecked()
+
+
+def test_a_field_of_interlaced_frames_is_chosen(
+    session: Session, panel: BoardPanel, tmp_path: Path
+) -> None:
+    """The choice is there where frames are interlaced; undo takes it back."""
+    session.begin(Document(examples.calibrated(tmp_path)))
+    assert not panel.field.isVisible()
+    session.edit(
+        "", lambda p: change_views(p, [p.views[0].image], lambda v: replace(v, note=INTERLACED))
+    )
+    assert panel.field.isVisible()
+    wanted = QSignalSpy(panel.search_wanted)
+    choose(panel.field, 1)
+    QTest.keyClick(panel.field, Qt.Key.Key_Return)
+    assert wanted.count() == 1
+    assert session.project.field is Field.ODD
+    assert all(view.field is Field.ODD for view in session.project.views)
+    write_project(session.project, tmp_path / "p.calib")
+    assert read_project(tmp_path / "p.calib").field is Field.ODD
+    session.document.undo()
+    assert session.project.field is None and panel.field.currentIndex() == 0
