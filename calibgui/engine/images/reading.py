@@ -52,8 +52,8 @@ _INVERSE = {6: 8, 8: 6}
 """EXIF orientations that another one takes back; each of the others takes back itself."""
 _FORMAT_HINT = "Use PNG, JPEG, TIFF, BMP, WebP or PGM with 8 or 16 bits."
 _HINTS = {
-    ForeignKind.VIDEO: "Commands that calibrate take a video as it is. For the window save frames "
-    "of it as PNG: `calibgui detect VIDEO` does so.",
+    ForeignKind.VIDEO: "What takes photographs to calibrate takes frames of a video as well; for "
+    "anything else save frames of it as PNG: `calibgui detect VIDEO` does so.",
     ForeignKind.HEIF: "`pip install 'calibgui[photos]'` reads it. Or save it as JPEG or PNG first, "
     "and set the phone to the compatible format.",
     ForeignKind.RAW: "`pip install 'calibgui[photos]'` reads it. Or save it as JPEG or TIFF in "
