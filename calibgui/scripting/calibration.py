@@ -104,7 +104,12 @@ def calibrate(
     else:
         choice = FrameChoice(frames, Path(frames_folder))
         found = _search(
-            paths, board, pattern, choice, tell, field and parse_choice(Field, field, "field")
+            paths,
+            board,
+            pattern,
+            choice,
+            tell,
+            None if field is None else parse_choice(Field, field, "field"),
         )
         corner_set, search = found.corner_set(square), True
     return _calibrate(corner_set, settings, search, tell)

@@ -82,7 +82,7 @@ class ListedCircles:
         if self.places is None:
             raise CalibrationError(
                 "It is not known where the circles of the board lie.",
-                "State the file that lists them: --layout FILE.",
+                "State the file that lists them.",
             )
         return self.places
 

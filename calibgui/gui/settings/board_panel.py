@@ -30,7 +30,7 @@ from calibgui.app.projects.project import (
     set_pattern,
 )
 from calibgui.engine.arrays import GridSize
-from calibgui.engine.boards import AprilGrid
+from calibgui.engine.boards import AprilGrid, ListedCircles, Pattern
 from calibgui.engine.images import Field
 from calibgui.gui.session.session import Session
 from calibgui.gui.settings.pattern_choice import PatternChoice
@@ -145,6 +145,7 @@ class BoardPanel(QWidget):
         form.addRow("", others)
 
         self.pattern.changed.connect(self._edit_pattern)
+        self.pattern.listed.connect(self._take_list)
         self.pattern.failed.connect(session.failed)
         self.inferred.clicked.connect(self._choose_counting)
         for box, other in ((self.rows, self.cols), (self.cols, self.rows)):
@@ -175,6 +176,9 @@ class BoardPanel(QWidget):
         self.method.setCurrentIndex(self.method.findData(project.method))
         circles = not project.pattern.has_squares
         self._form.setRowVisible(self.method, not circles)
+        is_listed = isinstance(project.pattern, ListedCircles)
+        for row in (1, 2):  # the numbers of rows and columns
+            self._form.setRowVisible(row, not is_listed)
         self.field.setCurrentIndex(self.field.findData(project.field))
         is_interlaced = any(INTERLACED in f"{view.note}{view.reason}" for view in project.views)
         self._form.setRowVisible(self.field, is_interlaced or project.field is not None)
@@ -251,6 +255,11 @@ class BoardPanel(QWidget):
     def _edit_pattern(self) -> None:
         pattern = self.pattern.pattern
         self._session.edit(self.tr("Pattern"), lambda p: set_pattern(p, pattern))
+        self.search_wanted.emit()
+
+    def _take_list(self, pattern: Pattern, pitch: float) -> None:
+        """Take a board of listed circles, whose lengths the list states."""
+        self._session.edit(self.tr("Pattern"), lambda p: set_square(set_pattern(p, pattern), pitch))
         self.search_wanted.emit()
 
     def _edit_method(self) -> None:

@@ -35,6 +35,7 @@ from calibgui.formats import IMPORTERS, read_camera
 from calibgui.formats.board_poses_json import read_board_poses
 from calibgui.formats.board_shape_json import read_board_shape, write_board_shape
 from calibgui.formats.camera_import import read_result_file
+from calibgui.formats.circle_list import read_circle_list
 from calibgui.formats.corner_import import read_corner_file
 from calibgui.formats.corners_json import encode_corners, read_corners
 from calibgui.formats.detections_json import read_detections, write_detections
@@ -274,6 +275,13 @@ def _list_other_readers(folder: Path) -> list[Reader]:
             _encode(_LOCATED),
             lambda file: read_pose(file, _PINHOLE, "a.png"),
             ("read_pose",),
+        ),
+        Reader(
+            "circle list",
+            "circles.csv",
+            b"x,y\n0,0\n20,0\n10,17\n30,17\n",
+            read_circle_list,
+            ("read_circle_list",),
         ),
         Reader("pixels", "points.csv", _PIXELS.encode(), read_points, ("read_points",)),
         Reader(

@@ -10,7 +10,7 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
-from calibgui.engine.arrays import Array, GridSize, IntArray, Size
+from calibgui.engine.arrays import Array, GridSize, Size
 from calibgui.engine.boards.listed_circles import ListedCircles
 from calibgui.engine.detection.circles.circle_map import fit_circle_map
 from calibgui.engine.detection.circles.coarse_search import (
@@ -46,15 +46,14 @@ def find_listed_circles(
     if pattern.places is None:
         raise NoBoardError(
             "It is not known where the circles of the board lie.",
-            "State the file that lists them: --layout FILE.",
+            "State the file that lists them.",
         )
     outline = None if roi is None else region.check_outline(roi)
-    match = _search(pattern, stretch_levels(grey), outline)
-    order = _choose_turn(pattern, match, outline)
-    centres, places = match.at[order], np.array(pattern.places)
+    centres, match = _search(pattern, stretch_levels(grey), outline)
+    centres, places = _turn_upright(pattern, centres, outline), np.array(pattern.places)
     seen = np.flatnonzero(np.isfinite(centres[:, 0]))
     fit, circles = measure_circles(
-        grey, centres[seen], places[seen], pattern, len(seen), is_part=True
+        grey, centres[seen], places[seen], pattern, match.in_view, is_part=True
     )
     good = circles.good
     grid, whole = pattern.grid[seen], np.array(pattern.grid_size) - 1
@@ -81,26 +80,26 @@ def find_listed_circles(
 
 def _search(
     pattern: ListedCircles, levels: npt.NDArray[np.uint8], outline: Array | None
-) -> LayoutMatch:
+) -> tuple[Array, LayoutMatch]:
     """Search an image (h, w) for the circles of the list: the first match whose place is certain,
-    or else the first, with the points where they are seen.
+    or else the first, after where it has the circles (n, 2) px, NaN where none is seen.
 
     Raises:
         NoBoardError: if there is none.
     """
     image, corner = crop_to_outline(levels, outline)
     n = len(pattern.grid)
-    first: LayoutMatch | None = None
+    first: tuple[Array, LayoutMatch] | None = None
     for search in list_searches(list_levels(image)):
         points = search.find_blobs(2 * n + 60, is_stated=True)
         size: Size = search.photograph.shape[1], search.photograph.shape[0]
         match = match_layout(points, pattern, size)
         if match is not None:
-            at = np.where(match.points[:, None] >= 0, points[match.points], match.at)
-            match = match._replace(at=(at + 0.5) * 2**search.depth - 0.5 + np.array(corner))
+            at = np.where(match.points[:, None] >= 0, points[match.points], np.nan)
+            found = (at + 0.5) * 2**search.depth - 0.5 + np.array(corner), match
             if match.is_certain:
-                return match
-            first = first or match
+                return found
+            first = first or found
     if first is None:
         raise NoBoardError(
             f"The {n} circles of the list were not found.",
@@ -110,12 +109,13 @@ def _search(
     return first
 
 
-def _choose_turn(pattern: ListedCircles, match: LayoutMatch, outline: Array | None) -> IntArray:
-    """Choose the order (n,) of the circles among the turns that leave the board as it is."""
+def _turn_upright(pattern: ListedCircles, centres: Array, outline: Array | None) -> Array:
+    """Return the centres (n, 2) px in the order of that turn of the board which is upright, among
+    those that leave it as it is, or begins nearest to the first of the marked points."""
     places = np.array(pattern.places)
     rated = []
     for _, order in pattern.list_turns():
-        at = match.at[order]
+        at = centres[order]
         seen = np.isfinite(at[:, 0])
         circle_map = fit_circle_map(places[seen], at[seen])
         right = circle_map.differentiate(places[seen])[..., 0].mean(axis=0)
@@ -123,5 +123,5 @@ def _choose_turn(pattern: ListedCircles, match: LayoutMatch, outline: Array | No
         if outline is not None:
             first = np.array([places.min(axis=0)])
             start = float(np.linalg.norm(circle_map.locate(first) - outline[0]))
-        rated.append((start, -round(float(right[0] / np.linalg.norm(right)), 6), order))
+        rated.append((start, -round(float(right[0] / np.linalg.norm(right)), 6), at))
     return min(rated, key=lambda rate: rate[:2])[2]

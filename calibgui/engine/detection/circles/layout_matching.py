@@ -24,11 +24,12 @@ import scipy
 from calibgui.engine.arrays import Array, BoolArray, IntArray, Size
 from calibgui.engine.boards.listed_circles import ListedCircles
 from calibgui.engine.detection.circles.thresholds import CIRCLE_THRESHOLDS
+from calibgui.engine.features.lattice import MIN_CORNERS
 from calibgui.engine.lattices.grid_map import RadialHomography, fit_radial_homography
 
-_NEIGHBOURS = 8
-"""Number of the nearest circles and points by which a circle is recognised: as many as surround one
-in a square grid."""
+_NEIGHBOURS = MIN_CORNERS - 1
+"""Number of the nearest circles and points by which a circle is recognised: with it they are as
+many as make the smallest lattice."""
 
 
 class LayoutMatch(NamedTuple):
@@ -36,8 +37,8 @@ class LayoutMatch(NamedTuple):
 
     points: IntArray
     """(n,) index of each circle's point, -1 where none is seen."""
-    at: Array
-    """(n, 2) px, where the circles are expected, NaN outside of the image."""
+    in_view: int
+    """Number of the circles that the image shows, or would if nothing covered them."""
     is_certain: bool
     """False if the points may as well be other circles."""
 
@@ -90,7 +91,7 @@ def match_layout(points: Array, pattern: ListedCircles, size: Size) -> LayoutMat
     return best._replace(is_certain=is_certain)
 
 
-def _is_enough(found: IntArray | int, in_view: IntArray | int) -> BoolArray:
+def _is_enough(found: IntArray, in_view: IntArray) -> BoolArray:
     """Return whether numbers of circles found are a layout's, of those in view."""
     share = 1 - CIRCLE_THRESHOLDS.max_rejected_share
     return np.asarray(found >= np.maximum(CIRCLE_THRESHOLDS.min_grid_circles, share * in_view))
@@ -159,23 +160,23 @@ def _grow_shifted(
     off[is_in_view] = tree.query(at[is_in_view])[0]
     A = grid_map.differentiate(middle[None])[0][0].T
     limit = CIRCLE_THRESHOLDS.max_prediction_error * np.linalg.svd(A, compute_uv=False)[-1]
-    hits = np.count_nonzero(off < limit, axis=1)
-    is_best = _is_enough(hits, np.count_nonzero(is_in_view, axis=1)) & (hits == hits.max())
+    hits = np.asarray(np.count_nonzero(off < limit, axis=1))
+    is_best = _is_enough(hits, np.asarray(is_in_view.sum(axis=1))) & (hits == hits.max())
     matches = []
     for circle in np.flatnonzero(is_best).tolist():
         again = _grow(_Seed(circle, seed.point, A), points, tree, places)
         if again is not None:
             expected = _locate_in_image(again[0], places, size)
-            in_view = np.count_nonzero(np.isfinite(expected[:, 0]))
-            if _is_enough(np.count_nonzero(again[1] >= 0), in_view):
-                matches.append(LayoutMatch(again[1], expected, is_certain=True))
+            in_view = np.isfinite(expected[:, 0]).sum()
+            if _is_enough((again[1] >= 0).sum(), in_view):
+                matches.append(LayoutMatch(again[1], int(in_view), is_certain=True))
     return matches
 
 
 def _locate_in_image(grid_map: RadialHomography, xy: Array, size: Size) -> Array:
     """Compute positions (n, 2) px of places (n, 2), NaN where the image does not show them."""
     at = grid_map.locate(xy)
-    is_inside = ((at >= 0) & (at <= np.array(size) - 1)).all(axis=1)
+    is_inside = np.asarray(((at >= 0) & (at <= np.array(size) - 1)).all(axis=1))
     return np.where(is_inside[:, None], at, np.nan)
 
 
