@@ -27,10 +27,6 @@ from calibgui.engine.detection.circles.thresholds import CIRCLE_THRESHOLDS
 from calibgui.engine.features.lattice import MIN_CORNERS
 from calibgui.engine.lattices.grid_map import RadialHomography, fit_radial_homography
 
-_NEIGHBOURS = MIN_CORNERS - 1
-"""Number of the nearest circles and points by which a circle is recognised: with it they are as
-many as make the smallest lattice."""
-
 
 class LayoutMatch(NamedTuple):
     """Points that are circles of a layout."""
@@ -65,7 +61,7 @@ def match_layout(points: Array, pattern: ListedCircles, size: Size) -> LayoutMat
     """
     places = np.array(pattern.places)
     fewest = CIRCLE_THRESHOLDS.min_grid_circles
-    if min(len(points), len(places)) < max(fewest, _NEIGHBOURS + 1):
+    if min(len(points), len(places)) < max(fewest, MIN_CORNERS):
         return None
     tree = scipy.spatial.cKDTree(points)
     middle = np.linalg.norm(points - np.median(points, axis=0), axis=1)
@@ -113,13 +109,13 @@ def _list_seeds(
 ) -> Iterator[_Seed]:
     """List the ways in which a point and those around it look like a circle and those around it,
     the most compact first, as the nearest points are a circle's neighbours unless it is tilted."""
-    count = _NEIGHBOURS + 1
+    count = MIN_CORNERS  # with itself: as many as make the smallest lattice
     around = np.asarray(scipy.spatial.cKDTree(places).query(places, k=count)[1])[:, 1:]
     offsets = places[around] - places[:, None]
     _, kinds = np.unique(_sort_rows(np.round(offsets, 1)), axis=0, return_index=True)
     ways = points[np.asarray(tree.query(points[point], k=count)[1])[1:]] - points[point]
     least = CIRCLE_THRESHOLDS.min_seed_sine
-    first, second = (each.ravel() for each in np.indices((_NEIGHBOURS, _NEIGHBOURS)))
+    first, second = (each.ravel() for each in np.indices((len(ways), len(ways))))
     sines = _cross(ways[first], ways[second]) / _norms(ways[first]) / _norms(ways[second])
     found: list[tuple[float, _Seed]] = []
     for kind in kinds.tolist():
@@ -186,19 +182,19 @@ def _grow(
     """Grow a match from a seed: the map, and the point of each circle (n,), -1 where there is none;
     None if too few hang together for a map."""
     beside = scipy.spatial.cKDTree(places)
-    near = np.asarray(beside.query(places[seed.circle], k=_NEIGHBOURS + 1)[1])
+    near = np.asarray(beside.query(places[seed.circle], k=MIN_CORNERS)[1])
     at = points[seed.point] + (places - places[seed.circle]) @ seed.A.T
     J = np.broadcast_to(seed.A, (len(places), 2, 2))
     found = _take_nearest(near, at, J, tree)
     grid_map: RadialHomography | None = None
     while True:
         known = np.flatnonzero(found >= 0)
-        if len(known) <= _NEIGHBOURS / 2:
+        if 2 * len(known) < MIN_CORNERS:
             return None
         grid_map = fit_radial_homography(places[known], points[found[known]])
         at = grid_map.locate(places)
         J = grid_map.differentiate(places)[0].transpose(0, 2, 1)
-        reach = np.asarray(beside.query(places, k=_NEIGHBOURS + 1)[1])
+        reach = np.asarray(beside.query(places, k=MIN_CORNERS)[1])
         tried = np.unique(reach[known])
         tried = tried[np.isfinite(at[tried]).all(axis=1) & np.isfinite(J[tried]).all(axis=(1, 2))]
         before, found = found, _take_nearest(tried, at, J, tree)
