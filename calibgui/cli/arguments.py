@@ -33,7 +33,7 @@ from calibgui.engine.arrays import GridSize
 from calibgui.engine.boards import CHECKERBOARD, Pattern
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.features import METHODS, MIN_LINES
-from calibgui.engine.images import FORMATS
+from calibgui.engine.images import FORMATS, Field
 from calibgui.formats import EXPORTERS, find_exporter
 from calibgui.formats.corner_import import SUFFIXES
 from calibgui.report.tables import list_unused_views
@@ -232,6 +232,14 @@ def add_search_options(parser: argparse.ArgumentParser) -> None:
 
     add_corner_method(parser)
     parser.add_argument(
+        "--field",
+        type=Field,
+        choices=list(Field),
+        metavar="FIELD",
+        help="use one field of interlaced frames, odd (the first row, the third ...) or even; the "
+        "rows between are interpolated",
+    )
+    parser.add_argument(
         "--frames",
         type=_parse_count,
         default=DEFAULT_FRAMES,
@@ -365,6 +373,7 @@ def search_images(
     corners: str = METHODS[0],
     pattern: Pattern | None = CHECKERBOARD,
     choice: FrameChoice = DEFAULT_CHOICE,
+    field: Field | None = None,
 ) -> Detection:
     """Find the images that `paths` name and search them for the board, showing progress.
 
@@ -387,6 +396,7 @@ def search_images(
                     lambda done, total, _: advance(done, total),
                     method=corners,
                     pattern=pattern,
+                    field=field,
                 )
 
         return search(pattern, grid_size) if pattern else find_any_board(search, grid_size)

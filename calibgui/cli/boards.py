@@ -9,14 +9,16 @@ from typing import Any
 
 from calibgui.cli.arguments import parse_length, parse_positive
 from calibgui.engine.arrays import GridSize
-from calibgui.engine.boards import CHECKERBOARD, FAMILIES, KINDS, Pattern
+from calibgui.engine.boards import CHECKERBOARD, FAMILIES, KINDS, ListedCircles, Pattern
 from calibgui.engine.errors import CalibrationError
+from calibgui.formats.circle_list import read_circle_list
 
 _PATTERN_OPTIONS = {
     "dictionary": "charuco",
     "marker": "charuco",
     "legacy": "charuco",
     "diameter": "circles",
+    "layout": "listed-circles",
     "family": "aprilgrid or tagged-checkerboard",
     "border": "aprilgrid or tagged-checkerboard",
     "from_top": "aprilgrid or tagged-checkerboard",
@@ -71,6 +73,13 @@ def add_board_options(
         help="diameter of a circle; measured if left out",
     )
     group.add_argument(
+        "--layout",
+        type=_read_layout,
+        metavar="FILE",
+        help="circles in places that no grid describes: a table of their x and y, mm, or JSON; "
+        "--square and --board follow from it",
+    )
+    group.add_argument(
         "--family", choices=list(FAMILIES), metavar="NAME", help="family of AprilTags, as t36h11"
     )
     group.add_argument(
@@ -120,6 +129,14 @@ def add_board_options(
     )
 
 
+def _read_layout(text: str) -> tuple[ListedCircles, float]:
+    """Read a list of circles, and their least distance, mm."""
+    try:
+        return read_circle_list(text)
+    except CalibrationError as error:
+        raise argparse.ArgumentTypeError(str(error)) from error
+
+
 def _parse_origin(text: str) -> GridSize:
     """Read the row and column of a corner, such as "50x100"."""
     match = re.fullmatch(r"(\d+)[x×*,](\d+)", text.strip())
@@ -131,9 +148,14 @@ def _parse_origin(text: str) -> GridSize:
 def read_pattern_options(options: argparse.Namespace) -> Pattern:
     """Return the pattern that `add_board_options`, --board, --square and --corners describe.
 
-    The program ends with a usage error if they do not go together.
+    What a list of circles says of --square and --board is set in `options`. The program ends with a
+    usage error if they do not go together.
     """
+    if options.layout is not None:
+        return _take_layout(options)
     target = options.target or CHECKERBOARD.kind
+    if target == ListedCircles().kind:
+        options.usage_error(f"--target {target} needs --layout FILE, which lists the circles")
     usual: Any = KINDS[target]
     stated = {
         name: getattr(options, name)
@@ -159,7 +181,24 @@ def read_pattern_options(options: argparse.Namespace) -> Pattern:
     return pattern
 
 
+def _take_layout(options: argparse.Namespace) -> ListedCircles:
+    """Return the pattern of --layout, with what else is stated of it."""
+    pattern: ListedCircles = options.layout[0]
+    pitch: float = options.layout[1]
+    if options.target not in (None, pattern.kind):
+        options.usage_error(f"--layout is for --target {pattern.kind}, not for {options.target}")
+    if options.square is not None or options.board is not None:
+        options.usage_error("--square and --board follow from --layout")
+    options.square, options.board = pitch, pattern.grid_size
+    try:
+        if options.diameter is not None:
+            pattern = replace(pattern, diameter=options.diameter / pitch)
+    except CalibrationError as error:
+        options.usage_error(str(error))
+    return pattern
+
+
 def is_pattern_open(options: argparse.Namespace) -> bool:
     """Return whether neither the board's pattern is stated nor its place, so that the photographs
     are to tell the pattern."""
-    return options.target is None and options.roi is None
+    return options.target is None and options.layout is None and options.roi is None

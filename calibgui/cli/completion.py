@@ -12,14 +12,27 @@ from pathlib import Path
 
 import shtab
 
+from calibgui.app.calibrating.settings import AUTO_MODEL, MODEL_CHOICES
 from calibgui.cli.console import Console
 from calibgui.cli.parser import Parser, build_parser
 from calibgui.cli.parser import configure as configure_command
+from calibgui.engine import opencv
+from calibgui.engine.boards import BoardShapeModel
+from calibgui.formats import EXPORTERS
 
 SHELLS = ("bash", "zsh", "fish")
 """Shells that a script can be printed for."""
 _FOLDERS = ("DIR", "OUT")
 """Words that the help has for folders."""
+_FORMATS = [f"{name}=camera{each.suffixes[0]}" for name, each in EXPORTERS.items()]
+_WORDS = {
+    "--model": [AUTO_MODEL, *MODEL_CHOICES],
+    "--board-shape": ["auto", *BoardShapeModel],
+    "--dictionary": opencv.list_dictionaries(),
+    "--export": _FORMATS,
+    "--for": _FORMATS,
+}
+"""Values of options that take others too, or whose parsers know them."""
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
@@ -34,14 +47,17 @@ def run(options: argparse.Namespace, console: Console) -> None:
     parser, parsers = build_parser()
     for name, each in parsers.items():
         configure_command(name, each)
-        _complete_files(each)
+        _complete_values(each)
     console.print_text(shtab.complete(parser, options.shell))
 
 
-def _complete_files(parser: Parser) -> None:
-    """Let the values of arguments that are files or folders be completed as such."""
+def _complete_values(parser: Parser) -> None:
+    """Let values of arguments be completed: those that are known, files, and folders."""
     for action in parser._actions:
-        if action.metavar in _FOLDERS:
+        words = next((_WORDS[name] for name in action.option_strings if name in _WORDS), None)
+        if words is not None:
+            action.choices = words
+        elif action.metavar in _FOLDERS:
             action.complete = shtab.DIRECTORY  # type: ignore[attr-defined]
         elif action.type is Path or action.metavar == "PATH":
             action.complete = shtab.FILE  # type: ignore[attr-defined]

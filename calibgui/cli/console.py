@@ -75,16 +75,24 @@ class Console:
 
     @contextlib.contextmanager
     def show_progress(self, what: str, unit: str = "image") -> Iterator[Advance]:
-        """Show a progress bar on stderr, unless nobody watches."""
+        """Show a progress bar on stderr, unless nobody watches.
+
+        Until a number of all is known the bar says what is done and for how long: a count without
+        an end tells nobody anything.
+        """
         if self._is_unwatched:
             yield lambda done, total: None  # noqa: ARG005 - nobody is told
             return
-        with _load_tqdm()(desc=what, unit=unit, leave=False, file=sys.stderr) as bar:
+        endless = "{desc}: {elapsed}"
+        with _load_tqdm()(
+            desc=what, unit=unit, leave=False, file=sys.stderr, bar_format=endless
+        ) as bar:
 
             def advance(done: int, total: int) -> None:
-                if not total:  # a count without an end tells nobody anything
-                    bar.bar_format = "{desc}: {elapsed}"
-                bar.total = total
+                if total != bar.total:
+                    bar.total = total
+                    bar.bar_format = None if total else endless
+                    bar.refresh()
                 bar.update(done - bar.n)
 
             yield advance

@@ -54,9 +54,11 @@ def add_corner_options(parser: argparse.ArgumentParser, need: str) -> None:
 def check_corner_options(options: argparse.Namespace) -> None:
     """End the program if the options on board and search do not fit the paths."""
     if is_corners_file(options.paths):
-        if options.roi or options.target or options.corners != METHODS[0]:
+        searched = (options.roi, options.target, options.layout, options.field)
+        if any(searched) or options.corners != METHODS[0]:
             options.usage_error(
-                "--roi, --target and --corners are for photographs, not for a corners file"
+                "--roi, --target, --layout, --field and --corners are for photographs, not for a "
+                "corners file"
             )
     elif any(is_corners_file([path]) for path in options.paths):
         options.usage_error("a corners file is calibrated by itself")
@@ -103,6 +105,7 @@ def search_board(options: argparse.Namespace, console: Console) -> tuple[CornerS
         options.corners,
         None if is_open else pattern,
         FrameChoice(options.frames, _choose_frames_folder(options)),
+        options.field,
     )
     require_board(detection, options.board, console, is_open)
     corner_set = detection.corner_set(options.square, options.square_sigma)

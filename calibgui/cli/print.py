@@ -30,9 +30,11 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "board",
         type=parse_grid_size,
+        nargs="?",
         metavar="BOARD",
         help="rows and columns of inner corners or circles, as 6x9; of an AprilGrid two for each "
-        "tag. One odd and one even number let all views of a checkerboard find the same origin",
+        "tag. One odd and one even number let all views of a checkerboard find the same origin. "
+        "Left out with --layout",
     )
     add_board_options(parser, "Properties that are not given are as usual.")
     add_square_option(parser, "as large as the paper allows, in whole mm, if left out")
@@ -58,7 +60,10 @@ def configure(parser: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace, console: Console) -> None:
     """Write the board, and say what it is and how to print it."""
     check_outputs([(options.output, FIGURE)], [], options.overwrite)
-    pattern = complete_pattern(read_pattern_options(options), options.board)
+    pattern = read_pattern_options(options)
+    if options.board is None:
+        options.usage_error("BOARD is needed, as 6x9")
+    pattern = complete_pattern(pattern, options.board)
     square = options.square or choose_square(pattern, options.board, options.paper)
     rows, cols = options.board
     board = Board(rows, cols, square, pattern)

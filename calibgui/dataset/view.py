@@ -13,6 +13,7 @@ from calibgui.engine.boards import Board
 from calibgui.engine.calibration import Observation
 from calibgui.engine.camera import ImageCircle
 from calibgui.engine.features import Corners
+from calibgui.engine.images import Field
 
 _TOO_FEW_CORNERS = (
     "The few corners found do not tell where the board is: at least 4 do, in two rows and two "
@@ -56,6 +57,8 @@ class View:
     orientation: int | None = None
     """EXIF orientation by which the image's pixels are turned, 1 to 8, the same for all photographs
     of a camera (``app/photographs/sensor_frame.py``); None for that which the file states."""
+    field: Field | None = None
+    """The field of an interlaced frame that is searched; None for all of its rows."""
     circle: ImageCircle | None = None
     """The part of the image that the lens lights; None where it fills all of it."""
     enabled: bool = True

@@ -40,6 +40,10 @@ if TYPE_CHECKING:
     from calibgui.engine.boards.charuco import Charuco as Charuco
     from calibgui.engine.boards.checkerboard import Checkerboard as Checkerboard
     from calibgui.engine.boards.circle_grid import Circles as Circles
+    from calibgui.engine.boards.listed_circles import (
+        ListedCircles as ListedCircles,
+        list_circles as list_circles,
+    )
     from calibgui.engine.boards.pattern import Symmetry as Symmetry
     from calibgui.engine.boards.puzzleboard import PuzzleBoard as PuzzleBoard
     from calibgui.engine.boards.shape import (
@@ -110,6 +114,7 @@ load_on_demand(
         "boards.charuco": ["Charuco"],
         "boards.checkerboard": ["Checkerboard"],
         "boards.circle_grid": ["Circles"],
+        "boards.listed_circles": ["ListedCircles", "list_circles"],
         "boards.pattern": ["Symmetry"],
         "boards.puzzleboard": ["PuzzleBoard"],
         "boards.shape": ["BoardShape", "BoardShapeModel", "BoardShapePrior"],

@@ -6,6 +6,7 @@ pattern         left out for a checkerboard; else its `kind` and its known prope
   charuco             dictionary (OpenCV's name), marker (over the square), legacy (layout)
   circles             diameter (over the distance)
   asymmetric-circles  diameter (over the distance of the rows)
+  listed-circles      places of the circles (X, Y, over their least distance), diameter (likewise)
   aprilgrid           family and border (cells) of the tags, spacing (gap over a tag's side),
                       from_top (the order of the tags), corner_squares (whether small dark
                       squares stand between their corners), first_tag (its number)
@@ -50,12 +51,17 @@ def decode_pattern(node: Node | None) -> Pattern:
     return pattern
 
 
+def _read_places(node: Node) -> tuple[tuple[float, float], ...]:
+    return tuple((x, y) for x, y in node.numbers(None, 2).tolist())
+
+
 def _read_grid_index(node: Node) -> GridSize:
     row, col = node.integers(2).tolist()
     return row, col
 
 
-_FIELD_READERS: Mapping[str, Callable[[Node], str | float | bool | GridSize]] = {
+_FIELD_READERS: Mapping[str, Callable[[Node], Any]] = {
+    "places": _read_places,
     "dictionary": Node.text,
     "marker": Node.number,
     "legacy": Node.flag,

@@ -6,6 +6,7 @@
     enabled  true if the user wants it          roi     (4, 2) px, where given by the user
     note     how its corners were found, if unusual
     orientation  EXIF orientation by which the pixels were turned, where known
+    field    "odd" or "even", where the image is interlaced and one field of it was searched
     circle   [u, v, radius], px: what the lens lights of the image, unless it is all
 
 and for corners found on a board of known layout their `grid` (row, column), the board's
@@ -26,6 +27,7 @@ from calibgui.engine.boards import CHECKERBOARD, Board, Symmetry
 from calibgui.engine.calibration import Observation
 from calibgui.engine.camera import ImageCircle
 from calibgui.engine.features import Corners, OtherBoard
+from calibgui.engine.images import Field
 from calibgui.formats.node import Node
 from calibgui.formats.pattern_json import decode_pattern, encode_pattern
 
@@ -42,6 +44,8 @@ def encode_view(view: View, board: Board | None) -> dict[str, Any]:
         record["note"] = view.note
     if view.orientation is not None:
         record["orientation"] = view.orientation
+    if view.field is not None:
+        record["field"] = view.field
     if view.roi is not None:
         record["roi"] = view.roi
     if view.circle is not None:
@@ -104,9 +108,15 @@ def _decode_view(node: Node, k: int, board: Board | None) -> View:
         points=points if len(uv) and not on_board else None,
         roi=roi.numbers(4, 2) if (roi := node.get("roi")) else None,
         orientation=_decode_orientation(node.get("orientation")),
+        field=decode_field(node.get("field")),
         circle=decode_circle(node.get("circle")),
         enabled=enabled.flag() if (enabled := node.get("enabled")) else True,
     )
+
+
+def decode_field(node: Node | None) -> Field | None:
+    """Return the field of its name; None of nothing."""
+    return None if node is None else Field(node.choice(list(Field)))
 
 
 def decode_circle(node: Node | None) -> ImageCircle | None:

@@ -11,6 +11,7 @@ from calibgui.engine.boards import (
     Board,
     Charuco,
     Circles,
+    ListedCircles,
     Pattern,
     PuzzleBoard,
     TaggedCheckerboard,
@@ -21,6 +22,7 @@ _KINDS = {
     "charuco": "a ChArUco board",
     "circles": "a grid of circles",
     "asymmetric-circles": "an asymmetric grid of circles",
+    "listed-circles": "a board of listed circles",
     "aprilgrid": "an AprilGrid",
     "tagged-checkerboard": "a checkerboard with AprilTags",
     "puzzleboard": "a PuzzleBoard",
@@ -29,7 +31,7 @@ _KINDS = {
 
 def name_point(board: Board | None) -> str:
     """Name what is measured of a board: "circle" or "corner"."""
-    return "circle" if board is not None and isinstance(board.pattern, Circles) else "corner"
+    return "corner" if board is None or board.pattern.has_squares else "circle"
 
 
 def describe_board(board: Board) -> str:
@@ -48,6 +50,10 @@ def describe_board(board: Board) -> str:
         text = f"{kind} grid of {rows} x {cols} circles"
         size = pattern.diameter
         return text if size is None else f"{text}, diameter {size:.3f} of their distance"
+    if isinstance(pattern, ListedCircles):
+        text = f"Board of {len(pattern.grid)} listed circles"
+        size = pattern.diameter
+        return text if size is None else f"{text}, diameter {size:.3f} of their least distance"
     if isinstance(pattern, AprilGrid):
         text = f"AprilGrid of {rows / 2:g} x {cols / 2:g} tags, {rows} x {cols} corners"
         text += _describe_tags(pattern.family, pattern.border, pattern.from_top)

@@ -30,6 +30,7 @@ from calibgui.engine.arrays import GridSize, Size
 from calibgui.engine.boards import BoardShape, BoardShapeModel, BoardShapePrior, Pattern
 from calibgui.engine.calibration import make_observation
 from calibgui.engine.errors import parse_choice
+from calibgui.engine.images import Field
 from calibgui.formats.corner_import import SUFFIXES, read_corner_file
 from calibgui.formats.result_json import read_result
 from calibgui.scripting.calibrated_camera import CalibratedCamera
@@ -68,6 +69,7 @@ def calibrate(
     size: Size | None = None,
     frames: int = DEFAULT_FRAMES,
     frames_folder: File = "",
+    field: str | None = None,
     progress: Progress | None = None,
     **choices: Unpack[Choices],
 ) -> CalibratedCamera:
@@ -86,6 +88,7 @@ def calibrate(
         frames: number of frames to take of each video.
         frames_folder: where a video's frames are written, in a folder of their own; the current one
             by default.
+        field: "odd" or "even" to use one field of interlaced frames.
         progress: a function that is told of the progress.
         choices: what is stated of the calibration, see `Choices`.
 
@@ -103,7 +106,14 @@ def calibrate(
         corner_set, search = read_corner_file(paths[0], board, square, size, square_sigma), False
     else:
         choice = FrameChoice(frames, Path(frames_folder))
-        found = _search(paths, board, pattern, choice, tell)
+        found = _search(
+            paths,
+            board,
+            pattern,
+            choice,
+            tell,
+            None if field is None else parse_choice(Field, field, "field"),
+        )
         corner_set, search = found.corner_set(square, square_sigma), True
     return _calibrate(corner_set, settings, search, tell)
 
@@ -191,6 +201,7 @@ def _search(
     pattern: Pattern | None,
     choice: FrameChoice,
     tell: Progress,
+    field: Field | None,
 ) -> Detection:
     """Search photographs for the board. Raises CalibrationError if none shows it."""
 
@@ -201,6 +212,7 @@ def _search(
                 grid_size,
                 progress=lambda done, total, _: tell("searching", done, total),
                 pattern=pattern,
+                field=field,
             )
 
         return search(pattern, board) if pattern else find_any_board(search, board)

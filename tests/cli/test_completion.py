@@ -44,6 +44,15 @@ def test_every_command_and_option_is_in_the_script(
         ("calibgui calibrate photos --target", "cha", "charuco"),
         ("calibgui calibrate photos -o", "resu", "result.json"),
         ("calibgui detect", "phot", "photos"),
+        ("calibgui calibrate photos --model", "rat", "rational"),
+        ("calibgui convert result.json --model", "rat", "rational"),
+        ("calibgui calibrate photos --export", "ros", "ros=camera.yaml"),
+        ("calibgui calibrate photos --for", "kal", "kalibr=camera.yaml"),
+        ("calibgui calibrate photos --board-shape", "aff", "affine"),
+        ("calibgui detect photos --dictionary", "DICT_5X5_25", "DICT_5X5_250"),
+        ("calibgui detect photos --frames-folder", "phot", "photos"),
+        ("calibgui undistort result.json photos -o", "", "photos"),
+        ("calibgui undistort result.json", "phot", "photos"),
     ],
 )
 def test_bash_completes(

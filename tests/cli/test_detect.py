@@ -16,6 +16,7 @@ from calibgui.cli.arguments import search_images
 from calibgui.cli.main import main
 from calibgui.engine.boards.board import Board
 from calibgui.engine.boards.charuco import Charuco
+from calibgui.engine.images import Field
 from calibgui.engine.images.reading import write_image
 from calibgui.formats.corners_json import read_corners
 from tests.engine.conftest import Scene
@@ -137,3 +138,16 @@ def test_no_readable_image_is_a_failure(tmp_path: Path, capsys: Capture) -> None
     (tmp_path / "text.png").write_text("no image")
     assert main(["detect", str(tmp_path)]) == 1
     assert "text.png is not an image" in capsys.readouterr().err
+
+
+def test_one_field_of_interlaced_frames_is_used(
+    photographs: Path, tmp_path: Path, capsys: Capture
+) -> None:
+    file = tmp_path / "corners.json"
+    image = str(photographs / "view1.png")
+    assert main(["detect", image, "--square", "30", "--field", "even", "-o", str(file)]) == 0
+    (view,) = read_corners(file).views
+    assert view.field is Field.EVEN and view.corners is not None
+    with pytest.raises(SystemExit):
+        main(["calibrate", str(file), "--field", "odd"])
+    assert "for photographs" in capsys.readouterr().err

@@ -12,6 +12,7 @@ import pytest
 from calibgui.app.photographs.board_recognition import find_other_pattern
 from calibgui.app.photographs.detection import find_views
 from calibgui.cli.main import main
+from calibgui.dataset import View
 from calibgui.engine.boards.board import Board
 from calibgui.engine.boards.checkerboard import CHECKERBOARD
 from calibgui.engine.boards.puzzleboard import PuzzleBoard
@@ -64,7 +65,7 @@ def test_counted_from_the_whole_pattern_if_nothing_is_stated(folder: Path) -> No
 
 def test_it_is_recognised_when_another_board_is_stated(folder: Path) -> None:
     images = [str(folder / f"view{k}.png") for k in (0, 1)]
-    assert find_other_pattern(images, CHECKERBOARD) == PuzzleBoard()
+    assert find_other_pattern([View(str(image)) for image in images], CHECKERBOARD) == PuzzleBoard()
 
 
 @pytest.mark.parametrize(

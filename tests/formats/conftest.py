@@ -14,6 +14,7 @@ from calibgui.engine.boards.pattern import Symmetry
 from calibgui.engine.calibration.observations import Observation
 from calibgui.engine.camera.camera import Camera
 from calibgui.engine.features.corners import Corners, OtherBoard
+from calibgui.engine.images.fields import Field
 from tests.engine import scenes
 
 BOARD = Board(rows=6, cols=8, square=30.0)
@@ -30,7 +31,7 @@ def solved(camera: Camera, model: str = "lucchese", weighted: bool = False, **op
     foreign = Observation(noisy[2].uv, noisy[2].xy, _covariances(48) if weighted else None)
     views[2] = View("foreign.png", ViewStatus.FOUND, points=foreign)
     views[3] = replace(views[3], enabled=False, roi=np.array([[0, 0], [9, 0], [9, 9], [0, 9.5]]))
-    views[4] = replace(views[4], orientation=6)
+    views[4] = replace(views[4], orientation=6, field=Field.EVEN)
     views.insert(0, View("dark.png", ViewStatus.NO_BOARD, "No board: the image is dark."))
     views.append(View("later.png"))
     used = [view.observation(BOARD) for view in views if view.usable]

@@ -149,7 +149,7 @@ def redetect_view(view: View, calibration: Calibration, grid_size: GridSize) -> 
     """
     before = view.corners
     try:
-        image = read_image(view.image, view.orientation)
+        image = read_image(view.image, view.orientation, view.field)
         if image.size != calibration.camera.size:  # searched while the camera's was not known
             return view
         corners = redetection.redetect_corners(image.pixels, calibration, grid_size, before)

@@ -23,6 +23,7 @@ from calibgui.engine.boards import (
     Board,
     Charuco,
     Circles,
+    ListedCircles,
     Pattern,
     PrintedDiscs,
     PrintedRectangles,
@@ -191,7 +192,7 @@ def complete_pattern(pattern: Pattern, grid_size: GridSize) -> Pattern:
         return Charuco(
             pattern.dictionary or dictionary, pattern.marker or 0.75, bool(pattern.legacy)
         )
-    if isinstance(pattern, Circles):
+    if isinstance(pattern, Circles | ListedCircles):
         return replace(pattern, diameter=pattern.diameter or pattern.half_distance)
     if isinstance(pattern, AprilGrid):
         return AprilGrid(
@@ -225,6 +226,8 @@ def count_points(pattern: Pattern, printed: GridSize) -> GridSize:
     """Return the rows and columns of points of a board of which rows x columns squares, tags or
     circles are printed."""
     rows, cols = printed
+    if isinstance(pattern, ListedCircles) and pattern.places is not None:
+        return pattern.grid_size
     if isinstance(pattern, AprilGrid):
         return 2 * rows, 2 * cols
     return (rows - 1, cols - 1) if pattern.has_squares else printed

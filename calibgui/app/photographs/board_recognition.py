@@ -27,7 +27,7 @@ from calibgui.engine.arrays import GridSize
 from calibgui.engine.boards import CHECKERBOARD, KINDS, Pattern
 from calibgui.engine.errors import CalibrationError, UnknownPartError
 from calibgui.engine.features import Corners
-from calibgui.engine.images import read_image
+from calibgui.engine.images import Pixels, read_image
 from calibgui.report.boards import name_kind
 
 _KINDS_MARKED_IN_SQUARES = ("charuco", "tagged-checkerboard")
@@ -103,28 +103,32 @@ def _format_size(size: GridSize) -> str:
     return f"{size[0]}x{size[1]}"
 
 
-def choose_samples(views: Iterable[View]) -> list[str]:
-    """Return the images in which other boards are looked for where the stated one is in none.
+def choose_samples(views: Iterable[View]) -> list[View]:
+    """Return the views in which other boards are looked for where the stated one is in none.
 
     They are spread over all that were searched: the first one, that in the middle, those between.
     """
     searched = (ViewStatus.FOUND, ViewStatus.NO_BOARD)
-    images = [view.image for view in views if view.status in searched]
+    images = [
+        View(view.image, orientation=view.orientation, field=view.field)
+        for view in views
+        if view.status in searched
+    ]
     count = min(len(images), _MAX_SAMPLES)
-    spread = [images[k * len(images) // count] for k in range(count)]
+    spread = [k * len(images) // count for k in range(count)]
     first = spread[:: max(1, -(-count // _FIRST_SAMPLES))]
-    return list(dict.fromkeys([*first, *spread]))
+    return [images[k] for k in dict.fromkeys([*first, *spread])]
 
 
 def find_grid_size(
-    images: Sequence[str], pattern: Pattern, stop: Event | None = None
+    images: Sequence[View], pattern: Pattern, stop: Event | None = None
 ) -> GridSize | None:
     """Return the size of the board that some of the `images` show, None if that is none.
 
     Raises:
         Cancelled: if `stop` was set.
     """
-    found = map_in_processes(partial(search_view, pattern=pattern), [View(i) for i in images], stop)
+    found = map_in_processes(partial(search_view, pattern=pattern), images, stop)
     return infer_grid_size(view for _, view in found if isinstance(view, View))
 
 
@@ -183,24 +187,24 @@ def recognise_pattern(
         return find_other_pattern(samples, CHECKERBOARD, stop)
     view, corners = max(found, key=lambda pair: len(pair[1]))
     try:
-        marks = detectors.look_for_marks(read_image(view.image, view.orientation).pixels, corners)
+        marks = detectors.look_for_marks(_read_pixels(view), corners)
     except CalibrationError:  # the file has changed since it was searched
         return None
     kinds = (
         *(_KINDS_MARKED_IN_SQUARES if marks.in_squares else ()),
         *(_KINDS_MARKED_ON_EDGES if marks.on_edges else ()),
     )
-    tries = [(view.image, KINDS[kind]) for kind in kinds]
-    for image, pattern in tries:
-        if isinstance(_search_image((image, pattern)), Corners):
-            return pattern
+    tries = [(view, KINDS[kind]) for kind in kinds]
+    for attempt in tries:
+        if isinstance(_search_image(attempt), Corners):
+            return attempt[1]
     if (mirrored := next(filter(None, map(_search_mirror_image, tries)), None)) is not None:
         raise CalibrationError(*_describe_mirroring(mirrored.pattern))
     return None
 
 
 def find_other_pattern(
-    images: Iterable[str],
+    images: Iterable[View],
     stated: Pattern,
     stop: Event | None = None,
 ) -> Pattern | None:
@@ -216,7 +220,7 @@ def find_other_pattern(
     return _find_best_pattern(images, others, _search_image, stop)
 
 
-def find_mirrored_pattern(images: Iterable[str], stop: Event | None = None) -> Pattern | None:
+def find_mirrored_pattern(images: Iterable[View], stop: Event | None = None) -> Pattern | None:
     """Return the pattern whose marks can be read in mirror images of some `images`, else None.
 
     Programs for video calls mirror pictures, which no mark on a board survives. Patterns without
@@ -230,9 +234,9 @@ def find_mirrored_pattern(images: Iterable[str], stop: Event | None = None) -> P
 
 
 def _find_best_pattern(
-    images: Iterable[str],
+    images: Iterable[View],
     patterns: Sequence[Pattern],
-    search: Callable[[tuple[str, Pattern]], Corners | UnknownPartError | None],
+    search: Callable[[tuple[View, Pattern]], Corners | UnknownPartError | None],
     stop: Event | None,
 ) -> Pattern | None:
     """Return the pattern that `search` finds in most images, of several that with most corners.
@@ -258,21 +262,26 @@ def _find_best_pattern(
     return KINDS[best] if best else None
 
 
-def _search_image(attempt: tuple[str, Pattern]) -> Corners | UnknownPartError | None:
+def _read_pixels(view: View) -> Pixels:
+    """Read the image of a view as it is searched. Raises CalibrationError as `read_image`."""
+    return read_image(view.image, view.orientation, view.field).pixels
+
+
+def _search_image(attempt: tuple[View, Pattern]) -> Corners | UnknownPartError | None:
     """Search an image; an error says that marks were read which do not tell its corners."""
-    image, pattern = attempt
+    view, pattern = attempt
     try:
-        return detectors.find_corners(read_image(image).pixels, pattern=pattern)
+        return detectors.find_corners(_read_pixels(view), pattern=pattern)
     except UnknownPartError as error:
         return error
     except CalibrationError:
         return None
 
 
-def _search_mirror_image(attempt: tuple[str, Pattern]) -> Corners | None:
+def _search_mirror_image(attempt: tuple[View, Pattern]) -> Corners | None:
     """Search an image with left and right exchanged; the corners are in that one's frame."""
-    image, pattern = attempt
+    view, pattern = attempt
     try:
-        return detectors.find_corners(read_image(image).pixels[:, ::-1], pattern=pattern)
+        return detectors.find_corners(_read_pixels(view)[:, ::-1], pattern=pattern)
     except CalibrationError:
         return None

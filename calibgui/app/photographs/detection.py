@@ -29,7 +29,14 @@ from calibgui.engine.arrays import Array, GridSize, Size
 from calibgui.engine.boards import CHECKERBOARD, AprilGrid, Board, Pattern
 from calibgui.engine.errors import CalibrationError, MirroredError, NoBoardError
 from calibgui.engine.features import METHODS, Corners
-from calibgui.engine.images import Image, find_image_circle, mirror_orientation, read_image
+from calibgui.engine.images import (
+    Field,
+    Image,
+    find_image_circle,
+    mirror_orientation,
+    read_image,
+)
+from calibgui.engine.lattices import LIKE_DOTS
 
 _MIN_PARTS = 3
 """Number of photographs in which the largest part of a board has one size, from which it counts as
@@ -96,6 +103,7 @@ def find_views(
     method: str = METHODS[0],
     pattern: Pattern = CHECKERBOARD,
     search_image: SearchImage | None = None,
+    field: Field | None = None,
 ) -> Detection:
     """Search all images for the board, on all processors.
 
@@ -112,12 +120,13 @@ def find_views(
         method: of locating corners, one of ``features.METHODS``.
         pattern: of the board; its unknown properties are inferred from the whole set.
         search_image: does what `search_view` does, as one that remembers; `search_view` if None.
+        field: the field of interlaced frames to search; all rows if None.
 
     Raises:
         Cancelled: if `stop` was set.
     """
     rois = rois or {}
-    waiting = [View(str(path), roi=rois.get(path)) for path in images]
+    waiting = [View(str(path), roi=rois.get(path), field=field) for path in images]
     views, usual_size = share_frame(waiting, size, orientation)
     unsearched = list(views)
     searches = 0
@@ -195,11 +204,12 @@ def search_view(
 ) -> View:
     """Return the view with the corners found in its image, or the reason why there are none."""
     try:
-        image = read_image(view.image, view.orientation)
+        image = read_image(view.image, view.orientation, view.field)
     except CalibrationError as error:
         return view.refuse(ViewStatus.UNREADABLE, str(error))
     view = replace(view, circle=find_image_circle(image.pixels))
-    interlaced = INTERLACED if is_interlaced(image.pixels) else ""
+    is_combed = view.field is None and is_interlaced(image.pixels)
+    interlaced = INTERLACED if is_combed else ""
     doubt = " ".join(filter(None, (_describe_zero_tail(image), interlaced)))
     try:
         corners = detection.find_corners(image.pixels, grid_size, view.roi, method, pattern=pattern)
@@ -360,7 +370,12 @@ def _is_worth_searching_again(view: View, grid_size: GridSize, pattern: Pattern)
     if view.corners is not None:
         is_numbered_alike = _get_first_tag(view.corners.pattern) == _get_first_tag(pattern)
         return view.corners.shape != grid_size or view.corners.relative or not is_numbered_alike
-    is_easier = view.roi is not None or pattern.identifies_points or not pattern.has_squares
+    is_easier = (
+        view.roi is not None
+        or pattern.identifies_points
+        or not pattern.has_squares
+        or LIKE_DOTS in view.reason
+    )
     return view.status is ViewStatus.NO_BOARD and is_easier
 
 

@@ -15,7 +15,7 @@ import numpy.typing as npt
 from calibgui.engine import opencv
 from calibgui.engine.arrays import Size
 from calibgui.engine.files import open_regular
-from calibgui.engine.images import Image, read_image, stretch_levels
+from calibgui.engine.images import Field, Image, read_image, stretch_levels
 
 MAX_MEMORY_BYTES = 100_000_000
 """Memory that whole images may take together, bytes: 8 of 12 megapixels. Chosen so that the window
@@ -75,15 +75,18 @@ class ImageStore:
         memory: the limit, bytes.
         find_orientation: returns the EXIF orientation by which the image of a path is turned, None
             for that which its file states.
+        find_field: returns the field of it that is shown, None for all rows.
     """
 
     def __init__(
         self,
         memory: int = MAX_MEMORY_BYTES,
         find_orientation: Callable[[str], int | None] = lambda _: None,
+        find_field: Callable[[str], Field | None] = lambda _: None,
     ) -> None:
         self._memory = memory
         self._find_orientation = find_orientation
+        self._find_field = find_field
         self._kept: OrderedDict[str, Image] = OrderedDict()
         self._lock = threading.Lock()
 
@@ -101,9 +104,10 @@ class ImageStore:
             CalibrationError: as ``read_image``.
         """
         image = self.kept(path)
-        orientation = self._find_orientation(path)
-        if image is None or orientation not in (None, image.orientation):
-            image = read_image(path, orientation)
+        orientation, field = self._find_orientation(path), self._find_field(path)
+        is_turned = image is not None and orientation not in (None, image.orientation)
+        if image is None or is_turned or image.field != field:
+            image = read_image(path, orientation, field)
             with self._lock:
                 self._kept[path] = image
                 while self.size > self._memory and len(self._kept) > 1:

@@ -8,8 +8,8 @@ energy noise raises alike whatever rows are compared, tell a comb: with the rows
     one apart   E1 = sum (I(v - 1) - 2 I(v) + I(v + 1))^2,
     two apart   E2 = sum (I(v - 2) - 2 I(v) + I(v + 2))^2.
 
-Whoever needs the corners of such a frame has to record progressively, or hold both still: the
-fields of one frame have two poses.
+The fields of one frame have two poses: whoever needs corners of it uses one field
+(``engine/images/fields.py``), records progressively, or holds both still.
 """
 
 from __future__ import annotations
@@ -34,7 +34,8 @@ _STRONGEST = 0.1
 """Share of the tiles that are those of the strongest edges."""
 INTERLACED = (
     "This frame is interlaced: its even and its odd rows were taken one after the other, and edges "
-    "that moved in between are combed. Record progressive frames, or hold camera and board still."
+    "that moved in between are combed. Search one of the two fields alone, record progressive "
+    "frames, or hold camera and board still."
 )
 """Sentence on an interlaced frame."""
 

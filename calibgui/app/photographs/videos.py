@@ -123,6 +123,40 @@ def search_photographs(
     return replace(detection, views=tuple(views), remark=" ".join(remarks))
 
 
+def take_frames(
+    videos: Sequence[Path],
+    search: Callable[[Sequence[Path]], Detection],
+    show_progress: ShowProgress,
+) -> tuple[tuple[Path, ...], str]:
+    """Take frames of videos, and write those of each into a folder beside it.
+
+    Args:
+        videos: files.
+        search, show_progress: as for `search_photographs`.
+
+    Returns:
+        The frames, and sentences on what was taken.
+
+    Raises:
+        CalibrationError: as `search_photographs`; if no frame of a video shows the board.
+    """
+    frames: list[Path] = []
+    remarks = []
+    for video in videos:
+        choice = FrameChoice(folder=video.parent)
+        detection = search_photographs([str(video)], choice, search, show_progress)
+        taken = [Path(view.image) for view in detection.views if view.usable]
+        if not taken:
+            raise CalibrationError(
+                f"No frame of {video} shows the board.",
+                "Show the whole board, sharp and evenly lit; state what is printed on it, if it is "
+                "no checkerboard.",
+            )
+        frames += taken
+        remarks.append(detection.remark)
+    return tuple(frames), "\n".join(remarks)
+
+
 def sample_video(
     video: Path, folder: Path, count: int, progress: DecodingProgress
 ) -> tuple[tuple[_Candidate, ...], int]:

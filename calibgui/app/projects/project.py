@@ -25,6 +25,7 @@ from calibgui.engine.arrays import GridSize, Size
 from calibgui.engine.boards import CHECKERBOARD, Board, Pattern
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.features import METHODS
+from calibgui.engine.images import Field
 
 GRID_LINES = range(2, 201)
 """Numbers of rows, and of columns, that a board can be stated to have."""
@@ -77,6 +78,8 @@ class Project:
     """Settings by which results were made, by name, as far as they are known."""
     digests: Mapping[str, str] = field(default_factory=lambda: MappingProxyType({}))
     """SHA-256 of the image files that have been read, by path."""
+    field: Field | None = None
+    """The field of interlaced frames that is searched; None for all rows."""
 
     @cached_property
     def board(self) -> Board | None:
@@ -170,6 +173,12 @@ def set_method(project: Project, method: str) -> Project:
     return replace(project, method=method, views=_reset_searches(project.views))
 
 
+def set_field(project: Project, field: Field | None) -> Project:
+    """Return the project with another field of interlaced frames: images are searched again."""
+    views = tuple(replace(view, field=field) for view in _reset_searches(project.views))
+    return replace(project, field=field, views=views)
+
+
 def _reset_searches(views: Iterable[View]) -> tuple[View, ...]:
     """Return the views without the outcome of a search."""
     return tuple(map(_reset_search, views))
@@ -187,7 +196,8 @@ def add_images(project: Project, images: Iterable[str]) -> Project:
     """Return the project with views of those `images` that it lacks, in the order given."""
     known = {view.image for view in project.views}
     new = [image for image in dict.fromkeys(images) if image not in known]
-    return replace(project, views=(*project.views, *map(View, new)))
+    added = (View(image, field=project.field) for image in new)
+    return replace(project, views=(*project.views, *added))
 
 
 def remove_views(project: Project, images: Iterable[str]) -> Project:

@@ -64,7 +64,7 @@ from calibgui.formats.node import Node
 from calibgui.formats.pattern_json import decode_pattern, decode_square_sigma, encode_pattern
 from calibgui.formats.result_json import decode_result, encode_result
 from calibgui.formats.verdict_json import decode_verdict, encode_verdict
-from calibgui.formats.views_json import decode_views, encode_view
+from calibgui.formats.views_json import decode_field, decode_views, encode_view
 
 FORMAT = "calibgui-project"
 VERSION = 4
@@ -129,9 +129,11 @@ def encode_project(project: Project, folder: Path) -> dict[str, Any]:
     if project.square_sigma:
         square["square_sigma_mm"] = project.square_sigma
     pattern = {"pattern": encode_pattern(project.pattern), "corners": project.method}
+    field = {} if project.field is None else {"field": project.field}
     return {
         "format": FORMAT,
         "version": VERSION,
+        **field,
         "target": {"rows": rows, "cols": cols, **square, **pattern},
         "lengths_confirmed": project.lengths_confirmed,
         "size": project.size,
@@ -248,6 +250,7 @@ def _decode_project(node: Node) -> Project:
         pattern=pattern,
         grid_size=_decode_grid_size(board.get("rows"), board.get("cols")),
         method=method.choice(METHODS) if (method := board.get("corners")) else METHODS[0],
+        field=decode_field(node.get("field")),
         square=square.number(),
         square_sigma=decode_square_sigma(board),
         details=_decode_details(node.get("details")),

@@ -2,7 +2,8 @@
 
 A `Board` is a pattern with its numbers of rows and columns and its pitch. A `Pattern` says where
 its points lie, which turns leave it unchanged, and what is printed: `Checkerboard`, `Charuco`,
-`Circles`, `AprilGrid`, `PuzzleBoard` and `TaggedCheckerboard`, listed by name in `KINDS`.
+`Circles`, `ListedCircles`, `AprilGrid`, `PuzzleBoard` and `TaggedCheckerboard`, listed by name in
+`KINDS`. `list_circles` makes a pattern of circles wherever they lie.
 `FAMILIES` names the families of AprilTags. `BoardShape` holds how far a real board departs from its
 drawing. Nothing here looks at images: finding boards is the task of ``detection``.
 """
@@ -25,6 +26,10 @@ if TYPE_CHECKING:
     )
     from calibgui.engine.boards.circle_grid import Circles as Circles
     from calibgui.engine.boards.kinds import KINDS as KINDS
+    from calibgui.engine.boards.listed_circles import (
+        ListedCircles as ListedCircles,
+        list_circles as list_circles,
+    )
     from calibgui.engine.boards.pattern import Pattern as Pattern, Symmetry as Symmetry
     from calibgui.engine.boards.printed_pattern import (
         PrintedDiscs as PrintedDiscs,
@@ -54,6 +59,7 @@ load_on_demand(
         "checkerboard": ["CHECKERBOARD", "Checkerboard", "checkerboard_symmetry"],
         "circle_grid": ["Circles"],
         "kinds": ["KINDS"],
+        "listed_circles": ["ListedCircles", "list_circles"],
         "pattern": ["Pattern", "Symmetry"],
         "printed_pattern": [
             "PrintedDiscs",

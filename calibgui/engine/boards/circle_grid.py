@@ -62,6 +62,16 @@ class Circles:
         """Half the distance of the nearest neighbours, pitches: the radius at which they touch."""
         return 0.5**0.5 if self.asymmetric else 0.5
 
+    def list_paper(self) -> Array:
+        """List displacements (4, 2) from a circle's centre to paper around it, pitches."""
+        if self.asymmetric:
+            return np.array([(1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0)])
+        return np.array([(0.5, 0.5), (-0.5, 0.5), (0.5, -0.5), (-0.5, -0.5)])
+
+    def list_neighbours(self) -> Array:
+        """List displacements (2, 2) from a circle to its neighbours on one side, pitches."""
+        return np.array([(1.0, 1.0), (1.0, -1.0)]) if self.asymmetric else np.eye(2)
+
     def locate_points(self, grid: Array) -> Array:
         """See ``Pattern``."""
         row, col = grid[:, 0], grid[:, 1]

@@ -9,6 +9,7 @@ from calibgui.engine.boards.april_grid import AprilGrid
 from calibgui.engine.boards.charuco import Charuco
 from calibgui.engine.boards.checkerboard import CHECKERBOARD
 from calibgui.engine.boards.circle_grid import Circles
+from calibgui.engine.boards.listed_circles import ListedCircles
 from calibgui.engine.boards.pattern import Pattern
 from calibgui.engine.boards.puzzleboard import PuzzleBoard
 from calibgui.engine.boards.tagged_checkerboard import TaggedCheckerboard
@@ -21,6 +22,7 @@ KINDS: Mapping[str, Pattern] = MappingProxyType(
             Charuco(),
             Circles(),
             Circles(asymmetric=True),
+            ListedCircles(),
             AprilGrid(),
             TaggedCheckerboard(),
             PuzzleBoard(),

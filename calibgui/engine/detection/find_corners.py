@@ -24,6 +24,7 @@ from calibgui.engine.detection.apriltags.find_tagged_checkerboard import (
 from calibgui.engine.detection.charuco.find_charuco import find_charuco
 from calibgui.engine.detection.checkerboard.find_checkerboard import find_checkerboard
 from calibgui.engine.detection.circles.find_circles import find_circles
+from calibgui.engine.detection.circles.find_listed_circles import find_listed_circles
 from calibgui.engine.detection.puzzleboard.find_puzzleboard import find_puzzleboard
 from calibgui.engine.features.corners import Corners
 
@@ -47,6 +48,7 @@ DETECTORS: Mapping[str, Detector] = MappingProxyType(
         "charuco": find_charuco,
         "circles": find_circles,
         "asymmetric-circles": find_circles,
+        "listed-circles": find_listed_circles,
         "aprilgrid": find_april_grid,
         "tagged-checkerboard": find_tagged_checkerboard,
         "puzzleboard": find_puzzleboard,

@@ -9,6 +9,7 @@ from calibgui.engine.faces import load_on_demand
 if TYPE_CHECKING:
     from calibgui.engine.images.drawn_axes import draw_axes as draw_axes
     from calibgui.engine.images.exif import Exif as Exif
+    from calibgui.engine.images.fields import Field as Field, keep_field as keep_field
     from calibgui.engine.images.headers import Header as Header
     from calibgui.engine.images.hidden_angles import (
         HiddenAngles as HiddenAngles,
@@ -61,6 +62,7 @@ load_on_demand(
     {
         "drawn_axes": ["draw_axes"],
         "exif": ["Exif"],
+        "fields": ["Field", "keep_field"],
         "headers": ["Header"],
         "hidden_angles": ["HiddenAngles", "describe_hidden_angles", "measure_hidden_angles"],
         "image_circle_search": ["find_image_circle"],

@@ -25,6 +25,7 @@ from calibgui.engine import opencv
 from calibgui.engine.arrays import Size
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.files import open_regular, read_regular, write_atomically
+from calibgui.engine.images.fields import Field, keep_field
 from calibgui.engine.images.headers import ForeignKind, Header, find_foreign_kind, read_header
 from calibgui.engine.images.photo_libraries import (
     decode_photo,
@@ -51,8 +52,8 @@ _INVERSE = {6: 8, 8: 6}
 """EXIF orientations that another one takes back; each of the others takes back itself."""
 _FORMAT_HINT = "Use PNG, JPEG, TIFF, BMP, WebP or PGM with 8 or 16 bits."
 _HINTS = {
-    ForeignKind.VIDEO: "Commands that calibrate take a video as it is. For the window save frames "
-    "of it as PNG: `calibgui detect VIDEO` does so.",
+    ForeignKind.VIDEO: "What takes photographs to calibrate takes frames of a video as well; for "
+    "anything else save frames of it as PNG: `calibgui detect VIDEO` does so.",
     ForeignKind.HEIF: "`pip install 'calibgui[photos]'` reads it. Or save it as JPEG or PNG first, "
     "and set the phone to the compatible format.",
     ForeignKind.RAW: "`pip install 'calibgui[photos]'` reads it. Or save it as JPEG or TIFF in "
@@ -72,6 +73,8 @@ class Image:
     """File that was read."""
     orientation: int = 1
     """EXIF orientation by which `pixels` are turned, 1 to 8."""
+    field: Field | None = None
+    """The field of an interlaced frame that `pixels` show; None for all of its rows."""
     zero_tail: float = 0.0
     """Share of the file that is only zeros, at its end: black pixels, or a copy that was
     interrupted. 0 if it is shorter than a page of memory."""
@@ -109,13 +112,14 @@ def stretch_levels(pixels: npt.NDArray[Any]) -> npt.NDArray[np.uint8]:
     return np.clip(np.rint(levels), 0, 255).astype(np.uint8)[pixels]
 
 
-def read_image(path: PathLike, orientation: int | None = None) -> Image:
+def read_image(path: PathLike, orientation: int | None = None, field: Field | None = None) -> Image:
     """Read a photograph in grey, turned upright.
 
     Args:
         path: the file.
         orientation: EXIF orientation by which the stored pixels are turned, 1 to 8; that which the
             file states if None.
+        field: the field of an interlaced frame to read; all rows if None.
 
     Raises:
         CalibrationError: if `path` is missing, empty, no image, cut short, damaged or too
@@ -131,9 +135,9 @@ def read_image(path: PathLike, orientation: int | None = None) -> Image:
         >>> image.size, image.depth, int(image.pixels[2, 3])
         ((4, 3), 8, 7)
     """
-    pixels, header, zero_tail = _read_turned(Path(path), orientation, colour=False)
+    pixels, header, zero_tail = _read_turned(Path(path), orientation, colour=False, field=field)
     pixels.flags.writeable = False
-    return Image(pixels, Path(path), orientation or header.exif.orientation, zero_tail)
+    return Image(pixels, Path(path), orientation or header.exif.orientation, field, zero_tail)
 
 
 def read_colour(path: PathLike, orientation: int | None = None) -> Pixels:
@@ -207,7 +211,9 @@ def write_image(path: PathLike, pixels: Pixels) -> None:
     write_atomically(path, content)
 
 
-def _read_turned(path: Path, orientation: int | None, colour: bool) -> tuple[Pixels, Header, float]:
+def _read_turned(
+    path: Path, orientation: int | None, colour: bool, field: Field | None = None
+) -> tuple[Pixels, Header, float]:
     """Read the pixels of the image file `path`, turned, its header, and `Image.zero_tail`."""
     try:
         data = read_regular(path, _MAX_FILE_SIZE)
@@ -225,6 +231,8 @@ def _read_turned(path: Path, orientation: int | None, colour: bool) -> tuple[Pix
         )
     if pixels.dtype not in (np.uint8, np.uint16):
         raise CalibrationError(f"{path} holds {pixels.dtype} samples.", _FORMAT_HINT)
+    if field is not None:
+        pixels = keep_field(pixels, field)
     stated = header.exif.orientation
     if header.format not in ("TIFF", "HEIC"):
         pixels = _turn(pixels, orientation or stated)

@@ -14,7 +14,8 @@ plausibility limit; a limit that images without a board fixed names their kind i
 each of its conditions and those seen where there is none.
 
 The face is for those who draw or compare the steps: `find_saddles` and `classify_saddles` find
-X-junctions in a small image; and `check_outline` checks a region of interest.
+X-junctions in a small image; and `check_outline` checks a region of interest. `LIKE_DOTS` is the
+reason to refuse a lattice that a stated size overrules.
 """
 
 from __future__ import annotations
@@ -24,6 +25,7 @@ from typing import TYPE_CHECKING
 from calibgui.engine.faces import load_on_demand
 
 if TYPE_CHECKING:
+    from calibgui.engine.lattices.prefilter import LIKE_DOTS as LIKE_DOTS
     from calibgui.engine.lattices.region_of_interest import check_outline as check_outline
     from calibgui.engine.lattices.x_junctions import (
         classify_saddles as classify_saddles,
@@ -33,6 +35,7 @@ if TYPE_CHECKING:
 load_on_demand(
     __name__,
     {
+        "prefilter": ["LIKE_DOTS"],
         "region_of_interest": ["check_outline"],
         "x_junctions": ["classify_saddles", "find_saddles"],
     },

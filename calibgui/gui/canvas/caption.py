@@ -20,7 +20,7 @@ class Caption(QLabel):
         super().__init__(canvas)
         self._canvas = canvas
         self._cursor = QPoint(-1, -1)
-        self._name = self._reading = ""
+        self._name = self._reading = self._world = ""
         self.setFont(theme.fixed_font())
         self.setMargin(theme.SPACING // 2)
         self.setAttribute(Qt.WidgetAttribute.WA_TransparentForMouseEvents)
@@ -36,16 +36,17 @@ class Caption(QLabel):
         self._name = name
         self._show()
 
-    def show_reading(self, reading: str) -> None:
-        """Show what is under the cursor, behind the name."""
-        self._reading = reading
+    def show_reading(self, reading: str, world: str = "") -> None:
+        """Show what is under the cursor, behind the name, and what of the world is there, below."""
+        self._reading, self._world = reading, world
         self._show()
 
     def _show(self) -> None:
-        text = "   ".join(filter(None, (self._name, self._reading)))
+        lines = "   ".join(filter(None, (self._name, self._reading))), self._world
         room = self._canvas.viewport().width() - 2 * self.margin()
-        self.setText(self.fontMetrics().elidedText(text, Qt.TextElideMode.ElideLeft, room))
-        self.setVisible(bool(text))
+        metrics, left = self.fontMetrics(), Qt.TextElideMode.ElideLeft
+        self.setText("\n".join(metrics.elidedText(line, left, room) for line in lines if line))
+        self.setVisible(bool(self.text()))
         self.adjustSize()
         self._place()
 

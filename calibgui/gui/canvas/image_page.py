@@ -19,6 +19,7 @@ from calibgui.gui.canvas.evidence import Evidence
 from calibgui.gui.canvas.layer_list import LayerList
 from calibgui.gui.canvas.layers import Layer, Marks, trace_hull
 from calibgui.gui.canvas.marker import Marker
+from calibgui.gui.canvas.world_reading import describe_world
 from calibgui.gui.images.image_model import status_text
 from calibgui.gui.jobs.job import Job
 from calibgui.gui.session.session import Session
@@ -290,7 +291,13 @@ class ImagePage(QWidget):
             return
         text = self.tr("u {0:.2f}  v {1:.2f} px").format(u, v)
         text += self.tr("   grey {0}").format(int(image.pixels[round(v), round(u)]))
-        self.caption.show_reading(text + self._board_index(u, v))
+        result = self._session.result
+        world = (
+            ""
+            if result is None
+            else describe_world(result, self._session.image, image.size, (u, v))
+        )
+        self.caption.show_reading(text + self._board_index(u, v), world)
 
     def _board_index(self, u: float, v: float) -> str:
         corners = self.canvas.marks.corners

@@ -39,7 +39,8 @@ from calibgui.app.projects.result_project import make_project
 from calibgui.app.system.resources import find_resource, find_sample_square
 from calibgui.dataset import Result, find_orientation
 from calibgui.engine.errors import CalibrationError
-from calibgui.engine.images import FORMATS
+from calibgui.engine.images import FORMATS, is_video, list_suffixes
+from calibgui.gui.dialogs.videos import start_taking_frames
 from calibgui.gui.jobs.job import Job
 from calibgui.gui.session.calibrator import Calibrator
 from calibgui.gui.session.detector import Detector
@@ -86,7 +87,7 @@ class Files(QObject):
         return path or (Path(views[0].image) if views else None)
 
     def open_paths(self, names: Sequence[str]) -> None:
-        """Open what was dropped, pasted or named on the command line: a project, or images.
+        """Open what was dropped, pasted or named on the command line: a project, images, videos.
 
         A file that ends in .json and is no project may be among images, but not be alone.
         """
@@ -102,7 +103,12 @@ class Files(QObject):
                 )
         elif names:
             try:
-                self._add_images(names)
+                videos = [Path(name) for name in names if Path(name).is_file() and is_video(name)]
+                others = [name for name in names if Path(name) not in videos]
+                if videos:
+                    start_taking_frames(self._session, videos, self._add)
+                if others:
+                    self._add_images(others)
             except NoImagesError as error:
                 (self.images_elsewhere if error.folders else self._session.failed).emit(error)
             except CalibrationError as error:
@@ -156,9 +162,12 @@ class Files(QObject):
 
     def ask_for_images(self) -> None:
         """Add single images."""
-        kinds = " ".join(f"*{suffix}" for suffix in FORMATS)
+        kinds = " ".join(f"*{suffix}" for suffix in FORMATS + list_suffixes())
         names, _ = QFileDialog.getOpenFileNames(
-            self._window, self.tr("Add images"), self._place, self.tr("Images ({0})").format(kinds)
+            self._window,
+            self.tr("Add images"),
+            self._place,
+            self.tr("Images ({0});;All files, also videos (*)").format(kinds),
         )
         self.open_paths(names)
 

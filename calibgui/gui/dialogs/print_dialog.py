@@ -28,7 +28,7 @@ from calibgui.app.outputs.printable_board import (
     lay_out_page,
     write_page,
 )
-from calibgui.engine.boards import AprilGrid, Board
+from calibgui.engine.boards import AprilGrid, Board, Pattern
 from calibgui.engine.errors import CalibrationError
 from calibgui.gui.settings.pattern_choice import PatternChoice
 from calibgui.gui.widgets import theme
@@ -115,9 +115,15 @@ class PrintDialog(QDialog):
         for box in (self.rows, self.cols, self.square):
             box.valueChanged.connect(self._refresh)
         self.pattern.changed.connect(self._refresh)
+        self.pattern.listed.connect(self._take_list)
         self.pattern.failed.connect(lambda error: self.words.setText(str(error)))
         self.paper.currentIndexChanged.connect(self._refresh)
         self.resize(760, 440)
+        self._refresh()
+
+    def _take_list(self, _: Pattern, pitch: float) -> None:
+        """Show a board of listed circles in the size that the list states."""
+        self.square.setValue(pitch)
         self._refresh()
 
     def make_sheet(self) -> Page:

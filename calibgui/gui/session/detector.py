@@ -92,6 +92,7 @@ class Detector(QObject):
                 orientation=find_orientation(project.views),
                 method=project.method,
                 pattern=pattern,
+                field=project.field,
             )
 
         self._job = self._session.jobs.start(
@@ -216,4 +217,4 @@ class Detector(QObject):
 
 def _find_search_key(project: Project) -> Hashable:
     """Return what is searched for, and how."""
-    return project.pattern, project.grid_size, project.method, project.by_hand
+    return project.pattern, project.grid_size, project.method, project.by_hand, project.field

@@ -13,7 +13,7 @@ from calibgui.app.projects.document import Change, Document
 from calibgui.app.projects.project import Project
 from calibgui.dataset import Result, View, find_orientation
 from calibgui.engine.boards import BoardShape
-from calibgui.engine.images import read_image_header
+from calibgui.engine.images import Field, read_image_header
 from calibgui.gui.jobs.jobs import Jobs
 
 
@@ -43,7 +43,9 @@ class Session(QObject):
         super().__init__(parent)
         self.jobs = Jobs(self)
         self.jobs.failed.connect(self.failed)
-        self.images = ImageStore(find_orientation=self._find_orientation)
+        self.images = ImageStore(
+            find_orientation=self._find_orientation, find_field=self._find_field
+        )
         self.document = make_empty_document()
         self.document.listeners.append(self._document_changed)
         self.image = ""
@@ -122,6 +124,11 @@ class Session(QObject):
             return None if view is None else view.orientation
         usual = find_orientation(project.views)
         return choose_orientation(read_image_header(image), project.size, usual)
+
+    def _find_field(self, image: str) -> Field | None:
+        """Return the field of an interlaced frame that is shown, None for all rows."""
+        views = self.project.views
+        return next((view.field for view in views if view.image == image), None)
 
     def renew(self, image: str) -> None:
         """Forget the picture of an image: its file holds another one."""

@@ -18,17 +18,20 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from calibgui.app.photographs.interlacing import INTERLACED
 from calibgui.app.projects.lengths import set_square, set_square_sigma
 from calibgui.app.projects.project import (
     GRID_LINES,
     Project,
     Unit,
+    set_field,
     set_grid_size,
     set_method,
     set_pattern,
 )
 from calibgui.engine.arrays import GridSize
-from calibgui.engine.boards import AprilGrid
+from calibgui.engine.boards import AprilGrid, ListedCircles, Pattern
+from calibgui.engine.images import Field
 from calibgui.gui.session.session import Session
 from calibgui.gui.settings.pattern_choice import PatternChoice
 from calibgui.gui.widgets import theme
@@ -107,6 +110,16 @@ class BoardPanel(QWidget):
             self.method.addItem(text, method)
             self.method.setItemData(self.method.count() - 1, tip, Qt.ItemDataRole.ToolTipRole)
         self.method.setToolTip(self.tr("How corners are located; another way searches anew."))
+        self.field = NarrowCombo()
+        self.field.addItem(self.tr("all rows"), None)
+        self.field.addItem(self.tr("odd rows"), Field.ODD)
+        self.field.addItem(self.tr("even rows"), Field.EVEN)
+        self.field.setToolTip(
+            self.tr(
+                "Search one field of interlaced frames, in which edges that moved between the two "
+                "are not combed. The rows between are interpolated."
+            )
+        )
         self.by_hand = QCheckBox(self.tr("Mar&k all by hand"))
         self.by_hand.setToolTip(
             self.tr(
@@ -138,10 +151,12 @@ class BoardPanel(QWidget):
         form.addRow(self.counted, corners)
         form.addRow("", self.inferred)
         form.addRow(self.tr("Loca&ted"), self.method)
+        form.addRow(self.tr("Interlaced"), self.field)
         form.addRow(self.side, side)
         form.addRow("", others)
 
         self.pattern.changed.connect(self._edit_pattern)
+        self.pattern.listed.connect(self._take_list)
         self.pattern.failed.connect(session.failed)
         self.inferred.clicked.connect(self._choose_counting)
         for box, other in ((self.rows, self.cols), (self.cols, self.rows)):
@@ -152,6 +167,7 @@ class BoardPanel(QWidget):
         for length in (self.square, self.square_sigma):
             length.editingFinished.connect(lambda: session.document.end_sliding_edit())
         self.method.activated.connect(self._edit_method)
+        self.field.activated.connect(self._edit_field)
         self.by_hand.clicked.connect(self._edit_by_hand)
         self.unit.activated.connect(self._edit_unit)
         self.print.clicked.connect(self.print_wanted)
@@ -161,6 +177,9 @@ class BoardPanel(QWidget):
     def _project_changed(self, before: Project, after: Project) -> None:
         if self._session.document is not self._document or before.grid_size != after.grid_size:
             self._document, self._typing = self._session.document, False
+        if before.field != after.field:
+            for view in after.views:
+                self._session.renew(view.image)
         self._refresh()
 
     def _refresh(self) -> None:
@@ -170,6 +189,12 @@ class BoardPanel(QWidget):
         self.method.setCurrentIndex(self.method.findData(project.method))
         circles = not project.pattern.has_squares
         self._form.setRowVisible(self.method, not circles)
+        is_listed = isinstance(project.pattern, ListedCircles)
+        for row in (1, 2):  # the numbers of rows and columns
+            self._form.setRowVisible(row, not is_listed)
+        self.field.setCurrentIndex(self.field.findData(project.field))
+        is_interlaced = any(INTERLACED in f"{view.note}{view.reason}" for view in project.views)
+        self._form.setRowVisible(self.field, is_interlaced or project.field is not None)
         self.by_hand.setChecked(project.by_hand)
         tags = isinstance(project.pattern, AprilGrid)
         self.counted.setText(name_points(project.pattern))
@@ -245,10 +270,23 @@ class BoardPanel(QWidget):
         self._session.edit(self.tr("Pattern"), lambda p: set_pattern(p, pattern))
         self.search_wanted.emit()
 
+    def _take_list(self, pattern: Pattern, pitch: float) -> None:
+        """Take a board of listed circles, whose lengths the list states."""
+        self._session.edit(self.tr("Pattern"), lambda p: set_square(set_pattern(p, pattern), pitch))
+        self.search_wanted.emit()
+
     def _edit_method(self) -> None:
         method = self.method.currentData()
         if method != self._session.project.method:
             self._session.edit(self.tr("Way to locate corners"), lambda p: set_method(p, method))
+            self.search_wanted.emit()
+
+    def _edit_field(self) -> None:
+        named = self.field.currentData()  # Qt makes a text of it
+        field = named and Field(named)
+        session = self._session
+        if field != session.project.field:
+            session.edit(self.tr("Rows of interlaced frames"), lambda p: set_field(p, field))
             self.search_wanted.emit()
 
     def _edit_by_hand(self, by_hand: bool) -> None:

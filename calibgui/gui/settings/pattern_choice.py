@@ -9,9 +9,11 @@ from PySide6.QtCore import QSignalBlocker, Signal
 from PySide6.QtWidgets import (
     QComboBox,
     QDoubleSpinBox,
+    QFileDialog,
     QFormLayout,
     QHBoxLayout,
     QLabel,
+    QPushButton,
     QSpinBox,
     QWidget,
 )
@@ -24,11 +26,13 @@ from calibgui.engine.boards import (
     AprilGrid,
     Charuco,
     Circles,
+    ListedCircles,
     Pattern,
     PuzzleBoard,
     TaggedCheckerboard,
 )
 from calibgui.engine.errors import CalibrationError
+from calibgui.formats.circle_list import read_circle_list
 from calibgui.gui.widgets.pattern_texts import list_pattern_texts
 
 
@@ -43,6 +47,8 @@ class PatternChoice(QWidget):
 
     changed = Signal()
     """The user has chosen another `pattern`."""
+    listed = Signal(object, float)
+    """The user has chosen a file that lists the circles: their pattern, and the pitch, mm."""
     failed = Signal(Exception)
     """The fields do not make a pattern."""
 
@@ -71,6 +77,11 @@ class PatternChoice(QWidget):
         for box in (self.marker, self.diameter):
             box.setSpecialValueText(undecided)
             box.setKeyboardTracking(False)
+        self.layout_file = QPushButton()
+        self.layout_file.setToolTip(
+            self.tr("A table (CSV) of the circles' x and y in mm, or the same as JSON.")
+        )
+        self.layout_file.clicked.connect(self._ask_for_layout)
         self.family = _make_choice(
             self.tr("The family of the AprilTags on the board."),
             (undecided, None),
@@ -131,6 +142,7 @@ class PatternChoice(QWidget):
         widest = (self.tr("Inner corners"), self.tr("Small squares"))
         self.label.setMinimumWidth(max(QLabel(text).sizeHint().width() for text in widest))
         self.form.addRow(self.label, self.kind)
+        self.form.addRow(self.tr("List"), self.layout_file)
         self.form.addRow(self.tr("Dictionary"), self.dictionary)
         self.form.addRow(self.tr("Marker"), self.marker)
         self.form.addRow(self.tr("Layout"), self.layout_used)
@@ -178,7 +190,8 @@ class PatternChoice(QWidget):
             (self.dictionary, charuco),
             (self.marker, charuco),
             (self.layout_used, charuco),
-            (self.diameter, circles),
+            (self.diameter, circles or isinstance(pattern, ListedCircles)),
+            (self.layout_file, isinstance(pattern, ListedCircles)),
             (self.family, grid or tagged),
             (self.spacing, grid),
             (self.border, grid or tagged),
@@ -194,7 +207,12 @@ class PatternChoice(QWidget):
             self.dictionary.setCurrentIndex(self.dictionary.findData(pattern.dictionary))
             self.layout_used.setCurrentIndex(self.layout_used.findData(pattern.legacy))
             _show(self.marker, (pattern.marker or 0.0) * side)
-        if isinstance(pattern, Circles):
+        if isinstance(pattern, ListedCircles):
+            text = self.tr("Choose a file…")
+            if pattern.places is not None:
+                text = self.tr("{0} circles…").format(len(pattern.places))
+            self.layout_file.setText(text)
+        if isinstance(pattern, Circles | ListedCircles):
             _show(self.diameter, (pattern.diameter or 0.0) * side)
         if isinstance(pattern, AprilGrid | TaggedCheckerboard):
             self.family.setCurrentIndex(self.family.findData(pattern.family))
@@ -215,6 +233,21 @@ class PatternChoice(QWidget):
                 with QSignalBlocker(line):
                     line.setValue(number)
 
+    def _ask_for_layout(self) -> None:
+        """Take the circles that a file of the user's choice lists."""
+        name, _ = QFileDialog.getOpenFileName(
+            self, self.tr("List of circles"), "", self.tr("Lists of circles (*.csv *.json)")
+        )
+        if not name:
+            return
+        try:
+            pattern, pitch = read_circle_list(name)
+        except CalibrationError as error:
+            self.failed.emit(error)
+            return
+        self.show_pattern(pattern, self._side)
+        self.listed.emit(pattern, pitch)
+
     def _edit(self) -> None:
         pattern = KINDS[self.kind.currentData()]
         try:
@@ -223,8 +256,12 @@ class PatternChoice(QWidget):
                 pattern = Charuco(
                     self.dictionary.currentData(), marker or None, self.layout_used.currentData()
                 )
-            if isinstance(pattern, Circles) and pattern.kind == self._pattern.kind:
-                pattern = replace(pattern, diameter=self.diameter.value() / self._side or None)
+            if (
+                isinstance(self._pattern, Circles | ListedCircles)
+                and pattern.kind == self._pattern.kind
+            ):
+                diameter = self.diameter.value() / self._side or None
+                pattern = replace(self._pattern, diameter=diameter)
             if isinstance(pattern, AprilGrid) and pattern.kind == self._pattern.kind:
                 pattern = AprilGrid(
                     self.family.currentData(),

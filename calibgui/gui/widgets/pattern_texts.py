@@ -47,6 +47,11 @@ def list_pattern_texts() -> dict[str, PatternTexts]:
             ),
             translate("PatternTexts", "&Search for asymmetric circles"),
         ),
+        "listed-circles": PatternTexts(
+            translate("PatternTexts", "Circles of a list"),
+            translate("PatternTexts", "These look like photographs of listed circles."),
+            translate("PatternTexts", "&Search for listed circles"),
+        ),
         "aprilgrid": PatternTexts(
             translate("PatternTexts", "AprilGrid"),
             translate("PatternTexts", "These look like photographs of an AprilGrid."),

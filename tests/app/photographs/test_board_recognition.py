@@ -147,7 +147,7 @@ def test_a_file_that_has_gone(tmp_path: Path) -> None:
 def test_pictures_of_marks_in_a_mirror_are_told(pattern: Pattern, tmp_path: Path) -> None:
     scene = Scene(Board(8, 10, 20.0, pattern), _CAMERA, (0.4, 0.25, 0.2), 330.0)
     write_image(tmp_path / "view.png", scene.image())
-    assert find_mirrored_pattern([str(tmp_path / "view.png")]) is None
+    assert find_mirrored_pattern([View(str(tmp_path / "view.png"))]) is None
     write_image(tmp_path / "mirrored.png", scene.image()[:, ::-1])
     detection = find_views([tmp_path / "mirrored.png"], pattern=KINDS[pattern.kind])
     error, faults = explain_missing_board(detection, None)
@@ -191,4 +191,4 @@ def test_markers_that_do_not_tell_their_part_tell_the_kind(tmp_path: Path) -> No
     write_image(tmp_path / "view.png", scene.image()[120:280, 200:360])
     image = str(tmp_path / "view.png")
     assert search_view(View(image), pattern=KINDS["charuco"]).corners is None
-    assert find_other_pattern([image], CHECKERBOARD) == KINDS["charuco"]
+    assert find_other_pattern([View(image)], CHECKERBOARD) == KINDS["charuco"]

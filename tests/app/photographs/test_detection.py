@@ -27,6 +27,7 @@ from calibgui.engine.features.corners import Corners
 from calibgui.engine.images.reading import read_image, write_image
 from calibgui.engine.images.rendering import render_view
 from tests.engine import scenes
+from tests.engine.lattices.test_prefilter import draw_heated
 from tests.photographs import BOARD, CAMERA, COUNT, draw_poses
 from tests.scenes.troubles import TROUBLES
 
@@ -362,3 +363,15 @@ def test_the_first_tag_that_most_photographs_tell_is_that_of_all(
         assert view.corners is not None
         uv = project_points(board.points(view.corners.grid), CAMERA, poses[k])
         assert np.abs(view.corners.uv - uv).max() < 0.5
+
+
+def test_a_size_that_other_photographs_show_overrules_uneven_squares(tmp_path: Path) -> None:
+    """By itself the first is refused, as its squares differ in size like printed dots."""
+    images = []
+    for seed in (0, 1, 3, 4):
+        images.append(tmp_path / f"{seed}.png")
+        write_image(images[-1], draw_heated(seed)[0])
+    assert search_view(View(str(images[0]))).status is ViewStatus.NO_BOARD
+    found = find_views(images)
+    assert found.grid_size == (6, 8)
+    assert [view.status for view in found.views] == [ViewStatus.FOUND] * 4

@@ -8,10 +8,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from calibgui.app.photographs.detection import search_view
+from calibgui.app.photographs.board_recognition import recognise_pattern
+from calibgui.app.photographs.detection import find_views, search_view
 from calibgui.app.photographs.interlacing import INTERLACED, is_interlaced
 from calibgui.dataset import View
 from calibgui.engine.boards.board import Board
+from calibgui.engine.camera.distortion import project_points
+from calibgui.engine.images.fields import Field
 from calibgui.engine.images.reading import write_image
 from calibgui.engine.images.rendering import render_view
 from tests.engine.conftest import Scene
@@ -54,3 +57,21 @@ def test_the_view_names_it(shift: float, tmp_path: Path) -> None:
     write_image(tmp_path / "view.png", frame)
     view = search_view(View(str(tmp_path / "view.png")))
     assert (INTERLACED in f"{view.note} {view.reason}") == (shift > 0)
+
+
+@pytest.mark.parametrize(("field", "first"), [(Field.ODD, 0), (Field.EVEN, 1)])
+def test_a_field_is_searched_alone(field: Field, first: int, tmp_path: Path) -> None:
+    """Its corners are those of the moment of that field, whatever came before or after."""
+    poses = draw_poses()[:2]
+    fields = [render_view(CAMERA, each, BOARD, blur=0.7, noise=1.0) for each in poses]
+    frame = fields[0].copy()
+    frame[1::2] = fields[1][1::2]
+    write_image(tmp_path / "view.png", frame)
+    found = find_views([tmp_path / "view.png"], field=field)
+    (view,) = found.views
+    assert view.corners is not None and view.field is field
+    assert INTERLACED not in view.note
+    expected = project_points(BOARD.points(), CAMERA, poses[first])
+    distance = np.linalg.norm(view.corners.uv[:, None] - expected, axis=2).min(axis=1)
+    assert distance.max() < 0.15
+    assert recognise_pattern(found.views) is None

@@ -37,6 +37,7 @@ from calibgui.formats.board_poses_json import read_board_poses
 from calibgui.formats.board_shape_json import read_board_shape, write_board_shape
 from calibgui.formats.bouguet_results import pack_results
 from calibgui.formats.camera_import import read_result_file
+from calibgui.formats.circle_list import read_circle_list
 from calibgui.formats.colmap_cameras import pack_cameras
 from calibgui.formats.corner_import import read_corner_file
 from calibgui.formats.corners_json import encode_corners, read_corners
@@ -337,6 +338,13 @@ def _list_other_readers(folder: Path) -> list[Reader]:
         *(
             Reader(f"robot's poses, {file}", file, sample, read_robot_poses, ("read_robot_poses",))
             for file, sample in _list_robot_poses()
+        ),
+        Reader(
+            "circle list",
+            "circles.csv",
+            b"x,y\n0,0\n20,0\n10,17\n30,17\n",
+            read_circle_list,
+            ("read_circle_list",),
         ),
         Reader("pixels", "points.csv", _PIXELS.encode(), read_points, ("read_points",)),
         Reader(

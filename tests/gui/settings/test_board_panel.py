@@ -9,9 +9,10 @@ from pathlib import Path
 import pytest
 from PySide6.QtCore import QPoint, Qt
 from PySide6.QtTest import QSignalSpy, QTest
-from PySide6.QtWidgets import QApplication, QComboBox
+from PySide6.QtWidgets import QApplication, QComboBox, QFileDialog
 from pytestqt.qtbot import QtBot
 
+from calibgui.app.photographs.interlacing import INTERLACED
 from calibgui.app.projects.document import Document
 from calibgui.app.projects.project import change_views, set_grid_size
 from calibgui.app.projects.project_file import read_project, write_project
@@ -21,6 +22,8 @@ from calibgui.engine.boards.board import Board
 from calibgui.engine.boards.charuco import Charuco
 from calibgui.engine.boards.checkerboard import CHECKERBOARD
 from calibgui.engine.boards.circle_grid import Circles
+from calibgui.engine.boards.listed_circles import ListedCircles
+from calibgui.engine.images import Field
 from calibgui.gui.dialogs.print_dialog import PrintDialog
 from calibgui.gui.session.session import Session, make_empty_document
 from calibgui.gui.settings.board_panel import BoardPanel
@@ -260,3 +263,50 @@ def test_how_uncertain_squares_are_is_stated_beside_their_side(
     while session.document.undo_label:
         session.document.undo()
     assert session.project.square_sigma == 0.0 and panel.square_sigma.text() == "exact"
+
+
+def test_a_field_of_interlaced_frames_is_chosen(
+    session: Session, panel: BoardPanel, tmp_path: Path
+) -> None:
+    """The choice is there where frames are interlaced; undo takes it back."""
+    session.begin(Document(examples.calibrated(tmp_path)))
+    assert not panel.field.isVisible()
+    session.edit(
+        "", lambda p: change_views(p, [p.views[0].image], lambda v: replace(v, note=INTERLACED))
+    )
+    assert panel.field.isVisible()
+    wanted = QSignalSpy(panel.search_wanted)
+    choose(panel.field, 1)
+    QTest.keyClick(panel.field, Qt.Key.Key_Return)
+    assert wanted.count() == 1
+    assert session.project.field is Field.ODD
+    assert all(view.field is Field.ODD for view in session.project.views)
+    write_project(session.project, tmp_path / "p.calib")
+    assert read_project(tmp_path / "p.calib").field is Field.ODD
+    session.document.undo()
+    assert session.project.field is None and panel.field.currentIndex() == 0
+
+
+def test_circles_of_a_list_are_chosen_by_their_file(
+    session: Session, panel: BoardPanel, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The list states the lengths; rows and columns are not asked for. Undo takes it back."""
+    choose(panel.pattern.kind, list(KINDS).index("listed-circles"))
+    assert panel.pattern.layout_file.isVisible() and not panel.rows.isVisible()
+    file = tmp_path / "board.csv"
+    file.write_text("x,y\n0,0\n20,0\n0,30\n20,30\n")
+    monkeypatch.setattr(QFileDialog, "getOpenFileName", lambda *_: (str(file), ""))
+    wanted, failed = QSignalSpy(panel.search_wanted), QSignalSpy(session.failed)
+    QTest.mouseClick(panel.pattern.layout_file, Qt.MouseButton.LeftButton)
+    project = session.project
+    assert isinstance(project.pattern, ListedCircles) and len(project.pattern.grid) == 4
+    assert project.square == 20.0 and project.lengths_confirmed
+    assert wanted.count() == 1 and "4" in panel.pattern.layout_file.text()
+    panel.pattern.diameter.setValue(9.0)
+    assert session.project.pattern == ListedCircles(project.pattern.places, 9.0 / 20.0)
+    file.write_text("u,v\n0,0\n")
+    QTest.mouseClick(panel.pattern.layout_file, Qt.MouseButton.LeftButton)
+    assert failed.count() == 1
+    session.document.undo()
+    session.document.undo()
+    assert session.project.pattern == ListedCircles()

@@ -68,7 +68,7 @@ def test_the_kind_of_a_board_is_told(
     photographs(tmp_path, pattern, grid_size)
     stated = Charuco() if pattern == CHECKERBOARD else CHECKERBOARD
     with do_tasks_here():  # four times no process is started; with one click, below, they are
-        found = find_other_pattern([str(tmp_path / "0.png")], stated)
+        found = find_other_pattern([View(str(tmp_path / "0.png"))], stated)
     assert found == KINDS[pattern.kind]
 
 

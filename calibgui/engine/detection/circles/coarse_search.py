@@ -71,22 +71,15 @@ def find_grid(
     Raises:
         NoBoardError: if there is none, with what was found instead.
     """
-    left, top = 0, 0
-    if outline is not None:
-        marked = region.enlarge_outline(outline)
-        left, top = np.maximum(np.floor(marked.min(axis=0)), 0).astype(int)
-        right, bottom = np.ceil(marked.max(axis=0)).astype(int)
-        image = image[top : bottom + 1, left : right + 1]
-    levels = [image]
-    while max(levels[-1].shape) > _MAX_COARSE_SIDE:
-        levels.append(opencv.halve_image(levels[-1]))
+    image, (left, top) = crop_to_outline(image, outline)
+    levels = list_levels(image)
     most = (
         CIRCLE_THRESHOLDS.max_blobs if grid_size is None else 2 * grid_size[0] * grid_size[1] + 60
     )
     largest: _FoundGrid | None = None
     part: LabelledGrid | None = None
-    others: list[tuple[_Search, Array]] = []
-    for search in _list_searches(levels):
+    others: list[tuple[Search, Array]] = []
+    for search in list_searches(levels):
         if largest is not None and _is_needless(search, largest, len(levels), grid_size):
             continue
         points = search.find_blobs(most, is_stated=grid_size is not None)
@@ -119,6 +112,27 @@ def find_grid(
     raise _explain_missing_grid(grid_size, largest, part)
 
 
+def crop_to_outline(
+    image: npt.NDArray[np.uint8], outline: Array | None
+) -> tuple[npt.NDArray[np.uint8], tuple[int, int]]:
+    """Return the part of an image (h, w) about an outline (m, 2), px, and its first column and row;
+    the whole image if there is none."""
+    if outline is None:
+        return image, (0, 0)
+    marked = region.enlarge_outline(outline)
+    left, top = np.maximum(np.floor(marked.min(axis=0)), 0).astype(int).tolist()
+    right, bottom = np.ceil(marked.max(axis=0)).astype(int).tolist()
+    return image[top : bottom + 1, left : right + 1], (left, top)
+
+
+def list_levels(image: npt.NDArray[np.uint8]) -> list[npt.NDArray[np.uint8]]:
+    """List an image and its halved copies, down to the size that is searched first."""
+    levels = [image]
+    while max(levels[-1].shape) > _MAX_COARSE_SIDE:
+        levels.append(opencv.halve_image(levels[-1]))
+    return levels
+
+
 def _explain_missing_grid(
     grid_size: GridSize | None, largest: _FoundGrid | None, part: LabelledGrid | None
 ) -> NoBoardError:
@@ -137,7 +151,7 @@ def _explain_missing_grid(
     )
 
 
-class _Search(NamedTuple):
+class Search(NamedTuple):
     """A search for circles."""
 
     depth: int
@@ -174,7 +188,7 @@ class _Search(NamedTuple):
 
 
 def _place_part(
-    searches: list[tuple[_Search, Array]], grid_size: GridSize, *, asymmetric: bool
+    searches: list[tuple[Search, Array]], grid_size: GridSize, *, asymmetric: bool
 ) -> CoarseGrid | None:
     """Place the part of a grid that one of the searches has shown, with its points (n, 2) px: the
     first whose place is certain, or else the first."""
@@ -200,7 +214,7 @@ class _FoundGrid(NamedTuple):
     """A grid that a search has found."""
 
     grid: LabelledGrid
-    search: _Search
+    search: Search
     beyond: Continuation
 
     @property
@@ -216,7 +230,7 @@ class _FoundGrid(NamedTuple):
 
 
 def _is_needless(
-    search: _Search, found: _FoundGrid, copies: int, grid_size: GridSize | None
+    search: Search, found: _FoundGrid, copies: int, grid_size: GridSize | None
 ) -> bool:
     """Return whether a search would not find more than was `found`, in an image of as many halved
     `copies`: what is rare is looked for where gaps are left, or may be hidden by a shadow."""
@@ -229,7 +243,7 @@ def _is_needless(
     return (is_whole and not is_hidden) or search.is_negative != found.search.is_negative
 
 
-def _list_searches(levels: list[npt.NDArray[np.uint8]]) -> Iterator[_Search]:
+def list_searches(levels: list[npt.NDArray[np.uint8]]) -> Iterator[Search]:
     """List the searches for circles in an image and its halved copies, the coarsest first. Shadows
     need to be evened out rarely and so come last, with copies that are coarser still: there the
     pixels of a screen neither tear the circles apart nor leave specks between them."""
@@ -238,14 +252,14 @@ def _list_searches(levels: list[npt.NDArray[np.uint8]]) -> Iterator[_Search]:
         # What the coarsest level does not show is small, and lies in a small window.
         divisors = _WINDOW_DIVISORS if depth == coarsest else _WINDOW_DIVISORS[-1:]
         for is_negative, divisor in product((False, True), divisors):
-            yield _Search(depth, levels[depth], divisor, is_negative)
+            yield Search(depth, levels[depth], divisor, is_negative)
     smoothed = halved = opencv.halve_image(levels[coarsest])
     for depth in range(len(levels), len(levels) + _SMOOTHED_COPIES):
-        yield _Search(depth, smoothed, _WINDOW_DIVISORS[0])
-        yield _Search(depth, smoothed, _WINDOW_DIVISORS[0], True)
+        yield Search(depth, smoothed, _WINDOW_DIVISORS[0])
+        yield Search(depth, smoothed, _WINDOW_DIVISORS[0], True)
         smoothed = opencv.halve_image(smoothed)
-    yield _Search(coarsest, levels[coarsest], _SHADED_DIVISOR, False, True)
-    yield _Search(coarsest, levels[coarsest], _SHADED_DIVISOR, True, True)
+    yield Search(coarsest, levels[coarsest], _SHADED_DIVISOR, False, True)
+    yield Search(coarsest, levels[coarsest], _SHADED_DIVISOR, True, True)
     for depth, image in ((coarsest, levels[coarsest]), (len(levels), halved)):
-        yield _Search(depth, image, _WINDOW_DIVISORS[0], is_faint=True)
-        yield _Search(depth, image, _WINDOW_DIVISORS[0], True, is_faint=True)
+        yield Search(depth, image, _WINDOW_DIVISORS[0], is_faint=True)
+        yield Search(depth, image, _WINDOW_DIVISORS[0], True, is_faint=True)
