@@ -28,6 +28,7 @@ BUDGETS = {
     "kernels": 40,
     "lattices": 82,
     "redetection": 16,
+    "rig": 9,
     "uncertainty": 9,
 }
 RECORDS = re.compile("Threshold|Limit|Tolerance")
