@@ -45,6 +45,15 @@ if TYPE_CHECKING:
     from calibgui.scripting.figures import (
         plot_uncertainty as plot_uncertainty,
     )
+    from calibgui.scripting.rig import (
+        CalibratedRig as CalibratedRig,
+    )
+    from calibgui.scripting.rig import (
+        calibrate_rig as calibrate_rig,
+    )
+    from calibgui.scripting.rig import (
+        load_rig as load_rig,
+    )
 
 load_on_demand(
     __name__,
@@ -58,5 +67,6 @@ load_on_demand(
             "plot_residuals",
             "plot_uncertainty",
         ],
+        "scripting.rig": ["CalibratedRig", "calibrate_rig", "load_rig"],
     },
 )

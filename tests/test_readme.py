@@ -55,8 +55,8 @@ def test_command_lines(elsewhere: Path, capsys: pytest.CaptureFixture[str]) -> N
     window, *lines = lines
     assert Path(window).is_dir()
     # The paper's images, those of other boards and of many cameras are not bundled; see
-    # cli/test_boards.py and cli/test_batch.py.
-    left_out = ("paper", "calibrate photographs", "batch", "fleet")
+    # cli/test_boards.py, cli/test_batch.py and cli/test_rig.py.
+    left_out = ("paper", "calibrate photographs", "batch", "fleet", "rig", "stereo", "triangulate")
     lines = [line for line in lines if not line.startswith(left_out)]
     for line in lines:
         assert main(shlex.split(line)) == 0, capsys.readouterr().err

@@ -13,19 +13,25 @@ from calibgui.dataset.corner_set import DEFAULT_SQUARE, CornerSet
 from calibgui.dataset.left_out_result import LeftOut
 from calibgui.dataset.pose_set import LocatedView, PoseSet
 from calibgui.dataset.result import Result, list_installed_versions
+from calibgui.dataset.rig_pairing import CameraPhotographs, RigPairing
+from calibgui.dataset.rig_result import RigResult, relate_cameras
 from calibgui.dataset.stereo_rectification import StereoRectification
 from calibgui.dataset.view import View, ViewStatus, find_orientation
 
 __all__ = [
     "DEFAULT_SQUARE",
+    "CameraPhotographs",
     "CornerSet",
     "LeftOut",
     "LocatedView",
     "PoseSet",
     "Result",
+    "RigPairing",
+    "RigResult",
     "StereoRectification",
     "View",
     "ViewStatus",
     "find_orientation",
     "list_installed_versions",
+    "relate_cameras",
 ]

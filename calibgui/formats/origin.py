@@ -17,6 +17,7 @@ FIGURE, LENS_COMPARISON, METHOD_COMPARISON = "figure", "lens-comparison", "metho
 PAPER_PAGE, SERIES_CSV = "paper-page", "series-csv"
 FLEET_TABLE, FLEET_PAGE = "fleet-table", "fleet-page"
 POSES, POSES_CSV, RAYS_CSV = "poses", "poses-csv", "rays-csv"
+RIG, SPACE_POINTS_CSV = "rig", "space-points-csv"
 """Kinds of files; those of exporters are the exporters' names."""
 _LENGTH = 4096
 """Number of bytes at either end of a file in which its mark is."""
@@ -31,6 +32,8 @@ _OWN_WORDS: Mapping[str, re.Pattern[bytes]] = {
     POSES: re.compile(rb'\A\s*\{\s*"format"\s*:\s*"calibgui-poses"'),
     POSES_CSV: re.compile(rb"\Aimage,corners,rms_px,x_mm,y_mm,z_mm,"),
     RAYS_CSV: re.compile(rb"\Au_px,v_px,ray_x,ray_y,ray_z,"),
+    RIG: re.compile(rb'\A\s*\{\s*"format"\s*:\s*"calibgui-rig"'),
+    SPACE_POINTS_CSV: re.compile(rb"\Apoint,cameras,x_mm,y_mm,z_mm,"),
 }
 """Patterns of the files that say in words of their own what they are."""
 
@@ -49,6 +52,8 @@ _TITLES: Mapping[str, str] = {
     POSES: "a file of poses",
     POSES_CSV: "a table of poses",
     RAYS_CSV: "a table of rays",
+    RIG: "a rig",
+    SPACE_POINTS_CSV: "a table of points",
     FLEET_PAGE: "a page on a fleet",
 }
 

@@ -100,7 +100,7 @@ def calibrate(
         corner_set, search = read_corner_file(paths[0], board, square, size), False
     else:
         choice = FrameChoice(frames, Path(frames_folder))
-        found = _search(paths, board, pattern, choice, tell)
+        found = search_board(paths, board, pattern, choice, tell)
         corner_set, search = found.corner_set(square), True
     return _calibrate(corner_set, settings, search, tell)
 
@@ -182,7 +182,7 @@ def _make_settings(**choices: Unpack[Choices]) -> Settings:
     return settings
 
 
-def _search(
+def search_board(
     paths: Sequence[File],
     board: GridSize | None,
     pattern: Pattern | None,

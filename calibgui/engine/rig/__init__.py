@@ -14,11 +14,17 @@ from calibgui.engine.faces import load_on_demand
 
 if TYPE_CHECKING:
     from calibgui.engine.rig.calibrate_rig import calibrate_rig as calibrate_rig
+    from calibgui.engine.rig.point_uncertainty import (
+        PointUncertainty as PointUncertainty,
+        estimate_point_uncertainty as estimate_point_uncertainty,
+        see_points as see_points,
+    )
     from calibgui.engine.rig.records import (
         Layout as Layout,
         LeftOutView as LeftOutView,
         Rig as Rig,
         RigCamera as RigCamera,
+        RigPair as RigPair,
         RigView as RigView,
     )
     from calibgui.engine.rig.rectification import (
@@ -36,7 +42,8 @@ load_on_demand(
     __name__,
     {
         "calibrate_rig": ["calibrate_rig"],
-        "records": ["Layout", "LeftOutView", "Rig", "RigCamera", "RigView"],
+        "point_uncertainty": ["PointUncertainty", "estimate_point_uncertainty", "see_points"],
+        "records": ["Layout", "LeftOutView", "Rig", "RigCamera", "RigPair", "RigView"],
         "rectification": [
             "StereoPair",
             "find_epipolar_line",

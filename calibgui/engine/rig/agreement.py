@@ -16,8 +16,15 @@ import numpy as np
 from calibgui.engine.arrays import Array, BoolArray, IntArray
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.rig.alone import CameraAlone
-from calibgui.engine.rig.consensus import Relation, choose_turns, find_relation, find_tree
-from calibgui.engine.rig.records import RigCamera
+from calibgui.engine.rig.consensus import (
+    Relation,
+    apply_turns,
+    choose_turns,
+    find_relation,
+    find_tree,
+    measure_scatter,
+)
+from calibgui.engine.rig.records import RigCamera, RigPair
 
 _MAX_CONTRADICTION = 10.0
 """Ratio of a view's contradiction of the others to the usual one, in px, beyond which it is left
@@ -31,6 +38,9 @@ _MIN_COST = 1e-6
 
 class Agreement(NamedTuple):
     """How the views of a rig go together."""
+
+    noise: float
+    """Variance of a residual of the cameras alone along each axis, px^2."""
 
     base: IntArray
     """(n,) camera with which the views of each instant are compared."""
@@ -73,9 +83,7 @@ def join_cameras(
     Raises:
         CalibrationError: if the cameras fall apart into groups that never see the board together.
     """
-    C = len(alone)
-    seen = [set(part.poses.instant.tolist()) for part in alone]
-    shared = np.array([[len(seen[a] & seen[b]) for b in range(C)] for a in range(C)])
+    C, shared = len(alone), count_shared(alone)
     relations = {0: Relation(np.eye(3), np.zeros(3))}
     for a, b in find_tree(shared):
         _, in_a, in_b = np.intersect1d(
@@ -87,6 +95,12 @@ def join_cameras(
     if len(relations) < C:
         raise _explain_groups([camera.name for camera in cameras], shared)
     return [relations[c] for c in range(C)]
+
+
+def count_shared(alone: Sequence[CameraAlone]) -> IntArray:
+    """Count (C, C) the instants at which two cameras both see the board."""
+    seen = [set(part.poses.instant.tolist()) for part in alone]
+    return np.array([[len(first & second) for second in seen] for first in seen])
 
 
 def _explain_groups(names: Sequence[str], shared: IntArray) -> CalibrationError:
@@ -135,7 +149,9 @@ def find_agreement(
             )
             costs[a, b, at] = costs[b, a, at] = cost
             chosen[a, b, at], chosen[b, a, at] = turn, -turn % len(turns)
-    limit = _MAX_CONTRADICTION**2 * _find_usual_cost(alone, costs)
+    noise = _estimate_noise(alone)
+    usual = float(np.median(costs[np.isfinite(costs)]))
+    limit = _MAX_CONTRADICTION**2 * max(usual, _USUAL_COST * noise, _MIN_COST)
     corners = np.zeros((C, count))
     for c, part in enumerate(alone):
         corners[c, part.poses.instant] = part.observations.mask.sum(axis=1)
@@ -148,13 +164,36 @@ def find_agreement(
         kept.append(cost <= limit)
         turned.append(chosen[base[at], c, at])
         cost_of.append(cost)
-    return Agreement(base, tuple(kept), tuple(turned), tuple(cost_of))
+    return Agreement(noise, base, tuple(kept), tuple(turned), tuple(cost_of))
 
 
-def _find_usual_cost(alone: Sequence[CameraAlone], costs: Array) -> float:
-    """Return the cost of a usual view: the median, or what the corners' noise explains."""
+def _estimate_noise(alone: Sequence[CameraAlone]) -> float:
+    """Estimate the variance of a residual of the cameras alone along each axis, px^2."""
     corners = sum(part.observations.count for part in alone)
     poses = sum(len(part.poses.instant) for part in alone)
-    noise = sum(part.cost for part in alone) / max(2 * corners - 6 * poses, 1)
-    usual = float(np.median(costs[np.isfinite(costs)]))
-    return max(usual, _USUAL_COST * noise, _MIN_COST)
+    return sum(part.cost for part in alone) / max(2 * corners - 6 * poses, 1)
+
+
+def describe_pairs(
+    alone: Sequence[CameraAlone],
+    relations: Sequence[Relation],
+    turns: Sequence[Array],
+    agreement: Agreement,
+) -> tuple[RigPair, ...]:
+    """Describe how far apart single instants have the cameras of the pairs that join the rig."""
+    pairs = []
+    for a, b in find_tree(count_shared(alone)):
+        kept = [
+            part.poses.select(np.flatnonzero(agreement.kept[c]))
+            for c, part in ((a, alone[a]), (b, alone[b]))
+        ]
+        at, in_a, in_b = np.intersect1d(kept[0].instant, kept[1].instant, return_indices=True)
+        if not at.size:
+            continue
+        between = relations[b].after(relations[a].invert())
+        first, second = kept[0].select(in_a), kept[1].select(in_b)
+        turned = [second.turn(turn) for turn in turns]
+        second = apply_turns(turned, choose_turns(between, first, turned)[0])
+        scatter, of_noise = measure_scatter(between, first, second)
+        pairs.append(RigPair(a, b, len(at), scatter, of_noise * float(np.sqrt(agreement.noise))))
+    return tuple(pairs)

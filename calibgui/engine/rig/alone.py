@@ -111,7 +111,7 @@ def _see_alone(camera: RigCamera, observations: Observations, at: IntArray) -> C
             report=None,
             max_iterations=100,
         )
-        covariance = np.linalg.inv(solution.normal.V)
+        covariance = np.asarray(np.linalg.inv(solution.normal.V), np.float64)
     except (CalibrationError, np.linalg.LinAlgError) as error:
         raise CalibrationError(
             f"{camera.name}: no poses of a flat board explain its corners with its camera.",

@@ -22,7 +22,13 @@ from calibgui.engine.calibration.result import Cost, Report
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.geometry.pose import Pose
 from calibgui.engine.geometry.rotations import vector_from_rotation
-from calibgui.engine.rig.agreement import Agreement, find_agreement, join_cameras, list_turns
+from calibgui.engine.rig.agreement import (
+    Agreement,
+    describe_pairs,
+    find_agreement,
+    join_cameras,
+    list_turns,
+)
 from calibgui.engine.rig.alone import CameraAlone, see_alone
 from calibgui.engine.rig.consensus import Relation
 from calibgui.engine.rig.joint_solve import (
@@ -31,7 +37,7 @@ from calibgui.engine.rig.joint_solve import (
     place_views,
     solve_jointly,
 )
-from calibgui.engine.rig.records import Layout, LeftOutView, Rig, RigCamera, RigView
+from calibgui.engine.rig.records import Layout, LeftOutView, Rig, RigCamera, RigPair, RigView
 from calibgui.engine.rig.uncertainty import estimate_rig_covariance
 from calibgui.engine.threads import with_one_blas_thread
 
@@ -66,7 +72,8 @@ def calibrate_rig(cameras: Sequence[RigCamera], report: Report | None = None) ->
     problem = _state_problem(cameras, alone, agreement, turns, len(instants))
     start = _find_start(cameras, alone, relations, agreement)
     solution = solve_jointly(problem, start, report)
-    return _assemble(cameras, instants, alone, turns, agreement, problem, solution)
+    pairs = describe_pairs(alone, relations, turns, agreement)
+    return _assemble(cameras, instants, alone, turns, agreement, pairs, problem, solution)
 
 
 def _state_problem(
@@ -77,12 +84,8 @@ def _state_problem(
     count: int,
 ) -> RigProblem:
     """State the joint problem of the views that go together."""
-    corners = sum(part.observations.count for part in alone)
-    poses = sum(len(part.poses.instant) for part in alone)
-    variance = sum(part.cost for part in alone) / max(2 * corners - 6 * poses, 1)
     problems = []
     for c, (camera, part) in enumerate(zip(cameras, alone, strict=True)):
-        free = [i for i, name in enumerate(camera.camera.names) if name not in camera.fixed]
         kept, turned = agreement.kept[c], agreement.turn[c]
         observations = _turn_views(part.observations, turned, turns).select_views(kept)
         problems.append(
@@ -91,26 +94,24 @@ def _state_problem(
                 observations,
                 part.poses.instant[kept],
                 np.zeros((int(kept.sum()), 6)),
-                np.array(free, dtype=np.int64),
+                camera.free,
                 np.array(_OWN if c else (), dtype=np.int64),
-                _make_prior(camera, free, variance),
+                _make_prior(camera, agreement.noise),
             )
         )
     layout = Layout(tuple(len(camera.camera.params) for camera in cameras))
     return RigProblem(tuple(problems), layout, count)
 
 
-def _make_prior(
-    camera: RigCamera, free: Sequence[int], variance: float
-) -> tuple[Array, Array] | None:
+def _make_prior(camera: RigCamera, variance: float) -> tuple[Array, Array] | None:
     """Return the values of a camera's parameters and their stiffness in px^2; None without any.
 
     Raises:
         CalibrationError: if the covariance that is given is not positive definite.
     """
-    if camera.covariance is None or not free:
+    if camera.covariance is None or not camera.free.size:
         return None
-    among = np.ix_(free, free)
+    among = np.ix_(camera.free, camera.free)
     stiffness = np.zeros((len(camera.camera.params),) * 2)
     try:
         np.linalg.cholesky(camera.covariance[among])
@@ -166,6 +167,7 @@ def _assemble(
     alone: Sequence[CameraAlone],
     turns: Sequence[Array],
     agreement: Agreement,
+    pairs: tuple[RigPair, ...],
     problem: RigProblem,
     solution: Solution,
 ) -> Rig:
@@ -188,6 +190,7 @@ def _assemble(
                     instants[part.poses.instant[view]],
                     misses[k, own.observations.corners_of(k)],
                     float(rms[view]),
+                    float(np.sqrt(agreement.cost[c][view] / 6)),
                     float(np.degrees(np.arctan2(turn[1, 0], turn[0, 0]))) % 360,
                 )
             )
@@ -213,6 +216,7 @@ def _assemble(
         noise=found.noise,
         disagreement=found.disagreement,
         status=solution.status,
+        pairs=pairs,
         left_out=tuple(left_out),
     )
 

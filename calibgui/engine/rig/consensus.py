@@ -124,6 +124,23 @@ def _measure_differences(relation: Relation, a: ViewPoses, b: ViewPoses) -> tupl
     return np.concatenate([w, tau], axis=1), b.covariance + G @ a.covariance @ G.T
 
 
+def measure_scatter(relation: Relation, a: ViewPoses, b: ViewPoses) -> tuple[float, float]:
+    """Measure how far apart single instants have the place of camera b from a.
+
+    An instant has it at T + tau + [Q T_a]x w.
+
+    Returns:
+        Root mean square distance from T, mm, and that for residuals of 1 px.
+    """
+    e, covariance = _measure_differences(relation, a, b)
+    M = np.concatenate(
+        [make_cross_matrix(a.T @ relation.R.T), np.tile(np.eye(3), (len(e), 1, 1))], axis=2
+    )
+    apart = (M @ e[..., None])[..., 0]
+    expected = np.trace(M @ covariance @ np.swapaxes(M, 1, 2), axis1=1, axis2=2)
+    return float(np.sqrt(np.mean(np.sum(apart**2, axis=1)))), float(np.sqrt(expected.mean()))
+
+
 def choose_turns(
     relation: Relation, a: ViewPoses, turned: Sequence[ViewPoses]
 ) -> tuple[IntArray, Array]:
@@ -154,7 +171,7 @@ def find_relation(a: ViewPoses, turned: Sequence[ViewPoses]) -> Relation:
         chosen, costs = choose_turns(relation, a, turned)
         scale = float(np.median(costs))
         weights = (scale / (scale + costs)) ** 2 if scale > 0 else np.ones(len(costs))
-        relation, saved = _move_relation(relation, a, _apply_turns(turned, chosen), weights)
+        relation, saved = _move_relation(relation, a, apply_turns(turned, chosen), weights)
         if saved <= _MIN_SAVING * scale:
             break
     return relation
@@ -177,7 +194,7 @@ def _spread_evenly(count: int, most: int) -> IntArray:
     return np.unique(np.linspace(0, count - 1, min(count, most)).round().astype(np.int64))
 
 
-def _apply_turns(turned: Sequence[ViewPoses], chosen: IntArray) -> ViewPoses:
+def apply_turns(turned: Sequence[ViewPoses], chosen: IntArray) -> ViewPoses:
     """Return the views, each with the board counted from the end that is chosen."""
     each = np.arange(len(chosen))
     R, T, covariance = (

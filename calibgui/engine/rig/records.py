@@ -12,10 +12,11 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from calibgui.engine.arrays import Array, freeze
+from calibgui.engine.arrays import Array, IntArray, freeze
 from calibgui.engine.calibration.observations import Observation
 from calibgui.engine.calibration.result import Status
 from calibgui.engine.camera.camera import Camera
+from calibgui.engine.camera.models import find_model
 from calibgui.engine.geometry.pose import Pose
 
 
@@ -29,8 +30,9 @@ class RigCamera:
     """The camera as it was calibrated alone, or as an earlier result has it."""
     views: Mapping[int, Observation]
     """Corners in its photographs, by the number of the instant."""
-    fixed: Sequence[str] = ()
-    """Names of the parameters that are held."""
+    fixed: Sequence[str] | None = None
+    """Names of the parameters that are held; None for those that the lens model holds by default.
+    """
     covariance: Array | None = None
     """(P, P) covariance of the camera's parameters, if they are known from elsewhere than `views`:
     they are then estimated with this as prior. None if the views alone tell them."""
@@ -39,6 +41,12 @@ class RigCamera:
     along each axis; see ``Calibration.model_error``."""
     times: Mapping[int, float] = field(default_factory=dict)
     """Time of each photograph, s, by the number of the instant; empty if they are not known."""
+
+    @property
+    def free(self) -> IntArray:
+        """Indices of the parameters that are estimated."""
+        held = find_model(self.camera.model).held if self.fixed is None else self.fixed
+        return np.array([i for i, name in enumerate(self.camera.names) if name not in held], int)
 
     def hold(self) -> RigCamera:
         """Return the camera with all parameters held."""
@@ -65,6 +73,10 @@ class RigView:
     alone: float
     """Root mean square length of the residuals with the camera as it was calibrated alone, and the
     board where this view alone has it, px."""
+    contradiction: float
+    """Root mean square difference of the board's pose in this view from that in the view of the
+    same instant that it is compared with, in units of its effect on the corners, px; 0 for that
+    view itself. A view that fits has about the corners' noise."""
     turned: float = 0.0
     """Angle, degrees, by which the board was counted from another end than in the view of the same
     instant that it is compared with; the residuals are with the board turned back."""
@@ -76,6 +88,23 @@ class RigView:
     def rms(self) -> float:
         """Root mean square length of the residuals, px."""
         return float(np.sqrt(np.mean(np.sum(self.residuals**2, axis=1))))
+
+
+@dataclass(frozen=True, slots=True)
+class RigPair:
+    """Two cameras that were joined, because they share most instants."""
+
+    first: int
+    """Number of the camera that was in place before."""
+    second: int
+    """Number of the camera that was joined to it."""
+    shared: int
+    """Number of instants at which both see the board, and agree."""
+    scatter: float
+    """Root mean square distance, mm, of the second camera's places as single instants have them
+    from the one that most agree about."""
+    noise_scatter: float
+    """The same as the corners' noise alone explains it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -150,6 +179,8 @@ class Rig:
     """Ratio of the instants' disagreement about the rig to what the corners' noise explains, if it
     is significant; `covariance` includes it. 0 otherwise."""
     status: Status
+    pairs: tuple[RigPair, ...]
+    """The pairs that join the cameras, in the order in which they were joined."""
     left_out: tuple[LeftOutView, ...] = ()
     """Views that took no part because they contradict the others."""
 

@@ -135,21 +135,18 @@ class StereoPair:
         """(3, 4) OpenCV's P1 and P2 of perspective images: the second's last column holds the
         baseline, px mm, by which points in the first's frame move."""
         first, second = (np.hstack([each.matrix, np.zeros((3, 1))]) for each in self.ideal)
-        shift = self.rotations[1] @ self.pose.tvec
-        second[:, 3] = self.ideal[1].matrix @ shift
+        second[int(self.is_upright), 3] = self._shift * self.ideal[1].matrix[0, 0]
         return first, second
 
     @property
     def disparity_to_depth(self) -> Array:
         """(4, 4) OpenCV's Q of perspective images: (X, Y, Z, W) ~ Q (u, v, d, 1), mm."""
         K = self.ideal[0].matrix
-        along = 1 if self.is_upright else 0
-        shift = float((self.rotations[1] @ self.pose.tvec)[along])
         Q = np.zeros((4, 4))
         Q[:2, :2] = np.eye(2)
         Q[:2, 3] = -K[:2, 2]
-        Q[2, 3] = K[along, along]
-        Q[3, 2] = -1 / shift
+        Q[2, 3] = K[0, 0]
+        Q[3, 2] = -1 / self._shift
         return Q
 
     def rectify_points(self, uv: Array, which: int) -> Array:
@@ -165,9 +162,12 @@ class StereoPair:
 
     def compute_disparity(self, depth: float) -> float:
         """Compute the disparity, px, of points at a depth, mm, in perspective images."""
-        along = 1 if self.is_upright else 0
-        shift = (self.rotations[1] @ self.pose.tvec)[along]
-        return float(-self.ideal[0].matrix[along, along] * shift / depth)
+        return float(-self.ideal[0].matrix[0, 0] * self._shift / depth)
+
+    @property
+    def _shift(self) -> float:
+        """Place of the first camera in the second's rectified frame, along the line of centres."""
+        return float((self.rotations[1] @ self.pose.tvec)[int(self.is_upright)])
 
 
 def rectify_pair(

@@ -19,7 +19,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from calibgui.engine.arrays import Array, freeze
+from calibgui.engine.arrays import Array, BoolArray, freeze
 from calibgui.engine.camera.models import find_model
 from calibgui.engine.camera.projection import project, rays_from_pixels
 from calibgui.engine.errors import CalibrationError
@@ -105,7 +105,10 @@ def triangulate_points(
     D = -inverse @ pull
     covariance = rig.covariance
     return TriangulatedPoints(
-        X, D @ covariance @ np.swapaxes(D, 1, 2), sigma**2 * inverse, residual
+        X,
+        D @ covariance @ np.swapaxes(D, 1, 2),
+        np.asarray(sigma**2 * inverse, np.float64),
+        residual,
     )
 
 
@@ -117,7 +120,7 @@ def _find_nearest_places(rig: Rig, uv: Array) -> Array:
         Q = rotation_from_vector(pose.rvec)
         rays = rays_from_pixels(uv[c], camera) @ Q
         across = np.eye(3) - rays[..., None] * rays[:, None]
-        here = np.isfinite(across).all(axis=(1, 2))
+        here: BoolArray = np.isfinite(rays).all(axis=1)
         A[here] += across[here]
         b[here] += across[here] @ (-Q.T @ pose.tvec)
         seen += here
