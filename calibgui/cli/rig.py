@@ -34,10 +34,12 @@ from calibgui.dataset import DEFAULT_SQUARE, RigPairing, RigResult
 from calibgui.engine.boards import Board
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.images import is_video
+from calibgui.engine.opencv import read_frame_rate
 from calibgui.formats import ImportedCamera
 from calibgui.formats.origin import RIG
 from calibgui.formats.rig_files import RIG_EXPORTERS, find_rig_exporter
 from calibgui.formats.rig_json import encode_rig, write_rig
+from calibgui.formats.times_csv import read_times
 from calibgui.report.rig import describe_fit, describe_pairing, format_rig
 from calibgui.report.tables import format_bullet
 
@@ -79,6 +81,19 @@ def configure(parser: argparse.ArgumentParser) -> None:
         "--robust", action="store_true", help="leave out corners and views that no camera explains"
     )
     parser.add_argument(
+        "--offsets",
+        action="store_true",
+        help="estimate by how much each camera is later than the first one, from a board that "
+        "moves: of videos, or photographs in quick succession",
+    )
+    parser.add_argument(
+        "--times",
+        type=Path,
+        metavar="FILE",
+        help="CSV table of times with the columns camera, number (of the photograph or frame) and "
+        "time_s",
+    )
+    parser.add_argument(
         "--every",
         type=_parse_step,
         default=1,
@@ -112,7 +127,9 @@ def run(options: argparse.Namespace, console: Console) -> None:
     output = console.take_output(options.output)
     if output and output.suffix.lower() != ".json":
         raise CalibrationError(f"{output} is not named as JSON.", "Give it the suffix .json.")
-    pairing = _pair(options, console, output)
+    pairing, times = _pair(options, console, output)
+    if options.times:
+        times = read_times(options.times, {camera.name for camera in pairing.cameras})
     console.print_text(describe_pairing(pairing) + "\n")
     known = _read_known(options, pairing, console)
     if output:
@@ -128,6 +145,8 @@ def run(options: argparse.Namespace, console: Console) -> None:
             settings,
             known,
             options.hold,
+            times,
+            options.offsets,
             tell=lambda _: advance(next(done), len(pairing.cameras)),
         )
     messages = _write(result, options, output)
@@ -138,18 +157,27 @@ def run(options: argparse.Namespace, console: Console) -> None:
         console.print_text("\n" + "\n".join(map(format_bullet, messages)))
 
 
-def _pair(options: argparse.Namespace, console: Console, output: Path | None) -> RigPairing:
-    """Pair the photographs, or the frames of videos, of the cameras."""
+def _pair(
+    options: argparse.Namespace, console: Console, output: Path | None
+) -> tuple[RigPairing, dict[str, dict[int, float]]]:
+    """Pair the photographs, or the frames of videos, of the cameras; frames have times."""
     paths = [Path(name) for name in options.cameras]
     videos = [path for path in paths if path.is_file() and is_video(path)]
     if not videos:
-        return pair_photographs(options.cameras)
+        return pair_photographs(options.cameras), {}
     if len(videos) < len(paths) or len(videos) < 2:
         raise CalibrationError(
             "A rig is of videos of all cameras, or of photographs.", "Name a video for each camera."
         )
     folder = output.parent if output else Path()
-    return pair_files(write_frames(videos, folder, options.every, console.show_progress))
+    pairing = pair_files(write_frames(videos, folder, options.every, console.show_progress))
+    rates = {video.stem: read_frame_rate(str(video)) for video in videos}
+    times = {
+        camera.name: {number: number / rates[camera.name] for number in camera.files}
+        for camera in pairing.cameras
+        if rates[camera.name]
+    }
+    return pairing, times
 
 
 def _search(

@@ -171,6 +171,16 @@ def decode_video(path: str) -> tuple[int, Iterator[GreyImage]]:
     return max(0, int(capture.get(cv2.CAP_PROP_FRAME_COUNT))), decode()
 
 
+def read_frame_rate(path: str) -> float:
+    """Return the frames per second that a video says it has, 0 if it does not."""
+    capture = cv2.VideoCapture(path, cv2.CAP_FFMPEG)
+    try:
+        rate = float(capture.get(cv2.CAP_PROP_FPS))
+        return rate if np.isfinite(rate) and rate > 0 else 0.0
+    finally:
+        capture.release()
+
+
 def measure_sharpness(image: GreyImage) -> float:
     """Return the variance of the Laplacian of an RGB image (h, w, 3), halved: blur lessens it."""
     grey = halve_image(np.asarray(cv2.cvtColor(image, cv2.COLOR_RGB2GRAY)))

@@ -59,6 +59,7 @@ def list_names(names: Sequence[str]) -> str:
 def format_rig(result: RigResult) -> str:
     """Format a rig: how well the cameras agree, how they stand, and how well points are located."""
     remarks = [
+        *describe_offsets(result.rig),
         *describe_disagreement(result),
         *describe_left_out(result),
         *describe_turned(result),
@@ -103,6 +104,18 @@ def describe_disagreement(result: RigResult) -> list[str]:
         "the hand. Each ± counts it: put the board down for each picture, or trigger the cameras "
         "together.",
     ]
+
+
+def describe_offsets(rig: Rig) -> list[str]:
+    """Say by how much each camera is late, where that was estimated."""
+    sentences = []
+    for c, late in enumerate(rig.offsets.tolist()):
+        sigma = rig.offset_sigma(c)
+        if sigma > 0:
+            amount = format_with_sigma(1000 * abs(late), 1000 * sigma)
+            word = "later" if late > 0 else "earlier"
+            sentences.append(f"{rig.names[c]} is {amount} ms {word} than {rig.names[0]}.")
+    return sentences
 
 
 def describe_left_out(result: RigResult) -> list[str]:

@@ -204,3 +204,21 @@ def test_a_rig_of_videos(tmp_path: Path, folder: Path) -> None:
     assert len(rig.instants) == INSTANTS
     assert np.linalg.norm(rig.poses[1].tvec - POSE.tvec) < 20
     assert len(list((tmp_path / "left-frames").iterdir())) == INSTANTS
+
+
+def test_offsets_are_asked_of_photographs_in_succession(
+    folder: Path, tmp_path: Path, capsys: Capture
+) -> None:
+    """These boards were held still: offsets are estimated, and are nothing."""
+    times = tmp_path / "times.csv"
+    rows = [f"{side},{k},{k}" for side in ("left", "right") for k in range(1, INSTANTS + 1)]
+    times.write_text("\n".join(["camera,number,time_s", *rows]))
+    out = tmp_path / "rig.json"
+    assert calibrate(folder, "--offsets", "--times", str(times), "-o", str(out)) == 0
+    assert re.search(r"right is .* ms (later|earlier) than left", capsys.readouterr().out)
+    rig = read_rig(out).rig
+    assert abs(rig.offsets[1]) < 5 * rig.offset_sigma(1)
+    assert len(rig.instants) == INSTANTS - 2
+    times.write_text("camera,number,time_s\nleft,1,0\n")
+    assert calibrate(folder, "--offsets", "--times", str(times), "-q") == 1
+    assert "has no times of right" in capsys.readouterr().err

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -13,8 +14,11 @@ from calibgui.dataset import CornerSet, RigPairing, RigResult, View
 from calibgui.engine.boards import Board
 from calibgui.engine.calibration import Observation, Report
 from calibgui.engine.errors import CalibrationError
-from calibgui.engine.rig import RigCamera, calibrate_rig
+from calibgui.engine.rig import Rig, RigCamera, calibrate_rig
 from calibgui.formats import ImportedCamera
+
+_MAX_RMS_RATIO = 0.8
+"""Ratio of residuals with and without offsets in time up to which these are suggested."""
 
 
 def search_cameras(
@@ -47,6 +51,8 @@ def calibrate_photographs(
     settings: Settings,
     known: Mapping[str, ImportedCamera] | None = None,
     hold: bool = False,
+    times: Mapping[str, Mapping[int, float]] | None = None,
+    estimate_offsets: bool = False,
     report: Report | None = None,
     tell: Callable[[str], None] = lambda _: None,
 ) -> RigResult:
@@ -59,6 +65,8 @@ def calibrate_photographs(
         known: cameras that are known beforehand, by name. One whose errors are known is estimated
             with them as prior; any other is held.
         hold: True to hold all cameras as each alone is.
+        times: time of each photograph, s, by the names of cameras and the numbers of instants.
+        estimate_offsets: True to estimate by how much the clock of each camera is late.
         report: a function that takes each iteration of the joint solve; it returns False to stop.
         tell: a function that is told which camera is calibrated.
 
@@ -75,19 +83,38 @@ def calibrate_photographs(
             camera = _calibrate_alone(name, corner_set, numbers, settings)
         else:
             camera = _take_known(name, given, corner_set, numbers)
+        camera = replace(camera, times=(times or {}).get(name, {}))
         cameras.append(camera.hold() if hold else camera)
         named = {instant: image for image, instant in numbers.items()}
         for instant, view in camera.views.items():
             images[c, instant] = named[instant]
             observations[c, instant] = view
     sets = list(corner_sets.values())
+    rig = calibrate_rig(cameras, report, estimate_offsets)
     return RigResult(
-        calibrate_rig(cameras, report),
+        rig,
         pairing.instants,
         images,
         observations,
         sets[0].board,
         all(corner_set.lengths_confirmed for corner_set in sets),
+        () if estimate_offsets else _suggest_offsets(cameras, rig),
+    )
+
+
+def _suggest_offsets(cameras: Sequence[RigCamera], rig: Rig) -> tuple[str, ...]:
+    """Say in a sentence if the cameras' clocks explain that they disagree; nothing if not."""
+    if not rig.disagreement:
+        return ()
+    try:
+        moved = calibrate_rig(cameras, estimate_offsets=True)
+    except CalibrationError:  # the board was held still, or shown now and then
+        return ()
+    if not moved.rms < _MAX_RMS_RATIO * rig.rms:
+        return ()
+    return (
+        "The board moved while the cameras' clocks did not agree: with one offset in time for each "
+        f"camera they leave {moved.rms:.3g} px. --offsets estimates these.",
     )
 
 

@@ -37,6 +37,15 @@ class CameraAlone:
     cost: float
     """Sum of the squares of the whitened residuals, px^2."""
 
+    def select(self, views: IntArray) -> CameraAlone:
+        """Return some of the views, with their share of the cost."""
+        return CameraAlone(
+            self.observations.select_views(views),
+            self.poses.select(views),
+            self.residuals[views],
+            self.cost * len(views) / max(len(self.residuals), 1),
+        )
+
     def compute_rms(self) -> Array:
         """Return (K,) root mean square lengths of the views' residuals, px."""
         mask = self.observations.mask

@@ -38,21 +38,29 @@ from calibgui.engine.rig.joint_solve import (
     solve_jointly,
 )
 from calibgui.engine.rig.records import Layout, LeftOutView, Rig, RigCamera, RigPair, RigView
+from calibgui.engine.rig.time_offsets import Motion, find_motions, hold_board_still
 from calibgui.engine.rig.uncertainty import estimate_rig_covariance
 from calibgui.engine.threads import with_one_blas_thread
 
-_OWN = tuple(range(6))
-"""Indices of the pose among the unknowns of a camera that is not the first."""
+_OWN = tuple(range(7))
+"""Indices of the pose, and of the offset in time, among a camera's unknowns."""
+_ROUNDS = 3
+"""Number of solves where cameras are late: what contradicts the others shows once the offsets are
+known, to some tenths after the first."""
 
 
 @with_one_blas_thread
-def calibrate_rig(cameras: Sequence[RigCamera], report: Report | None = None) -> Rig:
+def calibrate_rig(
+    cameras: Sequence[RigCamera], report: Report | None = None, estimate_offsets: bool = False
+) -> Rig:
     """Calibrate a rig: how its cameras stand to each other, and all parameters together.
 
     Args:
         cameras: the cameras as they are known, with their views by instants. The rig's frame is
             that of the first one.
         report: a function that takes each iteration of the joint solve; it returns False to stop.
+        estimate_offsets: True to estimate by how much the clock of each camera is late, from a
+            board that moves; views without one before and one after then take no part.
 
     Raises:
         CalibrationError: if there are fewer than two cameras, a view cannot be used, the cameras
@@ -66,13 +74,22 @@ def calibrate_rig(cameras: Sequence[RigCamera], report: Report | None = None) ->
         )
     instants = sorted({instant for camera in cameras for instant in camera.views})
     alone = see_alone(cameras, instants)
-    turns = list_turns(alone)
-    relations = join_cameras(cameras, alone, turns)
-    agreement = find_agreement(alone, relations, turns, len(instants))
-    problem = _state_problem(cameras, alone, agreement, turns, len(instants))
-    start = _find_start(cameras, alone, relations, agreement)
-    solution = solve_jointly(problem, start, report)
-    pairs = describe_pairs(alone, relations, turns, agreement)
+    motions = hold_board_still(alone)
+    if estimate_offsets:
+        instants, alone, motions = find_motions(cameras, instants, alone)
+    turns, offsets = list_turns(alone), np.zeros(len(cameras))
+    for _ in range(_ROUNDS if estimate_offsets else 1):
+        still = [
+            motion.move_back(part, late)
+            for motion, part, late in zip(motions, alone, offsets.tolist(), strict=True)
+        ]
+        relations = join_cameras(cameras, still, turns)
+        agreement = find_agreement(still, relations, turns, len(instants))
+        problem = _state_problem(cameras, alone, agreement, turns, len(instants), motions)
+        start = _find_start(cameras, still, relations, agreement, offsets)
+        solution = solve_jointly(problem, start, report)
+        offsets = solution.state.params[[*map(problem.layout.offset, range(len(cameras)))]]
+    pairs = describe_pairs(still, relations, turns, agreement)
     return _assemble(cameras, instants, alone, turns, agreement, pairs, problem, solution)
 
 
@@ -82,6 +99,7 @@ def _state_problem(
     agreement: Agreement,
     turns: Sequence[Array],
     count: int,
+    motions: Sequence[Motion],
 ) -> RigProblem:
     """State the joint problem of the views that go together."""
     problems = []
@@ -93,9 +111,10 @@ def _state_problem(
                 camera.camera.model,
                 observations,
                 part.poses.instant[kept],
-                np.zeros((int(kept.sum()), 6)),
+                motions[c].velocity[kept],
+                motions[c].lag[kept],
                 camera.free,
-                np.array(_OWN if c else (), dtype=np.int64),
+                np.array(_OWN[: 6 + motions[c].is_moving] if c else (), dtype=np.int64),
                 _make_prior(camera, agreement.noise),
             )
         )
@@ -142,12 +161,13 @@ def _find_start(
     alone: Sequence[CameraAlone],
     relations: Sequence[Relation],
     agreement: Agreement,
+    offsets: Array,
 ) -> State:
     """Return the state that the views agree about, with the board where each base sees it."""
     params = np.concatenate(
         [
-            np.concatenate([camera.camera.params, vector_from_rotation(R), T, [0.0]])
-            for camera, (R, T) in zip(cameras, relations, strict=True)
+            np.concatenate([camera.camera.params, vector_from_rotation(R), T, [late]])
+            for camera, (R, T), late in zip(cameras, relations, offsets.tolist(), strict=True)
         ]
     )
     count = len(agreement.base)

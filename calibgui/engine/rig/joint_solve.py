@@ -67,8 +67,10 @@ class CameraProblem:
     instant: IntArray
     """(K,) place of the instant of each view among all instants."""
     velocity: Array
-    """(K, 6) local rotation and translation per second of the board in each view, rad/s and mm/s;
-    0 where it is not known."""
+    """(K, 6) local rotation and translation per second of the board in each view, rad/s and mm/s.
+    """
+    lag: Array
+    """(K,) time by which each view is known to be later than its instant, s."""
     free: IntArray
     """Indices of the camera's parameters that may change."""
     unknown: IntArray
@@ -148,7 +150,8 @@ def place_views(problem: RigProblem, state: State, c: int) -> State:
     R = Q @ state.R[camera.instant]
     T = state.T[camera.instant] @ Q.T + S
     own = State(state.params[problem.layout.camera(c)], R, T)
-    return own.take_step(np.zeros(len(own.params)), late * camera.velocity)
+    moved = (late + camera.lag)[:, None] * camera.velocity
+    return own.take_step(np.zeros(len(own.params)), moved)
 
 
 def _read_pose(layout: Layout, state: State, c: int) -> tuple[Array, Array, float]:
@@ -249,7 +252,7 @@ def differentiate_view_poses(problem: RigProblem, state: State, c: int) -> tuple
     Q, _, late = _read_pose(problem.layout, state, c)
     q = state.params[problem.layout.pose(c)][:3]
     J = np.linalg.inv(compute_inverse_left_jacobian(q))
-    on = rotation_from_vector(late * camera.velocity[:, :3])
+    on = rotation_from_vector((late + camera.lag)[:, None] * camera.velocity[:, :3])
     arm = make_cross_matrix(state.T[camera.instant] @ Q.T)
     count = len(camera.instant)
     C, G = np.zeros((count, 6, 7)), np.zeros((count, 6, 6))

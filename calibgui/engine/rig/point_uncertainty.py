@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from calibgui.engine.arrays import Array, BoolArray
+from calibgui.engine.arrays import Array
 from calibgui.engine.camera.projection import pixels_from_rays, rays_from_pixels
 from calibgui.engine.geometry.rotations import rotation_from_vector
 from calibgui.engine.rig.records import Rig
@@ -80,9 +80,10 @@ def see_points(rig: Rig, c: int, points: Array) -> Array:
     pixels = pixels_from_rays(X, camera)
     width, height = camera.size
     with np.errstate(invalid="ignore"):
-        inside = (pixels > -0.5).all(axis=1) & (pixels < [width - 0.5, height - 0.5]).all(axis=1)
+        within = (pixels > -0.5) & (pixels < [width - 0.5, height - 0.5])
+        inside = np.asarray(within.all(axis=1), dtype=bool)
         # A lens that folds over images points that it does not see.
         rays = rays_from_pixels(np.where(inside[:, None], pixels, np.nan), camera)
         there = np.sum(rays * X, axis=1) > (1 - 1e-6) * np.linalg.norm(X, axis=1)
-    seen: BoolArray = inside & there
+    seen = np.asarray(inside & there, dtype=bool)
     return np.where(seen[:, None], pixels, np.nan)

@@ -40,7 +40,8 @@ class RigCamera:
     """Standard deviation that the models of board and lens add to the covariances of corners, px
     along each axis; see ``Calibration.model_error``."""
     times: Mapping[int, float] = field(default_factory=dict)
-    """Time of each photograph, s, by the number of the instant; empty if they are not known."""
+    """Time of each photograph by the camera's clock, s, by the number of the instant; empty if they
+    are not known, and all cameras took them at the same moments, a second apart."""
 
     @property
     def free(self) -> IntArray:

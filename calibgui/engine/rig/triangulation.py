@@ -19,7 +19,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from calibgui.engine.arrays import Array, BoolArray, freeze
+from calibgui.engine.arrays import Array, freeze
 from calibgui.engine.camera.models import find_model
 from calibgui.engine.camera.projection import project, rays_from_pixels
 from calibgui.engine.errors import CalibrationError
@@ -120,7 +120,7 @@ def _find_nearest_places(rig: Rig, uv: Array) -> Array:
         Q = rotation_from_vector(pose.rvec)
         rays = rays_from_pixels(uv[c], camera) @ Q
         across = np.eye(3) - rays[..., None] * rays[:, None]
-        here: BoolArray = np.isfinite(rays).all(axis=1)
+        here = np.asarray(np.isfinite(rays).all(axis=1), dtype=bool)
         A[here] += across[here]
         b[here] += across[here] @ (-Q.T @ pose.tvec)
         seen += here
@@ -130,7 +130,7 @@ def _find_nearest_places(rig: Rig, uv: Array) -> Array:
 
 def _sum_normal(by_point: Array, residual: Array) -> tuple[Array, Array]:
     """Return N (n, 3, 3) and the gradient (n, 3) of the cameras that see each point."""
-    seen = np.isfinite(residual).all(axis=2)
+    seen = np.asarray(np.isfinite(residual).all(axis=2), dtype=bool)
     A, r = np.where(seen[..., None, None], by_point, 0), np.where(seen[..., None], residual, 0)
     N = np.einsum("cnia,cnib->nab", A, A)
     N[seen.sum(axis=0) < 2] = np.nan

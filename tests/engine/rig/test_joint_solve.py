@@ -36,6 +36,7 @@ def make_problem() -> tuple[RigProblem, State]:
                 pack_observations([camera.views[k] for k in at.tolist()]),
                 at,
                 velocity,
+                rng.normal(0, 0.01, len(at)),
                 np.array([0, 2, 3, 5]),
                 np.arange(7) if c else np.zeros(0, dtype=np.int64),
             )

@@ -47,6 +47,7 @@ from calibgui.formats.resampled_json import read_resampled
 from calibgui.formats.result_json import encode_result
 from calibgui.formats.rig_json import read_rig, write_rig
 from calibgui.formats.space_points_csv import read_seen_points
+from calibgui.formats.times_csv import read_times
 from tests.formats.cameras import example, splined
 from tests.formats.rigs import make_result as make_rig_result
 
@@ -288,6 +289,13 @@ def _list_other_readers(folder: Path) -> list[Reader]:
             _SEEN.encode(),
             lambda file: read_seen_points(file, make_rig_result()),
             ("read_seen_points",),
+        ),
+        Reader(
+            "times of photographs",
+            "times.csv",
+            b"camera,number,time_s\nleft,1,0.1\nright,1,0.11\n",
+            lambda file: read_times(file, ("left", "right")),
+            ("read_times",),
         ),
         Reader(
             "regions",
