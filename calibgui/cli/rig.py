@@ -41,7 +41,7 @@ from calibgui.formats.rig_files import RIG_EXPORTERS, find_rig_exporter
 from calibgui.formats.rig_json import encode_rig, write_rig
 from calibgui.formats.times_csv import read_times
 from calibgui.report.rig import describe_fit, describe_pairing, format_rig
-from calibgui.report.tables import format_bullet
+from calibgui.report.tables import format_bullet, list_unused_views
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
@@ -136,6 +136,9 @@ def run(options: argparse.Namespace, console: Console) -> None:
         read = [file for camera in pairing.cameras for file in camera.files.values()]
         check_outputs([(output, RIG)], read, options.overwrite)
     corner_sets = search_cameras(pairing, partial(_search, options, console), options.square)
+    for name, corner_set in corner_sets.items():
+        if unused := list_unused_views(corner_set.views):
+            console.print_text(f"{name}: {unused}\n", otherwise=f"{name}: {unused}")
     settings = Settings(model=options.model, robust=options.robust)
     with console.show_progress("calibrating", "camera") as advance:
         done = iter(range(len(pairing.cameras) + 1))

@@ -10,7 +10,8 @@
      "instants": [{"number", "name", "rvec", "tvec_mm"}, ...],
      "views": [{"camera", "instant", "image", "uv", "xy_mm", "residuals_px", "alone_px",
                 "contradiction_px", "turned_deg"}, ...],
-     "left_out": [{"camera", "instant", "image", "error_px"}, ...], "remarks", "versions"}
+     "left_out": [{"camera", "instant", "image", "error_px"}, ...],
+     "mistakes": [{"kind", "cameras": [a, b], "instants", "value"}, ...], "remarks", "versions"}
 
 Reader: any JSON reader; `read_rig`. Cameras count from 0. A point X, mm, of the rig's frame, which
 is that of the first camera, is at R X + tvec_mm in a camera's frame (X right, Y down, Z ahead),
@@ -30,7 +31,7 @@ from calibgui.dataset import RigResult
 from calibgui.engine.calibration import Observation, Status
 from calibgui.engine.camera import Camera, list_parameter_names
 from calibgui.engine.geometry import Pose
-from calibgui.engine.rig import LeftOutView, Rig, RigPair, RigView
+from calibgui.engine.rig import LeftOutView, Mistake, Rig, RigMistake, RigPair, RigView
 from calibgui.formats.json_document import check_format, read_json, write_json
 from calibgui.formats.node import Node
 from calibgui.formats.pattern_json import decode_board, encode_board
@@ -92,6 +93,15 @@ def encode_rig(result: RigResult) -> dict[str, Any]:
                 "error_px": view.error,
             }
             for view in rig.left_out
+        ],
+        "mistakes": [
+            {
+                "kind": mistake.kind,
+                "cameras": [mistake.other, mistake.camera],
+                "instants": mistake.instants,
+                "value": mistake.value,
+            }
+            for mistake in rig.mistakes
         ],
         "remarks": result.remarks,
         "versions": result.versions,
@@ -193,6 +203,18 @@ def _decode_rig(
         status=Status(node["status"].choice(list(Status))),
         pairs=tuple(_decode_pair(entry, len(cameras)) for entry in node["pairs"].items()),
         left_out=left_out,
+        mistakes=tuple(_decode_mistake(entry, len(cameras)) for entry in node["mistakes"].items()),
+    )
+
+
+def _decode_mistake(node: Node, cameras: int) -> RigMistake:
+    other, camera = (_decode_index(entry, cameras) for entry in node["cameras"].items(2))
+    return RigMistake(
+        Mistake(node["kind"].choice(list(Mistake))),
+        camera,
+        other,
+        tuple(node["instants"].integers(None).tolist()),
+        node["value"].number(),
     )
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
+from typing import assert_never
 
 import numpy as np
 
@@ -11,8 +12,10 @@ from calibgui.dataset import RigPairing, RigResult, relate_cameras
 from calibgui.engine.camera import find_model
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.rig import (
+    Mistake,
     PointUncertainty,
     Rig,
+    RigMistake,
     StereoPair,
     TriangulatedPoints,
     estimate_point_uncertainty,
@@ -61,7 +64,7 @@ def format_rig(result: RigResult) -> str:
     remarks = [
         *describe_offsets(result.rig),
         *describe_disagreement(result),
-        *describe_left_out(result),
+        *(describe_mistake(result, mistake) for mistake in result.rig.mistakes),
         *describe_turned(result),
         *result.remarks,
     ]
@@ -118,18 +121,56 @@ def describe_offsets(rig: Rig) -> list[str]:
     return sentences
 
 
-def describe_left_out(result: RigResult) -> list[str]:
-    """Name the photographs that were left out because they contradict the others."""
-    if not result.rig.left_out:
-        return []
-    named = [
-        f"{Path(result.images[view.camera, view.instant]).name} ({view.error:.2g} px)"
-        for view in result.rig.left_out
-    ]
-    return [
-        f"Left out, as the board is elsewhere than in the other cameras' photographs of the "
-        f"instant: {list_names(named)}. Were they taken at another instant?"
-    ]
+def describe_mistake(result: RigResult, mistake: RigMistake) -> str:
+    """Describe in sentences what is wrong with some views, and what to do about it."""
+    rig, value = result.rig, mistake.value
+    name, other = rig.names[mistake.camera], rig.names[mistake.other]
+    named = list_names([_name_photograph(result, mistake.camera, i) for i in mistake.instants])
+    match mistake.kind:
+        case Mistake.SHIFTED:
+            count, side = abs(int(value)), "earlier" if value < 0 else "later"
+            return (
+                f"The photographs of {name} belong to those of {other} of "
+                f"{format_count(count, 'instant')} {side}: nothing above holds. Pair them so."
+            )
+        case Mistake.EXCHANGED:
+            return (
+                f"Exchanged with those of {other}: {named}. They are left out; give them back "
+                "their names."
+            )
+        case Mistake.OTHER_SCALE:
+            return (
+                f"The squares were counted {value:.3g} times as long as in the others in {named}, "
+                f"and the photographs of {other} beside them. They are left out: is that another "
+                "board, or another --square?"
+            )
+        case Mistake.MOVED:
+            first = _name_photograph(result, mistake.camera, mistake.instants[0])
+            return (
+                f"{name} stands {value:.2g} mm otherwise beside {other} from {first} on. "
+                "Calibrate the photographs before and after it by themselves."
+            )
+        case Mistake.REFOCUSED:
+            first = _name_photograph(result, mistake.camera, mistake.instants[0])
+            return (
+                f"The focal length of {name} is {value:.4g} times as long from {first} on: it was "
+                "refocused or zoomed. Calibrate the photographs before and after it by themselves."
+            )
+        case Mistake.OTHER_INSTANT:
+            return (
+                "Left out, as the board is elsewhere than in the other cameras' photographs of the "
+                f"instant: {named}. Were they taken at another instant?"
+            )
+        case Mistake.LESS_AGREEMENT:
+            return f"Those that agree least with the other cameras: {named}."
+        case never:
+            assert_never(never)
+
+
+def _name_photograph(result: RigResult, camera: int, instant: int) -> str:
+    """Name the photograph of a camera at an instant, or the instant if it has none."""
+    image = result.images.get((camera, instant))
+    return result.instants[instant] if image is None else Path(image).name
 
 
 def describe_turned(result: RigResult) -> list[str]:

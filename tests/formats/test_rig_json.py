@@ -11,14 +11,18 @@ import numpy as np
 import pytest
 
 from calibgui.engine.errors import CalibrationError
-from calibgui.engine.rig import LeftOutView
+from calibgui.engine.rig import LeftOutView, Mistake, RigMistake
 from calibgui.formats.rig_json import read_rig, write_rig
 from tests.formats.rigs import make_result
 
 
 def test_a_rig_comes_back(tmp_path: Path) -> None:
     result = make_result()
-    rig = replace(result.rig, left_out=(LeftOutView(1, result.rig.instants[2], 7.5),))
+    rig = replace(
+        result.rig,
+        left_out=(LeftOutView(1, result.rig.instants[2], 7.5),),
+        mistakes=(RigMistake(Mistake.MOVED, 1, 0, result.rig.instants[3:], 2.5),),
+    )
     result = replace(result, rig=rig)
     write_rig(result, tmp_path / "rig.json")
     read = read_rig(tmp_path / "rig.json")
@@ -27,7 +31,7 @@ def test_a_rig_comes_back(tmp_path: Path) -> None:
     np.testing.assert_array_equal(read.rig.covariance, rig.covariance)
     for ours, theirs in zip(rig.cameras, read.rig.cameras, strict=True):
         np.testing.assert_array_equal(ours.params, theirs.params)
-    assert read.rig.left_out == rig.left_out
+    assert read.rig.left_out == rig.left_out and read.rig.mistakes == rig.mistakes
     assert read.board == result.board
 
 

@@ -22,8 +22,10 @@ if TYPE_CHECKING:
     from calibgui.engine.rig.records import (
         Layout as Layout,
         LeftOutView as LeftOutView,
+        Mistake as Mistake,
         Rig as Rig,
         RigCamera as RigCamera,
+        RigMistake as RigMistake,
         RigPair as RigPair,
         RigView as RigView,
     )
@@ -43,7 +45,16 @@ load_on_demand(
     {
         "calibrate_rig": ["calibrate_rig"],
         "point_uncertainty": ["PointUncertainty", "estimate_point_uncertainty", "see_points"],
-        "records": ["Layout", "LeftOutView", "Rig", "RigCamera", "RigPair", "RigView"],
+        "records": [
+            "Layout",
+            "LeftOutView",
+            "Mistake",
+            "Rig",
+            "RigCamera",
+            "RigMistake",
+            "RigPair",
+            "RigView",
+        ],
         "rectification": [
             "StereoPair",
             "find_epipolar_line",

@@ -30,7 +30,7 @@ _MAX_CONTRADICTION = 10.0
 """Ratio of a view's contradiction of the others to the usual one, in px, beyond which it is left
 out. Pairs of real rigs that were not taken at quite the same instant reach 6, those that do not
 belong together are beyond 100: a plausibility limit."""
-_USUAL_COST = 5.348
+USUAL_COST = 5.348
 """Median of the squared length of a residual with 6 degrees of freedom and variance 1."""
 _MIN_COST = 1e-6
 """Cost of a contradiction that is of no consequence, px^2."""
@@ -42,6 +42,8 @@ class Agreement(NamedTuple):
     noise: float
     """Variance of a residual of the cameras alone along each axis, px^2."""
 
+    limit: float
+    """Cost beyond which a view contradicts the one that it is compared with, px^2."""
     base: IntArray
     """(n,) camera with which the views of each instant are compared."""
     kept: tuple[BoolArray, ...]
@@ -151,7 +153,7 @@ def find_agreement(
             chosen[a, b, at], chosen[b, a, at] = turn, -turn % len(turns)
     noise = _estimate_noise(alone)
     usual = float(np.median(costs[np.isfinite(costs)]))
-    limit = _MAX_CONTRADICTION**2 * max(usual, _USUAL_COST * noise, _MIN_COST)
+    limit = _MAX_CONTRADICTION**2 * max(usual, USUAL_COST * noise, _MIN_COST)
     corners = np.zeros((C, count))
     for c, part in enumerate(alone):
         corners[c, part.poses.instant] = part.observations.mask.sum(axis=1)
@@ -164,7 +166,7 @@ def find_agreement(
         kept.append(cost <= limit)
         turned.append(chosen[base[at], c, at])
         cost_of.append(cost)
-    return Agreement(noise, base, tuple(kept), tuple(turned), tuple(cost_of))
+    return Agreement(noise, limit, base, tuple(kept), tuple(turned), tuple(cost_of))
 
 
 def _estimate_noise(alone: Sequence[CameraAlone]) -> float:

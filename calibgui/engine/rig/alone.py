@@ -15,7 +15,11 @@ import numpy as np
 from calibgui.engine.arrays import Array, IntArray
 from calibgui.engine.calibration.observations import Observations, pack_observations
 from calibgui.engine.calibration.refinement.bundle_adjustment import solve_stage_two
-from calibgui.engine.calibration.refinement.residuals import State, compute_misses
+from calibgui.engine.calibration.refinement.residuals import (
+    State,
+    compute_misses,
+    compute_view_products,
+)
 from calibgui.engine.calibration.refinement.whitening import whiten_observations
 from calibgui.engine.calibration.resection import estimate_poses
 from calibgui.engine.calibration.result import Cost
@@ -36,6 +40,8 @@ class CameraAlone:
     """(K, N, 2) measured minus predicted corners, px."""
     cost: float
     """Sum of the squares of the whitened residuals, px^2."""
+    by_focal: Array
+    """(K, 6) change of the local (w, tau) of each pose with the logarithm of the focal length."""
 
     def select(self, views: IntArray) -> CameraAlone:
         """Return some of the views, with their share of the cost."""
@@ -44,6 +50,7 @@ class CameraAlone:
             self.poses.select(views),
             self.residuals[views],
             self.cost * len(views) / max(len(self.residuals), 1),
+            self.by_focal[views],
         )
 
     def compute_rms(self) -> Array:
@@ -67,7 +74,7 @@ def see_alone(cameras: Sequence[RigCamera], instants: Sequence[int]) -> list[Cam
     found = []
     for camera, observations in zip(cameras, _whiten_alike(cameras, packed), strict=True):
         at = np.searchsorted(instants, sorted(camera.views)).astype(np.int64)
-        found.append(_see_alone(camera, observations, at))
+        found.append(locate_views(camera, observations, at))
     return found
 
 
@@ -107,8 +114,12 @@ def _whiten_alike(
     return whitened
 
 
-def _see_alone(camera: RigCamera, observations: Observations, at: IntArray) -> CameraAlone:
-    """Find the board in the views of a camera, whose instants have the places `at`."""
+def locate_views(camera: RigCamera, observations: Observations, at: IntArray) -> CameraAlone:
+    """Find the board in the views of a camera, whose instants have the places `at`.
+
+    Raises:
+        CalibrationError: if the camera does not fit its views.
+    """
     try:
         solution = solve_stage_two(
             observations,
@@ -129,4 +140,8 @@ def _see_alone(camera: RigCamera, observations: Observations, at: IntArray) -> C
     state: State = solution.state
     residuals = compute_misses(state, observations, camera.camera.model, Cost.IMAGE)
     poses = ViewPoses(state.R, state.T, covariance, at)
-    return CameraAlone(observations, poses, residuals, solution.normal.cost)
+    focal = np.arange(2)
+    products = compute_view_products(state, observations, camera.camera.model, focal)
+    pull = products[:, 2:-1, :2] @ camera.camera.focal
+    by_focal = -(covariance @ pull[..., None])[..., 0]
+    return CameraAlone(observations, poses, residuals, solution.normal.cost, by_focal)

@@ -37,6 +37,7 @@ from calibgui.engine.rig.joint_solve import (
     place_views,
     solve_jointly,
 )
+from calibgui.engine.rig.mistakes import find_mistakes
 from calibgui.engine.rig.records import Layout, LeftOutView, Rig, RigCamera, RigPair, RigView
 from calibgui.engine.rig.time_offsets import Motion, find_motions, hold_board_still
 from calibgui.engine.rig.uncertainty import estimate_rig_covariance
@@ -90,7 +91,11 @@ def calibrate_rig(
         solution = solve_jointly(problem, start, report)
         offsets = solution.state.params[[*map(problem.layout.offset, range(len(cameras)))]]
     pairs = describe_pairs(still, relations, turns, agreement)
-    return _assemble(cameras, instants, alone, turns, agreement, pairs, problem, solution)
+    rig = _assemble(cameras, instants, alone, turns, agreement, pairs, problem, solution)
+    mistakes = find_mistakes(
+        cameras, still, relations, turns, agreement, instants, rig.disagreement > 0
+    )
+    return replace(rig, mistakes=mistakes)
 
 
 def _state_problem(

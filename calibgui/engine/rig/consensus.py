@@ -110,11 +110,11 @@ def compare_views(relation: Relation, a: ViewPoses, b: ViewPoses) -> Array:
         relation: b_from_a.
         a, b: the views of both cameras at the same instants.
     """
-    e, covariance = _measure_differences(relation, a, b)
+    e, covariance = measure_differences(relation, a, b)
     return np.asarray(np.sum(e * np.linalg.solve(covariance, e[..., None])[..., 0], axis=1))
 
 
-def _measure_differences(relation: Relation, a: ViewPoses, b: ViewPoses) -> tuple[Array, Array]:
+def measure_differences(relation: Relation, a: ViewPoses, b: ViewPoses) -> tuple[Array, Array]:
     """Return e (K, 6) and its covariance (K, 6, 6) for residuals of 1 px."""
     Q, S = relation
     w = vector_from_rotation(b.R @ np.swapaxes(Q @ a.R, 1, 2))
@@ -122,6 +122,14 @@ def _measure_differences(relation: Relation, a: ViewPoses, b: ViewPoses) -> tupl
     G = np.zeros((6, 6))
     G[:3, :3] = G[3:, 3:] = Q
     return np.concatenate([w, tau], axis=1), b.covariance + G @ a.covariance @ G.T
+
+
+def differentiate_differences(relation: Relation, a: ViewPoses) -> Array:
+    """Return (K, 6, 6) how the pose predicted in b moves with a local (w, tau) of the relation: by
+    (w, tau - [Q T_a]x w)."""
+    C = np.tile(np.eye(6), (len(a.T), 1, 1))
+    C[:, 3:, :3] = -make_cross_matrix(a.T @ relation.R.T)
+    return C
 
 
 def measure_scatter(relation: Relation, a: ViewPoses, b: ViewPoses) -> tuple[float, float]:
@@ -132,7 +140,7 @@ def measure_scatter(relation: Relation, a: ViewPoses, b: ViewPoses) -> tuple[flo
     Returns:
         Root mean square distance from T, mm, and that for residuals of 1 px.
     """
-    e, covariance = _measure_differences(relation, a, b)
+    e, covariance = measure_differences(relation, a, b)
     M = np.concatenate(
         [make_cross_matrix(a.T @ relation.R.T), np.tile(np.eye(3), (len(e), 1, 1))], axis=2
     )
@@ -207,13 +215,9 @@ def apply_turns(turned: Sequence[ViewPoses], chosen: IntArray) -> ViewPoses:
 def _move_relation(
     relation: Relation, a: ViewPoses, b: ViewPoses, weights: Array
 ) -> tuple[Relation, float]:
-    """Move a relation to the weighted mean of the instants'; return it and the cost that it saves.
-
-    A local (w, tau) of the relation moves the pose predicted in b by (w, tau - [Q T_a]x w).
-    """
-    e, covariance = _measure_differences(relation, a, b)
-    C = np.tile(np.eye(6), (len(e), 1, 1))
-    C[:, 3:, :3] = -make_cross_matrix(a.T @ relation.R.T)
+    """Move a relation to the weighted mean of the instants'; return also the cost that it saves."""
+    e, covariance = measure_differences(relation, a, b)
+    C = differentiate_differences(relation, a)
     left = weights[:, None, None] * np.swapaxes(np.linalg.solve(covariance, C), 1, 2)
     A, g = (left @ C).sum(axis=0), (left @ e[..., None]).sum(axis=0)[:, 0]
     step = np.linalg.solve(A, g)

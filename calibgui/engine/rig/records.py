@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from enum import StrEnum
 
 import numpy as np
 
@@ -108,6 +109,36 @@ class RigPair:
     """The same as the corners' noise alone explains it."""
 
 
+class Mistake(StrEnum):
+    """The mistakes that are told apart."""
+
+    SHIFTED = "shifted"
+    EXCHANGED = "exchanged"
+    OTHER_SCALE = "other-scale"
+    MOVED = "moved"
+    REFOCUSED = "refocused"
+    OTHER_INSTANT = "other-instant"
+    LESS_AGREEMENT = "less-agreement"
+
+
+@dataclass(frozen=True, slots=True)
+class RigMistake:
+    """A mistake that was found."""
+
+    kind: Mistake
+    camera: int
+    """Number of the camera, or of the second one of the pair that it was found in."""
+    other: int
+    """Number of the first camera of the pair; that of the camera itself where there is none."""
+    instants: tuple[int, ...]
+    """Numbers of the instants concerned; of a camera that has moved or was refocused, those after.
+    """
+    value: float
+    """Number of instants by which a pairing is shifted (positive if the camera's photographs belong
+    to later ones), ratio of squares or of focal lengths, or distance, mm, by which a camera has
+    moved; 0 otherwise."""
+
+
 @dataclass(frozen=True, slots=True)
 class LeftOutView:
     """A view that took no part because it contradicts the others."""
@@ -184,6 +215,8 @@ class Rig:
     """The pairs that join the cameras, in the order in which they were joined."""
     left_out: tuple[LeftOutView, ...] = ()
     """Views that took no part because they contradict the others."""
+    mistakes: tuple[RigMistake, ...] = ()
+    """What is wrong with the views, as far as they tell (``mistakes.py``)."""
 
     def __post_init__(self) -> None:
         freeze(self, "offsets", "covariance", "noise_covariance")
