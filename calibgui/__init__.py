@@ -46,6 +46,15 @@ if TYPE_CHECKING:
         plot_uncertainty as plot_uncertainty,
     )
     from calibgui.scripting.hand_eye import calibrate_hand_eye as calibrate_hand_eye
+    from calibgui.scripting.rig import (
+        CalibratedRig as CalibratedRig,
+    )
+    from calibgui.scripting.rig import (
+        calibrate_rig as calibrate_rig,
+    )
+    from calibgui.scripting.rig import (
+        load_rig as load_rig,
+    )
 
 load_on_demand(
     __name__,
@@ -60,5 +69,6 @@ load_on_demand(
             "plot_uncertainty",
         ],
         "scripting.hand_eye": ["calibrate_hand_eye"],
+        "scripting.rig": ["CalibratedRig", "calibrate_rig", "load_rig"],
     },
 )

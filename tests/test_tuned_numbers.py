@@ -30,6 +30,7 @@ BUDGETS = {
     "kernels": 40,
     "lattices": 82,
     "redetection": 16,
+    "rig": 17,
     "uncertainty": 9,
 }
 RECORDS = re.compile("Threshold|Limit|Tolerance")

@@ -16,6 +16,8 @@ from calibgui.dataset.hardware import LENS_TYPES, UNKNOWN_HARDWARE, Hardware
 from calibgui.dataset.left_out_result import LeftOut
 from calibgui.dataset.pose_set import LocatedView, PoseSet
 from calibgui.dataset.result import Result, list_installed_versions
+from calibgui.dataset.rig_pairing import CameraPhotographs, RigPairing
+from calibgui.dataset.rig_result import RigResult, relate_cameras
 from calibgui.dataset.stereo_rectification import StereoRectification
 from calibgui.dataset.view import View, ViewStatus, find_orientation
 
@@ -23,6 +25,7 @@ __all__ = [
     "DEFAULT_SQUARE",
     "LENS_TYPES",
     "UNKNOWN_HARDWARE",
+    "CameraPhotographs",
     "CornerSet",
     "HandEyeSet",
     "Hardware",
@@ -30,9 +33,12 @@ __all__ = [
     "LocatedView",
     "PoseSet",
     "Result",
+    "RigPairing",
+    "RigResult",
     "StereoRectification",
     "View",
     "ViewStatus",
     "find_orientation",
     "list_installed_versions",
+    "relate_cameras",
 ]

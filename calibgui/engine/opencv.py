@@ -175,6 +175,16 @@ def decode_video(path: str) -> tuple[int, Iterator[GreyImage]]:
     return max(0, int(capture.get(cv2.CAP_PROP_FRAME_COUNT))), decode()
 
 
+def read_frame_rate(path: str) -> float:
+    """Return the frames per second that a video says it has, 0 if it does not."""
+    capture = cv2.VideoCapture(path, cv2.CAP_FFMPEG)
+    try:
+        rate = float(capture.get(cv2.CAP_PROP_FPS))
+        return rate if np.isfinite(rate) and rate > 0 else 0.0
+    finally:
+        capture.release()
+
+
 class Stream:
     """A camera or a video that is open."""
 

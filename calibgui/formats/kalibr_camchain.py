@@ -1,4 +1,4 @@
-"""Kalibr's camchain.yaml, with one camera.
+"""Kalibr's camchain.yaml, with one camera; ``rig_files.py`` writes those of several.
 
 Reader: Kalibr, programs that take its calibrations (VINS, OpenVINS, Basalt's converter), any YAML
 reader, and `read_kalibr`. Pixels are OpenCV's (0-based, integer at pixel centres). The models are
@@ -12,10 +12,12 @@ A camchain holds cameras by name, cam0, cam1 and so on; their poses to each othe
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 from pathlib import Path
 from typing import NamedTuple
 
 from calibgui.dataset import Result
+from calibgui.engine.arrays import Array
 from calibgui.engine.camera import Camera
 from calibgui.formats.camera_refit import write_in_models
 from calibgui.formats.exporter import FRAME, Exporter, ExportReport
@@ -64,19 +66,39 @@ def write_kalibr(result: Result, path: Path) -> ExportReport:
 
 def format_camchain(camera: Camera, note: str) -> str:
     """Return the text of the file; `camera` is in one of the format's models."""
+    return f"# {note}\n# {FRAME}\n{format_camera(camera, 0)}"
+
+
+def format_camera(
+    camera: Camera,
+    number: int,
+    overlaps: Sequence[int] = (),
+    from_before: Array | None = None,
+) -> str:
+    """Return the entry of a camera.
+
+    Args:
+        camera: the camera, in one of the format's models.
+        number: its place in the chain, from 0.
+        overlaps: places of the cameras that see the board at the same time.
+        from_before: T_cn_cnm1 (4, 4), to its frame from that of the camera before it, m.
+    """
     model = next(model for model in _MODELS if model.model == camera.model)
     values = {"beta": 1.0} | dict(zip(camera.names, camera.params.tolist(), strict=True))
     width, height = camera.size
+    chain = ""
+    if from_before is not None:
+        rows = (f"  - [{', '.join(map(format_number, row))}]\n" for row in from_before.tolist())
+        chain = f"  T_cn_cnm1:\n{''.join(rows)}"
     return (
-        f"# {note}\n# {FRAME}\n"
-        "cam0:\n"
-        "  cam_overlaps: []\n"
+        f"cam{number}:\n{chain}"
+        f"  cam_overlaps: {list(overlaps)}\n"
         f"  camera_model: {model.camera}\n"
         f"  distortion_coeffs: {_format_list(model.coefficients, values)}\n"
         f"  distortion_model: {model.distortion}\n"
         f"  intrinsics: {_format_list(model.intrinsics, values)}\n"
         f"  resolution: [{width}, {height}]\n"
-        "  rostopic: /cam0/image_raw\n"
+        f"  rostopic: /cam{number}/image_raw\n"
     )
 
 

@@ -19,6 +19,7 @@ FLEET_TABLE, FLEET_PAGE, REPORT = "fleet-table", "fleet-page", "report"
 EXPORT_PAGE = "export-page"
 POSES, POSES_CSV, RAYS_CSV = "poses", "poses-csv", "rays-csv"
 HAND_EYE, HAND_EYE_ROS, HAND_EYE_OPENCV = "hand-eye", "hand-eye-ros", "hand-eye-opencv"
+RIG, SPACE_POINTS_CSV = "rig", "space-points-csv"
 """Kinds of files; those of exporters are the exporters' names."""
 _LENGTH = 4096
 """Number of bytes at either end of a file in which its mark is."""
@@ -34,6 +35,8 @@ _OWN_WORDS: Mapping[str, re.Pattern[bytes]] = {
     POSES_CSV: re.compile(rb"\Aimage,corners,rms_px,x_mm,y_mm,z_mm,"),
     HAND_EYE: re.compile(rb'\A\s*\{\s*"format"\s*:\s*"calibgui-hand-eye"'),
     RAYS_CSV: re.compile(rb"\Au_px,v_px,ray_x,ray_y,ray_z,"),
+    RIG: re.compile(rb'\A\s*\{\s*"format"\s*:\s*"calibgui-rig"'),
+    SPACE_POINTS_CSV: re.compile(rb"\Apoint,cameras,x_mm,y_mm,z_mm,"),
 }
 """Patterns of the files that say in words of their own what they are."""
 
@@ -52,6 +55,8 @@ _TITLES: Mapping[str, str] = {
     POSES: "a file of poses",
     POSES_CSV: "a table of poses",
     RAYS_CSV: "a table of rays",
+    RIG: "a rig",
+    SPACE_POINTS_CSV: "a table of points",
     FLEET_PAGE: "a page on a fleet",
     EXPORT_PAGE: "a page on exports",
     HAND_EYE: "a file of hand and eye",

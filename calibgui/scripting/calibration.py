@@ -106,7 +106,7 @@ def calibrate(
         corner_set, search = read_corner_file(paths[0], board, square, size, square_sigma), False
     else:
         choice = FrameChoice(frames, Path(frames_folder))
-        found = _search(
+        found = search_board(
             paths,
             board,
             pattern,
@@ -195,13 +195,13 @@ def _make_settings(**choices: Unpack[Choices]) -> Settings:
     return settings
 
 
-def _search(
+def search_board(
     paths: Sequence[File],
     board: GridSize | None,
     pattern: Pattern | None,
     choice: FrameChoice,
     tell: Progress,
-    field: Field | None,
+    field: Field | None = None,
 ) -> Detection:
     """Search photographs for the board. Raises CalibrationError if none shows it."""
 

@@ -68,6 +68,7 @@ import scipy
 
 from calibgui.engine.arrays import Array, IntArray
 from calibgui.engine.boards.shape import BoardShape
+from calibgui.engine.calibration.observations import slice_views
 from calibgui.engine.calibration.refinement.covariances import Estimate
 from calibgui.engine.calibration.refinement.residuals import BoardMotion, compute_view_products
 from calibgui.engine.calibration.refinement.schur import invert_pose_roots, invert_roots
@@ -109,39 +110,73 @@ def add_overdispersion(
         return estimate
     if K < _MIN_VIEWS:
         return _assume_disagreement(estimate)
-    try:
-        unit = np.linalg.cholesky(estimate.noise_covariance / sigma2)  # T^-1 = unit unit^T
-    except np.linalg.LinAlgError:
-        return estimate  # a combination of parameters is undetermined, and says so
     if views is None:
         views = compute_view_products(
             estimate.state, estimate.observations, model, free, estimate.board_motion
         )
-    R, h, G = _eliminate_poses(views, P)
-    R, h = unit.T @ R @ unit, (h - h.mean(axis=0)) @ unit
+    R, h, G = reduce_products(views, P)
     corners = estimate.observations.count
     leverage = estimate.shape_unknowns / (2 * corners - 6 * K)
-    tested, alone = _compare_with_others(R)
-    D = tested @ alone @ tested
-    square = float(np.sum(tested**2) + np.sum(D.sum(axis=0) ** 2) - np.sum(D**2))
-    if not square > 0:  # of a camera that is open beyond all measure
-        return estimate
-    count = float(np.trace(tested, axis1=1, axis2=2).sum())
-    X = float(np.sum((alone @ h[..., None])[..., 0] * h)) / (count * sigma2 * (1 - leverage))
-    n = count**2 / square
     left = 2 * corners - 6 * K - P - estimate.shape_unknowns
-    is_significant = scipy.special.fdtrc(n, left, X) <= _SIGNIFICANCE
-    if not is_significant and K >= _MIN_VIEWS_TO_AGREE:
-        return estimate
-    moved = np.linalg.solve(np.eye(P) - _JACKKNIFE_SHARE * R, h[..., None])[..., 0] @ unit.T
-    clustered = moved.T @ moved * (K - 1) / K / (1 - leverage) ** 2
-    added = _compute_excess(clustered, np.sqrt(sigma2) * np.asarray(unit))
+    added, ratio = measure_disagreement(R, h, estimate.noise_covariance, sigma2, left, leverage)
     return estimate._replace(
         camera_covariance=estimate.camera_covariance + added,
         pose_covariances=estimate.pose_covariances + G @ added @ np.swapaxes(G, 1, 2),
         board_shape=_widen_board_shape(estimate.board_shape, estimate.board_motion, added),
-        overdispersion=float(np.sqrt(X)) if is_significant else 0.0,
+        overdispersion=ratio,
     )
+
+
+def measure_disagreement(
+    R: Array,
+    h: Array,
+    covariance: Array,
+    sigma2: float,
+    freedom: float,
+    leverage: float = 0.0,
+) -> tuple[Array, float]:
+    """Measure how much views disagree about the parameters that they share.
+
+    Args:
+        R: (K, P, P) information of each view; it is overwritten.
+        h: (K, P) pull of each view.
+        covariance: (P, P) of the parameters from the corners' noise alone.
+        sigma2: variance of one residual coordinate.
+        freedom: degrees of freedom that sigma^2 is estimated from.
+        leverage: l, that of an estimated board shape.
+
+    Returns:
+        What is added to the covariance (P, P), and the root of X if it is significant, else 0.
+    """
+    K, P = h.shape
+    nothing = np.zeros((P, P)), 0.0
+    try:
+        unit = np.linalg.cholesky(covariance / sigma2)  # T^-1 = unit unit^T
+    except np.linalg.LinAlgError:
+        return nothing  # a combination of parameters is undetermined, and says so
+    h = (h - h.mean(axis=0)) @ unit
+    square = count = pulled = 0.0
+    D_sum, clustered = np.zeros((P, P)), np.zeros((P, P))
+    for views in slice_views(K):  # a rig of 8 cameras and 2,000 instants has 250 MB of them
+        R[views] = unit.T @ R[views] @ unit
+        tested, alone = _compare_with_others(R[views])
+        D = tested @ alone @ tested
+        D_sum += D.sum(axis=0)
+        square += float(np.sum(tested**2) - np.sum(D**2))
+        count += float(np.trace(tested, axis1=1, axis2=2).sum())
+        pulled += float(np.sum((alone @ h[views, :, None])[..., 0] * h[views]))
+        moved = np.linalg.solve(np.eye(P) - _JACKKNIFE_SHARE * R[views], h[views, :, None])
+        clustered += moved[..., 0].T @ moved[..., 0]
+    square += float(np.sum(D_sum**2))
+    if not square > 0:  # of a camera that is open beyond all measure
+        return nothing
+    X = pulled / (count * sigma2 * (1 - leverage))
+    is_significant = scipy.special.fdtrc(count**2 / square, freedom, X) <= _SIGNIFICANCE
+    if not is_significant and K >= _MIN_VIEWS_TO_AGREE:
+        return nothing
+    clustered = unit @ clustered @ unit.T * (K - 1) / K / (1 - leverage) ** 2
+    added = _compute_excess(clustered, np.sqrt(sigma2) * np.asarray(unit))
+    return added, float(np.sqrt(X)) if is_significant else 0.0
 
 
 def _compare_with_others(R: Array) -> tuple[Array, Array]:
@@ -166,8 +201,9 @@ def _assume_disagreement(estimate: Estimate) -> Estimate:
     )
 
 
-def _eliminate_poses(A: Array, P: int) -> tuple[Array, Array, Array]:
-    """Compute Rk (K, P, P), h_k (K, P) and Vk^-1 Wk^T (K, 6, P) from products of the views."""
+def reduce_products(A: Array, P: int) -> tuple[Array, Array, Array]:
+    """Compute Rk (K, P, P), h_k (K, P) and Vk^-1 Wk^T (K, 6, P) from products of the views' columns
+    [shared, pose, r] (K, P + 7, P + 7)."""
     roots, chosen = invert_pose_roots(A[:, P:-1, P:-1]), [*range(P), -1]
     Y = roots @ A[:, P:-1, chosen]
     left = A[:, :P, chosen] - np.swapaxes(Y[..., :-1], 1, 2) @ Y

@@ -50,8 +50,12 @@ from calibgui.formats.points_csv import read_points
 from calibgui.formats.poses_json import read_pose
 from calibgui.formats.resampled_json import read_resampled
 from calibgui.formats.result_json import encode_result
+from calibgui.formats.rig_json import read_rig, write_rig
 from calibgui.formats.robot_poses import read_robot_poses
+from calibgui.formats.space_points_csv import read_seen_points
+from calibgui.formats.times_csv import read_times
 from tests.formats.cameras import example, splined
+from tests.formats.rigs import make_result as make_rig_result
 
 GOLDEN = Path(__file__).parents[2] / "golden"
 _CAMERAS = {"gyroflow.json": "24"}
@@ -81,6 +85,7 @@ _LOCATED = {
     ],
 }
 _PIXELS = "name,u,v,sigma_px\na,320.5,240,0.1\nb,100,17.25,0.2\n"
+_SEEN = "point,camera,u,v\nA,cam0,320.5,240\nA,cam1,100,17.25\n"
 _MESSAGE = """\
 header: {stamp: {sec: 1, nanosec: 0}, frame_id: a}
 height: 480
@@ -317,6 +322,7 @@ def _list_other_readers(folder: Path) -> list[Reader]:
     def read_fleet(file: Path) -> object:
         return read_manifest(file, BoardSought(30.0), Settings())
 
+    write_rig(make_rig_result(), folder / "rig")
     return [
         Reader(
             "board shape",
@@ -347,6 +353,21 @@ def _list_other_readers(folder: Path) -> list[Reader]:
             ("read_circle_list",),
         ),
         Reader("pixels", "points.csv", _PIXELS.encode(), read_points, ("read_points",)),
+        Reader("rig", "rig.json", (folder / "rig").read_bytes(), read_rig, ("read_rig",)),
+        Reader(
+            "points in cameras",
+            "seen.csv",
+            _SEEN.encode(),
+            lambda file: read_seen_points(file, make_rig_result()),
+            ("read_seen_points",),
+        ),
+        Reader(
+            "times of photographs",
+            "times.csv",
+            b"camera,number,time_s\nleft,1,0.1\nright,1,0.11\n",
+            lambda file: read_times(file, ("left", "right")),
+            ("read_times",),
+        ),
         Reader(
             "regions",
             "regions.json",

@@ -1,0 +1,161 @@
+"""Photographs of a rig to cameras and instants, by the names of folders and files.
+
+Each of several folders, patterns or videos that a user names is a camera. One folder may hold a
+folder for each, or the photographs of all: then one part of the names, a word or a number, tells
+the camera, as in left01 and right01 or cam0_0007 and cam1_0007. It is a word that varies, or the
+number without which most names occur for several cameras.
+
+Photographs of one instant have the same name but for the camera, or the same last number in it;
+whichever pairs more.
+"""
+
+from __future__ import annotations
+
+import re
+from collections import Counter, defaultdict
+from collections.abc import Hashable, Mapping, Sequence
+from pathlib import Path
+
+from calibgui.app.photographs.paths import count_images_below, find_images, make_natural_key
+from calibgui.dataset import CameraPhotographs, RigPairing
+from calibgui.engine.errors import CalibrationError
+
+_PARTS = re.compile(r"\d+|[^\W\d_]+")
+"""A word or a number in a name."""
+_HINT = (
+    "Name a folder for each camera (cam0 cam1), a pattern for each in quotes ('left*.jpg' "
+    "'right*.jpg'), or call the photographs as left01, right01."
+)
+
+
+def pair_photographs(names: Sequence[str]) -> RigPairing:
+    """Find the cameras and instants of photographs.
+
+    Args:
+        names: folders, files and patterns.
+
+    Raises:
+        CalibrationError: if a name means no photographs, the names tell no cameras, or no two
+            cameras have a photograph of one instant.
+    """
+    groups = _group_by_camera(names)
+    if len(groups) < 2:
+        raise CalibrationError("The names of the photographs tell no two cameras.", _HINT)
+    return pair_files(groups)
+
+
+def pair_files(groups: Mapping[str, Sequence[Path]]) -> RigPairing:
+    """Pair the photographs of cameras, by whichever of names and numbers pairs more.
+
+    Args:
+        groups: the photographs of each camera, by its name.
+
+    Raises:
+        CalibrationError: if no two cameras have a photograph of one instant.
+    """
+    by_name: dict[str, Mapping[Hashable, Path]] = {
+        camera: {_remove_part(file.stem, camera): file for file in files}
+        for camera, files in groups.items()
+    }
+    by_number: dict[str, Mapping[Hashable, Path]] = {
+        camera: _key_by_number(files) for camera, files in groups.items()
+    }
+    candidates: list[tuple[str, Mapping[str, Mapping[Hashable, Path]]]] = [
+        ("numbers", by_number),
+        ("names", by_name),
+    ]
+    how, keyed = max(candidates, key=lambda candidate: _count_shared(candidate[1]))
+    if not _count_shared(keyed):
+        raise CalibrationError(
+            "No two cameras have photographs of the same name or number.",
+            "Photographs of one instant are paired by their names: give them the same number.",
+        )
+    keys = sorted(
+        {key for files in keyed.values() for key in files},
+        key=lambda key: make_natural_key(str(key)),
+    )
+    number = {key: k + 1 for k, key in enumerate(keys)}
+    if all(isinstance(key, int) for key in keys):
+        number = {key: int(str(key)) for key in keys}
+    cameras = tuple(
+        CameraPhotographs(camera, {number[key]: file for key, file in _sort_items(files)})
+        for camera, files in keyed.items()
+    )
+    return RigPairing(cameras, {number[key]: str(key) for key in keys}, how)
+
+
+def _sort_items(files: Mapping[Hashable, Path]) -> list[tuple[Hashable, Path]]:
+    """Return keys and files in the natural order of the keys."""
+    return sorted(files.items(), key=lambda item: make_natural_key(str(item[0])))
+
+
+def _count_shared(keyed: Mapping[str, Mapping[Hashable, Path]]) -> int:
+    """Count the pairs of photographs with one key in two cameras."""
+    counts = Counter(key for files in keyed.values() for key in files)
+    return sum(count - 1 for count in counts.values())
+
+
+def _key_by_number(files: Sequence[Path]) -> dict[Hashable, Path]:
+    """Return files by the last number in their names; those that share one have none."""
+    keyed: dict[Hashable, list[Path]] = defaultdict(list)
+    for file in files:
+        if numbers := re.findall(r"\d+", file.stem):
+            keyed[int(numbers[-1])].append(file)
+    return {number: named[0] for number, named in keyed.items() if len(named) == 1}
+
+
+def _group_by_camera(names: Sequence[str]) -> dict[str, Sequence[Path]]:
+    """Return the photographs of each camera by its name."""
+    if len(names) == 1 and Path(names[0]).is_dir():
+        below = [
+            path for path in count_images_below(Path(names[0])) if path.parent == Path(names[0])
+        ]
+        if len(below) > 1:
+            return {folder.name: find_images([str(folder)]) for folder in below}
+    if len(names) > 1 and not all(Path(name).is_file() for name in names):
+        files = [find_images([name]) for name in names]
+        return dict(zip(_name_cameras(names, files), files, strict=True))
+    return _split_by_names(find_images(names))
+
+
+def _name_cameras(names: Sequence[str], files: Sequence[Sequence[Path]]) -> list[str]:
+    """Name the cameras after their folders or, in one folder, what begins their files' names."""
+    named = [Path(name).name for name in names]
+    if not all(Path(name).is_dir() for name in names):
+        named = [re.sub(r"[^\w-]+|_+$", "", Path(name).stem) for name in names]
+        folders = [each[0].parent.name for each in files]
+        if len(set(named)) < len(named):
+            named = folders
+    if len(set(named)) < len(named) or not all(named):
+        named = [f"cam{c}" for c in range(len(names))]
+    return named
+
+
+def _split_by_names(files: Sequence[Path]) -> dict[str, Sequence[Path]]:
+    """Split photographs of one folder by the part of their names that tells the camera."""
+    split = [_PARTS.findall(file.stem) for file in files]
+    best: tuple[tuple[bool, int], dict[str, list[Path]]] = ((False, 0), {})
+    for place in range(max(map(len, split), default=0)):
+        groups: dict[str, list[Path]] = defaultdict(list)
+        rests: Counter[tuple[str, ...]] = Counter()
+        for file, parts in zip(files, split, strict=True):
+            if place < len(parts):
+                groups[_name_part(parts, place)].append(file)
+                rests[(*parts[:place], "", *parts[place + 1 :])] += 1
+        shared = sum(count > 1 for count in rests.values())
+        is_word = not any(name[-1].isdigit() for name in groups)
+        if len(groups) > 1 and shared > 1 and (is_word, shared) > best[0]:
+            best = (is_word, shared), groups
+    return dict(best[1])
+
+
+def _name_part(parts: Sequence[str], place: int) -> str:
+    """Return the part that tells the camera: of a number with the word before it, as cam0."""
+    is_numbered_word = parts[place].isdigit() and place > 0 and not parts[place - 1].isdigit()
+    return (parts[place - 1] if is_numbered_word else "") + parts[place]
+
+
+def _remove_part(stem: str, camera: str) -> str:
+    """Return a file's name without that of its camera."""
+    rest = re.sub(rf"(?<![^\W\d_]){re.escape(camera)}(?![^\W\d_])", "", stem, count=1)
+    return re.sub(r"^[_\W]+|[_\W]+$", "", rest) or stem

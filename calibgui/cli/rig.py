@@ -1,0 +1,267 @@
+"""Calibrate a rig of several cameras from photographs of a board that they take together.
+
+Each CAM is the folder, quoted pattern or video of one camera; one folder may hold a folder for each
+camera, or the photographs of all, as left01, right01. Which photographs belong together is printed
+before anything is searched. Each camera is calibrated alone, then all together; what contradicts
+the others is left out and named.
+"""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Mapping, Sequence
+from functools import partial
+from pathlib import Path
+
+from calibgui.app.calibrating.settings import AUTO_MODEL, Settings, resolve_model_choice
+from calibgui.app.outputs.output_files import check_outputs
+from calibgui.app.photographs.detection import Detection
+from calibgui.app.rig.calibrating import calibrate_photographs, search_cameras
+from calibgui.app.rig.frames import write_frames
+from calibgui.app.rig.pairing import pair_files, pair_photographs
+from calibgui.cli.arguments import (
+    add_corner_method,
+    add_grid_size_option,
+    add_square_option,
+    require_board,
+    search_images,
+)
+from calibgui.cli.boards import add_board_options, read_pattern_options
+from calibgui.cli.camera import read_camera_and_warn
+from calibgui.cli.console import Console
+from calibgui.cli.outputs import add_overwrite_option
+from calibgui.dataset import DEFAULT_SQUARE, RigPairing, RigResult
+from calibgui.engine.boards import Board
+from calibgui.engine.errors import CalibrationError
+from calibgui.engine.images import is_video
+from calibgui.engine.opencv import read_frame_rate
+from calibgui.formats import ImportedCamera
+from calibgui.formats.origin import RIG
+from calibgui.formats.rig_files import RIG_EXPORTERS, find_rig_exporter
+from calibgui.formats.rig_json import encode_rig, write_rig
+from calibgui.formats.times_csv import read_times
+from calibgui.report.rig import describe_fit, describe_pairing, format_rig
+from calibgui.report.tables import format_bullet, list_unused_views
+
+
+def configure(parser: argparse.ArgumentParser) -> None:
+    """Describe the arguments."""
+    parser.set_defaults(usage_error=parser.error)
+    parser.add_argument(
+        "cameras",
+        nargs="+",
+        metavar="CAM",
+        help="photographs of one camera: folder, quoted pattern or video; or one folder of all",
+    )
+    add_grid_size_option(parser)
+    add_board_options(parser)
+    add_corner_method(parser)
+    add_square_option(parser, f"all lengths depend on it ({DEFAULT_SQUARE:g} if left out)")
+    parser.add_argument(
+        "--model",
+        type=_parse_model,
+        metavar="NAME",
+        help="the lens model of all cameras; if left out, each has the one that its photographs "
+        "demand",
+    )
+    parser.add_argument(
+        "--known",
+        type=_parse_known,
+        action="append",
+        default=[],
+        metavar="CAMERA=FILE",
+        help="a camera that is known from result.json or the file of another program; it is "
+        "estimated with the errors in the file as a prior, and held if there are none; may be "
+        "repeated",
+    )
+    parser.add_argument(
+        "--hold", action="store_true", help="hold all cameras as each alone is, or as it is known"
+    )
+    parser.add_argument(
+        "--robust", action="store_true", help="leave out corners and views that no camera explains"
+    )
+    parser.add_argument(
+        "--offsets",
+        action="store_true",
+        help="estimate by how much each camera is later than the first one, from a board that "
+        "moves: of videos, or photographs in quick succession",
+    )
+    parser.add_argument(
+        "--times",
+        type=Path,
+        metavar="FILE",
+        help="CSV table of times with the columns camera, number (of the photograph or frame) and "
+        "time_s",
+    )
+    parser.add_argument(
+        "--every",
+        type=_parse_step,
+        default=1,
+        metavar="N",
+        help="take every Nth frame of videos (default 1); they are written beside the output, in "
+        "folders VIDEO-frames",
+    )
+    parser.add_argument(
+        "-o", "--output", type=Path, metavar="FILE", help="write the rig as JSON; - for stdout"
+    )
+    parser.add_argument(
+        "--export",
+        type=_parse_export,
+        action="append",
+        default=[],
+        metavar="FORMAT=FILE",
+        help="write another format as well, may be repeated: "
+        + "; ".join(f"{each.name} ({each.title})" for each in RIG_EXPORTERS.values()),
+    )
+    parser.add_argument(
+        "--pair",
+        nargs=2,
+        metavar="CAMERA",
+        help="the two cameras of files that hold a pair (the first two)",
+    )
+    add_overwrite_option(parser)
+
+
+def run(options: argparse.Namespace, console: Console) -> None:
+    """Pair, search, calibrate, write and print."""
+    output = console.take_output(options.output)
+    if output and output.suffix.lower() != ".json":
+        raise CalibrationError(f"{output} is not named as JSON.", "Give it the suffix .json.")
+    pairing, times = _pair(options, console, output)
+    if options.times:
+        times = read_times(options.times, {camera.name for camera in pairing.cameras})
+    console.print_text(describe_pairing(pairing) + "\n")
+    known = _read_known(options, pairing, console)
+    if output:
+        read = [file for camera in pairing.cameras for file in camera.files.values()]
+        check_outputs([(output, RIG)], read, options.overwrite)
+    corner_sets = search_cameras(pairing, partial(_search, options, console), options.square)
+    for name, corner_set in corner_sets.items():
+        if unused := list_unused_views(corner_set.views):
+            console.print_text(f"{name}: {unused}\n", otherwise=f"{name}: {unused}")
+    settings = Settings(model=options.model, robust=options.robust)
+    with console.show_progress("calibrating", "camera") as advance:
+        done = iter(range(len(pairing.cameras) + 1))
+        result = calibrate_photographs(
+            pairing,
+            corner_sets,
+            settings,
+            known,
+            options.hold,
+            times,
+            options.offsets,
+            tell=lambda _: advance(next(done), len(pairing.cameras)),
+        )
+    messages = _write(result, options, output)
+    console.print_json(encode_rig(result))
+    console.print_line(describe_fit(result.rig))
+    console.print_text(format_rig(result))
+    if messages:
+        console.print_text("\n" + "\n".join(map(format_bullet, messages)))
+
+
+def _pair(
+    options: argparse.Namespace, console: Console, output: Path | None
+) -> tuple[RigPairing, dict[str, dict[int, float]]]:
+    """Pair the photographs, or the frames of videos, of the cameras; frames have times."""
+    paths = [Path(name) for name in options.cameras]
+    videos = [path for path in paths if path.is_file() and is_video(path)]
+    if not videos:
+        return pair_photographs(options.cameras), {}
+    if len(videos) < len(paths) or len(videos) < 2:
+        raise CalibrationError(
+            "A rig is of videos of all cameras, or of photographs.", "Name a video for each camera."
+        )
+    folder = output.parent if output else Path()
+    pairing = pair_files(write_frames(videos, folder, options.every, console.show_progress))
+    rates = {video.stem: read_frame_rate(str(video)) for video in videos}
+    times = {
+        camera.name: {number: number / rates[camera.name] for number in camera.files}
+        for camera in pairing.cameras
+        if rates[camera.name]
+    }
+    return pairing, times
+
+
+def _search(
+    options: argparse.Namespace, console: Console, files: Sequence[str], board: Board | None
+) -> Detection:
+    """Search photographs of one camera for the board, which another one may have told."""
+    pattern = read_pattern_options(options) if board is None else board.pattern
+    grid_size = options.board if board is None else board.grid_size
+    is_open = options.target is None and board is None
+    detection = search_images(
+        console, files, grid_size, None, options.corners, None if is_open else pattern
+    )
+    require_board(detection, grid_size, console, is_open)
+    return detection
+
+
+def _read_known(
+    options: argparse.Namespace, pairing: RigPairing, console: Console
+) -> Mapping[str, ImportedCamera]:
+    """Read the cameras that are known beforehand."""
+    names = [camera.name for camera in pairing.cameras]
+    known = {}
+    for name, file in options.known:
+        if name not in names:
+            raise CalibrationError(
+                f"--known names no camera of the rig: {name}.", f"Choose from {', '.join(names)}."
+            )
+        known[name] = read_camera_and_warn(file, console)
+    return known
+
+
+def _write(result: RigResult, options: argparse.Namespace, output: Path | None) -> list[str]:
+    """Write all files that the options name; return a sentence on each."""
+    messages = []
+    pair = (0, 1)
+    if options.pair:
+        pair = (result.find_camera(options.pair[0]), result.find_camera(options.pair[1]))
+    files = []
+    for name, path in options.export:
+        listed = RIG_EXPORTERS[name].list_files(result, path, pair)
+        files += [(file, f"rig-{name}") for file in listed]
+    check_outputs(files, list(result.images.values()), options.overwrite)
+    if output:
+        write_rig(result, output)
+        messages.append(f"Wrote {output}.")
+    messages += [RIG_EXPORTERS[name].write(result, path, pair) for name, path in options.export]
+    return messages
+
+
+def _parse_model(text: str) -> str | None:
+    """Return the name of a lens model, None for one that is chosen automatically."""
+    if text == AUTO_MODEL:
+        return None
+    try:
+        return resolve_model_choice(text)
+    except CalibrationError as error:
+        raise argparse.ArgumentTypeError(str(error)) from error
+
+
+def _parse_known(text: str) -> tuple[str, Path]:
+    """Read the name of a camera and a file such as "left=left.json"."""
+    name, equals, file = text.partition("=")
+    if not equals:
+        raise argparse.ArgumentTypeError(f"{text!r} is not CAMERA=FILE")
+    return name, Path(file)
+
+
+def _parse_export(text: str) -> tuple[str, Path]:
+    """Read the name of a format and a file such as "opencv=stereo.yaml"."""
+    name, equals, file = text.partition("=")
+    if not equals:
+        raise argparse.ArgumentTypeError(f"{text!r} is not FORMAT=FILE")
+    try:
+        find_rig_exporter(name, Path(file))
+    except CalibrationError as error:
+        raise argparse.ArgumentTypeError(str(error)) from error
+    return name, Path(file)
+
+
+def _parse_step(text: str) -> int:
+    """Read a whole number above 0."""
+    if not text.isdecimal() or int(text) == 0:
+        raise argparse.ArgumentTypeError(f"{text!r} is not a whole number above 0")
+    return int(text)

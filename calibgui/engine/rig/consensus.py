@@ -1,0 +1,248 @@
+"""What the instants agree about: a start for the joint solve that no wrong pair can spoil.
+
+Each camera alone tells where the board was at each instant, cam_from_board. So every instant at
+which two cameras a and b see the board tells how they stand to each other,
+b_from_a = (b_from_board) (a_from_board)^-1. Least squares over all instants would follow those that
+are wrong: photographs of other instants, a camera that was late, a board that is counted from its
+other end. What most of them say is sought instead.
+
+How far an instant is from a relation b_from_a is measured by what it costs: with the board's pose
+as both views would have it, the sum of squares of both rises above that of each alone by
+
+    c = e^T (V_b^-1 + G V_a^-1 G^T)^-1 e,
+
+where e is the local difference (w, tau) of the pose in b from that predicted from a, V the
+information of each view on its pose, px^2, and G = diag(Q, Q) turns a's camera into b's. It is the
+squared length of a residual in px, of 6 degrees of freedom, whatever the distance of the cameras
+and the angle between them. Poses from noisy corners are far apart along the line of sight, and
+that costs little.
+
+The relation of an instant is the start for which the median of all other instants' costs is least:
+least median of squares (Rousseeuw 1984), over a few instants. From there the mean of all is found
+with weights that take away the influence of what is far beyond the others' scatter (Geman and
+McClure), each instant counting with its information.
+
+A board whose pattern a turn leaves unchanged may be counted from another end in one camera. Every
+instant then has as many relations as there are turns, and the one that costs least is taken.
+
+Cameras are joined in the order of how many instants they share (a spanning tree of most instants).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+
+from calibgui.engine.arrays import Array, IntArray
+from calibgui.engine.geometry.rotations import (
+    make_cross_matrix,
+    rotation_from_vector,
+    vector_from_rotation,
+)
+
+_MAX_STARTS = 12
+"""Number of instants whose relations are tried as a start: with half of all instants wrong, one of
+so many is right but once in 4,000."""
+_MAX_INSTANTS = 100
+"""Number of instants that a start is found from: the joint solve takes all."""
+_MAX_STEPS = 20
+"""Number of weighted means, at most."""
+_MIN_SAVING = 1e-6
+"""Cost that a step saves, over the median one, from which on no more are taken."""
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class ViewPoses:
+    """Poses cam_from_board of one camera's views, each from that view alone."""
+
+    R: Array
+    """(K, 3, 3)."""
+    T: Array
+    """(K, 3), mm."""
+    covariance: Array
+    """(K, 6, 6) V^-1 of the local (w, tau), for residuals of 1 px."""
+    instant: IntArray
+    """(K,) place of each view's instant, ascending."""
+
+    def select(self, views: IntArray) -> ViewPoses:
+        """Return some of the views."""
+        return ViewPoses(self.R[views], self.T[views], self.covariance[views], self.instant[views])
+
+    def turn(self, motion: Array) -> ViewPoses:
+        """Return the poses of a board that is counted from another end.
+
+        Args:
+            motion: (3, 3) motion of the board's plane that leaves its pattern unchanged, from the
+                points as they are to be counted to those as they were.
+        """
+        turn, arm = np.eye(3), self.R[..., :2] @ motion[:2, 2]
+        turn[:2, :2] = motion[:2, :2]
+        carry = np.tile(np.eye(6), (len(arm), 1, 1))  # tau' = tau + w x arm
+        carry[:, 3:, :3] = -make_cross_matrix(arm)
+        covariance = carry @ self.covariance @ np.swapaxes(carry, 1, 2)
+        return ViewPoses(self.R @ turn, self.T + arm, covariance, self.instant)
+
+
+class Relation(NamedTuple):
+    """How camera b stands to camera a."""
+
+    R: Array
+    """(3, 3) rotation b_from_a."""
+    T: Array
+    """(3,) translation, mm."""
+
+    def invert(self) -> Relation:
+        """Return how camera a stands to camera b."""
+        return Relation(self.R.T, -self.R.T @ self.T)
+
+    def after(self, other: Relation) -> Relation:
+        """Return c_from_a of this one, c_from_b, and another one, b_from_a."""
+        return Relation(self.R @ other.R, self.R @ other.T + self.T)
+
+
+def compare_views(relation: Relation, a: ViewPoses, b: ViewPoses) -> Array:
+    """Compute the costs c (K,), px^2, of a relation at the instants of two cameras' views.
+
+    Args:
+        relation: b_from_a.
+        a, b: the views of both cameras at the same instants.
+    """
+    e, covariance = measure_differences(relation, a, b)
+    return np.asarray(np.sum(e * np.linalg.solve(covariance, e[..., None])[..., 0], axis=1))
+
+
+def measure_differences(relation: Relation, a: ViewPoses, b: ViewPoses) -> tuple[Array, Array]:
+    """Return e (K, 6) and its covariance (K, 6, 6) for residuals of 1 px."""
+    Q, S = relation
+    w = vector_from_rotation(b.R @ np.swapaxes(Q @ a.R, 1, 2))
+    tau = b.T - (a.T @ Q.T + S)
+    G = np.zeros((6, 6))
+    G[:3, :3] = G[3:, 3:] = Q
+    return np.concatenate([w, tau], axis=1), b.covariance + G @ a.covariance @ G.T
+
+
+def differentiate_differences(relation: Relation, a: ViewPoses) -> Array:
+    """Return (K, 6, 6) how the pose predicted in b moves with a local (w, tau) of the relation: by
+    (w, tau - [Q T_a]x w)."""
+    C = np.tile(np.eye(6), (len(a.T), 1, 1))
+    C[:, 3:, :3] = -make_cross_matrix(a.T @ relation.R.T)
+    return C
+
+
+def measure_scatter(relation: Relation, a: ViewPoses, b: ViewPoses) -> tuple[float, float]:
+    """Measure how far apart single instants have the place of camera b from a.
+
+    An instant has it at T + tau + [Q T_a]x w.
+
+    Returns:
+        Root mean square distance from T, mm, and that for residuals of 1 px.
+    """
+    e, covariance = measure_differences(relation, a, b)
+    M = np.concatenate(
+        [make_cross_matrix(a.T @ relation.R.T), np.tile(np.eye(3), (len(e), 1, 1))], axis=2
+    )
+    apart = (M @ e[..., None])[..., 0]
+    expected = np.trace(M @ covariance @ np.swapaxes(M, 1, 2), axis1=1, axis2=2)
+    return float(np.sqrt(np.mean(np.sum(apart**2, axis=1)))), float(np.sqrt(expected.mean()))
+
+
+def choose_turns(
+    relation: Relation, a: ViewPoses, turned: Sequence[ViewPoses]
+) -> tuple[IntArray, Array]:
+    """Choose the turn of each view of b that costs least; return its number (K,) and cost (K,).
+
+    Args:
+        relation: b_from_a.
+        a: the views of camera a.
+        turned: the views of camera b at the same instants, with the board counted from each end.
+    """
+    costs = np.stack([compare_views(relation, a, b) for b in turned])
+    chosen = np.argmin(costs, axis=0)
+    return chosen, np.take_along_axis(costs, chosen[None], axis=0)[0]
+
+
+def find_relation(a: ViewPoses, turned: Sequence[ViewPoses]) -> Relation:
+    """Find what most instants say of how camera b stands to camera a.
+
+    Args:
+        a: the views of camera a, at the instants at which both see the board.
+        turned: those of camera b, with the board counted from each end that it may have.
+    """
+    if len(a.instant) > _MAX_INSTANTS:
+        some = _spread_evenly(len(a.instant), _MAX_INSTANTS)
+        a, turned = a.select(some), [b.select(some) for b in turned]
+    relation = _find_start(a, turned)
+    for _ in range(_MAX_STEPS):
+        chosen, costs = choose_turns(relation, a, turned)
+        scale = float(np.median(costs))
+        weights = (scale / (scale + costs)) ** 2 if scale > 0 else np.ones(len(costs))
+        relation, saved = _move_relation(relation, a, apply_turns(turned, chosen), weights)
+        if saved <= _MIN_SAVING * scale:
+            break
+    return relation
+
+
+def _find_start(a: ViewPoses, turned: Sequence[ViewPoses]) -> Relation:
+    """Find the instant whose relation the others contradict least; return that."""
+    tried = _spread_evenly(len(a.instant), _MAX_STARTS)
+    starts = []
+    for k in tried.tolist():
+        for b in turned:
+            Q = b.R[k] @ a.R[k].T
+            relation = Relation(Q, b.T[k] - Q @ a.T[k])
+            starts.append((relation, float(np.median(choose_turns(relation, a, turned)[1]))))
+    return min(starts, key=lambda start: start[1])[0]
+
+
+def _spread_evenly(count: int, most: int) -> IntArray:
+    """Return at most so many of the numbers up to `count`, at equal distances."""
+    return np.unique(np.linspace(0, count - 1, min(count, most)).round().astype(np.int64))
+
+
+def apply_turns(turned: Sequence[ViewPoses], chosen: IntArray) -> ViewPoses:
+    """Return the views, each with the board counted from the end that is chosen."""
+    each = np.arange(len(chosen))
+    R, T, covariance = (
+        np.stack([getattr(b, name) for b in turned])[chosen, each]
+        for name in ("R", "T", "covariance")
+    )
+    return ViewPoses(R, T, covariance, turned[0].instant)
+
+
+def _move_relation(
+    relation: Relation, a: ViewPoses, b: ViewPoses, weights: Array
+) -> tuple[Relation, float]:
+    """Move a relation to the weighted mean of the instants'; return also the cost that it saves."""
+    e, covariance = measure_differences(relation, a, b)
+    C = differentiate_differences(relation, a)
+    left = weights[:, None, None] * np.swapaxes(np.linalg.solve(covariance, C), 1, 2)
+    A, g = (left @ C).sum(axis=0), (left @ e[..., None]).sum(axis=0)[:, 0]
+    step = np.linalg.solve(A, g)
+    moved = Relation(rotation_from_vector(step[:3]) @ relation.R, relation.T + step[3:])
+    return moved, float(step @ g)
+
+
+def find_tree(shared: IntArray) -> list[tuple[int, int]]:
+    """Find pairs (known, new) that join cameras to the first one, those that share most first.
+
+    Cameras that no chain of pairs joins to the first are in none.
+
+    Args:
+        shared: (C, C) numbers of instants at which two cameras both see the board.
+    """
+    joined, tree = [0], []
+    others = list(range(1, len(shared)))
+    while others:
+        a, b = max(
+            ((a, b) for a in joined for b in others),
+            key=lambda pair: (shared[pair], -pair[0], -pair[1]),
+        )
+        if shared[a, b] == 0:
+            break
+        tree.append((a, b))
+        joined.append(b)
+        others.remove(b)
+    return tree
