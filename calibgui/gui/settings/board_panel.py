@@ -1,4 +1,4 @@
-"""The board: how many inner corners, how large the squares, and one to print."""
+"""The board: how many inner corners, and how large the squares."""
 
 from __future__ import annotations
 
@@ -13,7 +13,6 @@ from PySide6.QtWidgets import (
     QFormLayout,
     QHBoxLayout,
     QLabel,
-    QPushButton,
     QSpinBox,
     QWidget,
 )
@@ -46,7 +45,6 @@ class BoardPanel(QWidget):
 
     search_wanted = Signal()
     """The board has changed: images wait to be searched."""
-    print_wanted = Signal()
 
     def __init__(self, session: Session) -> None:
         super().__init__()
@@ -105,8 +103,6 @@ class BoardPanel(QWidget):
                 "Enter goes on to the next image."
             )
         )
-        self.print = QPushButton(self.tr("&Print a board…"))
-        self.print.setToolTip(self.tr("Make a PDF or SVG of a board of any size."))
 
         self.pattern = PatternChoice(self.tr("read from the images"))
         self.counted, self.side = QLabel(), QLabel()
@@ -118,9 +114,6 @@ class BoardPanel(QWidget):
         side = QHBoxLayout()
         side.addWidget(self.square, 1)
         side.addWidget(self.unit)
-        others = QHBoxLayout()
-        others.addWidget(self.by_hand)
-        others.addWidget(self.print, 1)
         form = self._form = QFormLayout(self)
         form.setContentsMargins(theme.SPACING, 0, theme.SPACING, 0)
         form.addRow(self.pattern)
@@ -128,7 +121,7 @@ class BoardPanel(QWidget):
         form.addRow("", self.inferred)
         form.addRow(self.tr("Loca&ted"), self.method)
         form.addRow(self.side, side)
-        form.addRow("", others)
+        form.addRow("", self.by_hand)
 
         self.pattern.changed.connect(self._edit_pattern)
         self.pattern.failed.connect(session.failed)
@@ -141,7 +134,6 @@ class BoardPanel(QWidget):
         self.method.activated.connect(self._edit_method)
         self.by_hand.clicked.connect(self._edit_by_hand)
         self.unit.activated.connect(self._edit_unit)
-        self.print.clicked.connect(self.print_wanted)
         session.changed.connect(self._project_changed)
         self._refresh()
 
