@@ -27,7 +27,6 @@ from screenshots import open_window, pause, wait
 
 from calibgui.engine.images import write_image
 from calibgui.gui.images.image_model import Role
-from calibgui.gui.panels.evidence.poses import PosesPanel
 from calibgui.gui.verdict.before_after import BeforeAndAfter
 from calibgui.gui.widgets import theme
 from calibgui.gui.window.main_window import MainWindow
@@ -141,7 +140,6 @@ def act(window: MainWindow, film: Film, folder: Path) -> None:
     bar = window.verdict
     film.film_until(lambda: bar.verdict is not None and not session.jobs.running)
     film.shoot(_STOP_MS)
-    window.need_analysis().show_panel(PosesPanel)
     pause(0.2)
     strip = window.images.list
     for row in (2, 4):

@@ -28,15 +28,13 @@ from calibgui.app.calibrating.series import Scalar
 from calibgui.app.system.resources import find_resource
 from calibgui.cli.main import main as calibgui
 from calibgui.engine.boards import BoardShapeModel
-from calibgui.gui.canvas.layers import Layer
 from calibgui.gui.dialogs.many_cameras import ManyCameras
 from calibgui.gui.dialogs.series_dialog import SeriesDialog
 from calibgui.gui.panels.analysis import PANELS
-from calibgui.gui.panels.answer.uncertainty import UncertaintyPanel
 from calibgui.gui.panels.answer.undistort import RECTIFIED, UndistortPanel
 from calibgui.gui.panels.evidence.board_shape import BoardShapePanel
-from calibgui.gui.panels.evidence.poses import PosesPanel
 from calibgui.gui.panels.method.methods import MethodsPanel
+from calibgui.gui.panels.modes import Mode
 from calibgui.gui.panels.on_demand import OnDemandPanel
 from calibgui.gui.verdict.before_after import BeforeAndAfter
 from calibgui.gui.widgets import theme
@@ -105,12 +103,11 @@ class Photographer:
         wait(lambda: session.result is not None)
         session.select(session.project.views[2].image)
         self.take("result")
-        assert window.analysis is not None
         self.desk()
-        for kind in PANELS[1:]:
+        for kind in PANELS:
             if kind is BoardShapePanel:
                 self.estimate_board_shape()
-            panel = window.analysis.show_panel(kind)
+            panel = window.need_analysis().show_panel(kind)
             if isinstance(panel, OnDemandPanel):
                 panel.run.click()
                 wait(partial(getattr, panel, "found"))
@@ -126,24 +123,18 @@ class Photographer:
             self.series(Path(folder))
 
     def desk(self) -> None:
-        """Take the layers on the image, the set-up, a large panel, and a threshold."""
+        """Take the set-up, the desk alone, and a threshold."""
         window, images = self.window, self.window.images
-        window.inspector.show_image_page()
-        for layer in (Layer.COVERAGE, Layer.DISTORTION, Layer.DISPLACEMENT, Layer.UNCERTAINTY):
-            window.page.layers[layer].setChecked(True)
-        self.take("layers")
-        for layer in (Layer.COVERAGE, Layer.DISTORTION, Layer.DISPLACEMENT, Layer.UNCERTAINTY):
-            window.page.layers[layer].setChecked(False)
-        window.inspector.show_setup()
+        window.show_setup()
         self.take("setup")
-        window.need_analysis().show_panel(UncertaintyPanel)
-        window.change_room()
-        self.take("large")
-        window.change_room()
-        images.threshold.setValue(0.7 * images.list.top)
+        window.header.setup.setChecked(False)
+        window.body.leave_desk_alone()
+        self.take("alone")
+        window.body.leave_desk_alone()
+        images.list._move_threshold(0.7 * images.list.top)
         images.exclude_above.click()
         wait(lambda: window.session.project.is_current(window.session.result))
-        images.threshold.setValue(0.8 * images.list.top)
+        images.list._move_threshold(0.8 * images.list.top)
         self.take("threshold")
         window.session.document.undo()
 
@@ -161,8 +152,7 @@ class Photographer:
         """Four clicks around a board, with the loupe."""
         window, canvas = self.window, self.window.page.canvas
         session = window.session
-        assert window.analysis is not None
-        window.analysis.show_panel(PosesPanel)
+        window.show_mode(Mode.PHOTOGRAPHS)
         session.select(session.project.views[4].image)
         pause(0.3)
         view = session.view

@@ -41,6 +41,7 @@ from calibgui.gui.panels.answer.uncertainty import UncertaintyPanel
 from calibgui.gui.panels.evidence.poses import PosesPanel
 from calibgui.gui.panels.evidence.residuals import ResidualsPanel
 from calibgui.gui.panels.method.lens_models import LensModelsPanel
+from calibgui.gui.panels.modes import Mode
 from calibgui.gui.panels.on_demand import OnDemandPanel
 
 _BOARDS = {
@@ -151,12 +152,9 @@ class States(Photographer):
         while window.banner.isVisible():
             window.banner.dismiss.click()
         session.edit("Squares", lambda p: replace(p, lengths_confirmed=True))
-        window.inspector_dock.hide()
-        self.take("without-inspector")
-        window.inspector_dock.show()
-        window.leave_photograph_alone()
+        window.body.leave_desk_alone()
         self.take("alone")
-        window.leave_photograph_alone()
+        window.body.leave_desk_alone()
         window.page.tools[1].trigger()
         self.take("edit-corners")
         window.page.marker.leave()
@@ -173,7 +171,7 @@ class States(Photographer):
             "Settings",
             lambda p: replace(p, settings=replace(p.settings, board_shape=BoardShapeModel.FREE)),
         )
-        window.inspector.show_setup()
+        window.show_setup()
         self.take("out-of-date")
         self.ask("unsaved", window.files.may_leave)
         self.ask("bug", lambda: window.show_failure(ValueError("by design")))
@@ -191,8 +189,7 @@ class States(Photographer):
             menu.close()
 
     def _list_buttons_menus(self) -> Iterator[QMenu]:
-        analysis = self.window.need_analysis()
-        menu = analysis.more.menu()
+        menu = self.window.inspector.camera.more.menu()
         assert menu is not None
         yield menu
 
@@ -208,7 +205,7 @@ class States(Photographer):
         self.begin(folder)
         self.window.need_analysis().show_panel(ResultPanel)
         self.take("no-board")
-        self.window.inspector.show_image_page()
+        self.window.show_mode(Mode.PHOTOGRAPHS)
         self.take("no-board-image")
         for k, view in enumerate(self.window.session.project.views):
             if "damaged" in view.image:
@@ -231,7 +228,7 @@ class States(Photographer):
         session.begin(Document())
         window.files.open_paths([str(folder)])
         wait(lambda: any(v.corners is not None for v in session.project.views))
-        window.inspector.show_image_page()
+        window.show_mode(Mode.PHOTOGRAPHS)
         pause(0.3)
         self.snap("searching")
         wait(lambda: window.calibrator.running or session.result is not None)
@@ -265,7 +262,7 @@ class States(Photographer):
                 wait(lambda: not window.session.jobs.running)
             window.need_analysis().show_panel(PosesPanel)
             self.take(f"{name}-poses")
-            window.inspector.show_setup()
+            window.show_setup()
             self.take(f"{name}-setup")
 
     def welcome_back(self, _: Path) -> None:

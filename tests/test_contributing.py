@@ -73,7 +73,7 @@ def test_the_papers_equations_are_where_it_says() -> None:
         ("calibgui.formats", "EXPORTERS"),
         ("calibgui.formats.camera_import", "IMPORTERS"),
         ("calibgui.cli.parser", "COMMANDS"),
-        ("calibgui.gui.panels.analysis", "GROUPS"),
+        ("calibgui.gui.panels.analysis", "MODES"),
         ("calibgui.gui.panels.panel", "Panel"),
         ("calibgui.gui.panels.latest", "Latest"),
         ("calibgui.gui.panels.services", "Services"),

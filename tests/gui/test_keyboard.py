@@ -13,7 +13,6 @@ from pytestqt.qtbot import QtBot
 
 from calibgui.gui.panels.analysis import PANELS
 from calibgui.gui.panels.evidence.residuals import ResidualsPanel
-from calibgui.gui.panels.groups import Group
 from calibgui.gui.panels.panel import Panel
 from calibgui.gui.window.main_window import MainWindow
 
@@ -54,9 +53,9 @@ def test_no_letter_means_two_things_beside_a_panel(
 
 
 def test_no_letter_means_two_things_beside_the_set_up_and_the_layers(full: MainWindow) -> None:
-    full.inspector.show_setup()
+    full.show_setup()
     assert clashes(labels(full)) == {}
-    full.inspector.show_image_page()
+    full.header.setup.setChecked(False)
     for tool in full.page.tools:
         tool.trigger()
         assert clashes(labels(full)) == {}
@@ -83,8 +82,8 @@ def test_no_shortcut_means_two_things(full: MainWindow) -> None:
 
 def test_tab_goes_through_all_parts(full: MainWindow, qtbot: QtBot) -> None:
     analysis = full.need_analysis()
-    panel = analysis.choosers[Group.EVIDENCE].buttons[ResidualsPanel]
-    analysis.show_panel(ResidualsPanel)
+    panel = analysis.show_panel(ResidualsPanel).plane
+    qtbot.waitUntil(lambda: not full.session.jobs.running, timeout=60_000)
     full.activateWindow()
     full.images.list.setFocus()
     reached = set()
@@ -93,27 +92,23 @@ def test_tab_goes_through_all_parts(full: MainWindow, qtbot: QtBot) -> None:
         qtbot.keyClick(QApplication.focusWidget() or full, Qt.Key.Key_Tab)
     wanted = (
         full.images.list,
-        full.images.sorting,
         full.calibrate,
-        full.page.canvas,
-        analysis.results,
-        full.inspector.tabs,
+        full.inspector.camera.results,
+        full.header.modes,
         panel,
     )
     assert {type(widget).__name__ for widget in wanted if widget not in reached} == set()
 
 
-def test_tab_goes_from_the_photograph_to_the_images_and_on_to_the_panels(full: MainWindow) -> None:
+def test_tab_goes_from_the_photograph_to_the_images_and_on_to_the_verdict(full: MainWindow) -> None:
     chain: list[QWidget] = [full.page.canvas]
     while (widget := chain[-1].nextInFocusChain()) is not chain[0]:
         chain.append(widget)
     stops = (
         full.page.canvas,
-        full.images.threshold,
         full.images.list,
-        full.inspector.tabs,
-        full.board.square,
-        full.need_analysis().results,
+        full.images.exclude_above,
+        full.verdict.button,
     )
     places = [chain.index(stop) for stop in stops]
     assert places == sorted(places)

@@ -5,12 +5,10 @@ from __future__ import annotations
 from dataclasses import replace
 from pathlib import Path
 
-import numpy as np
 import pytest
 from PySide6.QtCore import QMimeData, QPoint, QPointF, QRect, Qt, QUrl
-from PySide6.QtGui import QColor, QDropEvent, QGuiApplication
+from PySide6.QtGui import QDropEvent, QGuiApplication
 from PySide6.QtWidgets import (
-    QAbstractButton,
     QApplication,
     QFileDialog,
     QInputDialog,
@@ -95,8 +93,7 @@ def test_views_that_do_not_determine_the_camera_say_what_to_photograph(
     assert "One view does not determine a camera" in full.verdict.reason.text()
     assert "Add at least two more views" in full.verdict.reason.text()
     assert full.banner.isHidden(), "nothing is said twice"
-    panel = full.analysis.findChild(ResultPanel)
-    assert panel is not None
+    panel = full.need_analysis().show_panel(ResultPanel)
     qtbot.waitUntil(lambda: not session.jobs.running)
     assert "Assumed, as of an ordinary camera" in panel.words.toPlainText()
 
@@ -104,31 +101,30 @@ def test_views_that_do_not_determine_the_camera_say_what_to_photograph(
 def test_results_are_chosen_compared_renamed_and_deleted(
     full: MainWindow, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    analysis, session = full.analysis, full.session
-    assert analysis is not None
+    analysis, session = full.need_analysis(), full.session
     assert session.result_name == "k3 held"
     analysis.compare_with("Calibration 1")
     assert analysis.panel(ComparePanel).names == ("Calibration 1", "k3 held")
     table = analysis.panel(ComparePanel).parameters.model()
     rows = {table.index(r, 0).data(): r for r in range(table.rowCount())}
     assert set(rows) >= {"fx", "k3"}
-    analysis.results.setCurrentIndex(0)
-    analysis.results.activated.emit(0)
+    camera = full.inspector.camera
+    camera.results.setCurrentIndex(0)
+    camera.results.activated.emit(0)
     assert session.result is session.project.results["Calibration 1"]
     monkeypatch.setattr(QInputDialog, "getText", lambda *_: ("all free", True))
-    analysis.rename_wanted.emit("Calibration 1")
+    camera.rename_wanted.emit("Calibration 1")
     assert list(session.project.results) == ["all free", "k3 held"]
     assert set(analysis.panel(ComparePanel).names) == {"all free", "k3 held"}
     assert session.result_name == "all free"
-    analysis.delete_wanted.emit("all free")
+    camera.delete_wanted.emit("all free")
     assert session.result_name == "k3 held"
     session.document.undo()
     assert list(session.project.results) == ["all free", "k3 held"]
 
 
 def test_a_click_in_the_image_and_in_a_panel_select_the_same(full: MainWindow) -> None:
-    assert full.analysis is not None
-    panel = full.analysis.panel(ResultPanel)
+    panel = full.need_analysis().panel(ResultPanel)
     panel.picked.emit(3, 17)
     assert full.session.image.endswith("3.png")
     assert full.page.canvas.marks.chosen == 17
@@ -155,10 +151,10 @@ def test_the_caption_is_cut_to_the_picture_and_gives_way_to_the_cursor(
     full: MainWindow, qtbot: QtBot
 ) -> None:
     caption, port = full.page.caption, full.page.canvas.viewport()
-    assert caption.text() == "0.png" and caption.isVisible()
+    assert caption.text().startswith("0.png — 42 of 42 corners") and caption.isVisible()
     for at, is_left in ((QPoint(300, 200), True), (QPoint(4, 4), False), (QPoint(300, 200), True)):
         qtbot.mouseMove(port, at)
-        qtbot.waitUntil(lambda is_left=is_left: (caption.x() == 0) is is_left)
+        qtbot.waitUntil(lambda is_left=is_left: (caption.x() < 20) is is_left)
         assert not caption.geometry().contains(at)
     caption.show_name(40 * "long ")
     assert "…" in caption.text() and caption.width() <= port.width()
@@ -241,15 +237,21 @@ def test_a_selection_of_all_files_is_its_photographs_or_its_project(
 
 
 def test_what_one_can_click_is_said_where_it_is_there(full: MainWindow) -> None:
-    session, facts = full.session, full.page.facts
+    session, page = full.session, full.page
     session.select(session.project.views[0].image)
-    assert facts.text().endswith("Click a corner to see its residual.")
-    session.select(next(view.image for view in session.project.views if view.reason))
-    assert "Click" not in facts.text(), "there are no corners"
-    session.select(session.project.views[0].image)
+    view = session.view
+    assert view is not None and view.corners is not None
+    (u, v), (row, column) = view.corners.uv[8], view.corners.grid[8]
+    place = f"   corner: row {row}, column {column}; click to see its "
+    assert page._board_index(u, v) == f"{place}residual"
+    page.canvas.picked.emit(8)
+    assert f"corner in row {row}, column {column}" in page.caption.text()
+    assert "residual Δu" in page.caption.text()
     for name in list(session.project.results):
         full.files.delete_result(name)
-    assert facts.text().endswith("Click a corner to see its place.")
+    assert page._board_index(u, v) == f"{place}place"
+    session.select(next(view.image for view in session.project.views if view.reason))
+    assert page._board_index(u, v) == "", "there are no corners"
 
 
 def test_a_message_to_the_window_leaves_what_is_said_of_the_image_in_sight(
@@ -453,23 +455,6 @@ def test_help_names_keys_that_work(qtbot: QtBot, window: MainWindow) -> None:
     assert {"F9", "M", "E", "Ctrl+0", "Ctrl+1", "Shift+1", "Shift+6"} <= known
 
 
-def test_the_layout_is_remembered(qtbot: QtBot, tmp_path: Path) -> None:
-    widths = []
-    for width in (500, None):
-        window = MainWindow()
-        window.show()
-        window.resize(1280, 720)  # the offscreen screen is smaller than a remembered window
-        qtbot.waitExposed(window)
-        window.session.begin(Document(examples.calibrated(tmp_path)))
-        if width is not None:
-            window.resizeDocks([window.inspector_dock], [width], Qt.Orientation.Horizontal)
-        qtbot.wait(50)
-        widths.append(window.inspector_dock.width())
-        window.close()
-        window.deleteLater()
-    assert widths[0] == widths[1] == 500
-
-
 def test_a_split_is_upright_where_it_is_not_wide(qtbot: QtBot) -> None:
     split = Split(500, (QWidget(), 1), (QWidget(), 1))
     qtbot.addWidget(split)
@@ -482,21 +467,20 @@ def test_a_split_is_upright_where_it_is_not_wide(qtbot: QtBot) -> None:
 
 
 @pytest.mark.parametrize("scheme", [theme.Scheme.LIGHT, theme.Scheme.DARK])
-def test_the_buttons_of_a_part_show_on_its_title(
+def test_the_labels_of_the_tools_show_in_either_scheme(
     full: MainWindow, qapp: QApplication, scheme: theme.Scheme
 ) -> None:
     theme.apply(qapp, scheme)
     qapp.processEvents()
-    full.restoreState(full.saveState())  # as when a project is opened: Qt takes its own icons again
-    full.grab()
-    ground = QColor(theme.current().window).lightness()
-    for name in ("qt_dockwidget_floatbutton", "qt_dockwidget_closebutton"):
-        button = full.inspector_dock.findChild(QAbstractButton, name)
-        assert button is not None
-        icon = button.icon().pixmap(10, 10).toImage()
-        inks = [icon.pixelColor(x, y) for x in range(10) for y in range(10)]
-        drawn = [ink.lightness() for ink in inks if ink.alpha() > 200]
-        assert drawn and abs(np.mean(drawn) - ground) > 70
+    for action in full.page.tools:
+        button = full.page.bar.widgetForAction(action)
+        picture = button.grab().toImage()
+        lightness = [
+            picture.pixelColor(x, y).lightness()
+            for x in range(picture.width())
+            for y in range(picture.height() // 2, picture.height())  # the label, not the icon
+        ]
+        assert max(lightness) - min(lightness) > 70, action.text()
 
 
 def test_a_narrow_choice_shows_that_its_text_goes_on(qtbot: QtBot) -> None:

@@ -167,7 +167,7 @@ def test_a_wrong_square(user: User, monkeypatch: pytest.MonkeyPatch) -> None:
     user.state_square("30")  # they have 25 mm: no photograph can tell
     assert "if squares" not in user.window.verdict.figures.text()
     box = user.window.board.square
-    user.window.inspector.show_setup()
+    user.window.show_setup()
     user.clicks += 1
     box.setFocus()
     box.selectAll()

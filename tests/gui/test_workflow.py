@@ -151,7 +151,7 @@ def test_from_photographs_to_an_exported_camera(
 
     # Its bar stands out: exclude by threshold, and the fit follows.
     others = max(value for image, value in rms.items() if image != worst)
-    window.images.threshold.setValue((others + rms[worst]) / 2)
+    window.images.list._move_threshold((others + rms[worst]) / 2)
     assert [Path(image).name for image in window.images.chosen] == ["view04.png"]
     hand.click_button(window.images.exclude_above)
     assert [Path(v.image).name for v in session.project.views if not v.enabled] == ["view04.png"]
@@ -195,7 +195,8 @@ def test_from_photographs_to_an_exported_camera(
     window.files.rename_result(session.result_name)
     window.files.delete_result(next(iter(session.project.results)))
     window.images.remove([unreadable.image])
-    window.inspector.show_setup()
+    window.show_setup()
+    window.setup.folds[2].setChecked(True)
     for widget, key in (
         (window.verdict.square.confirm, Qt.Key.Key_Space),
         (window.board.by_hand, Qt.Key.Key_Space),

@@ -152,6 +152,15 @@ def set_pattern(project: Project, pattern: Pattern) -> Project:
     )
 
 
+def take_pattern(project: Project, pattern: Pattern) -> Project:
+    """Return the project with another pattern, without results from corners that were taken for
+    the one before."""
+    for name, result in project.results.items():
+        if project.has_views_of(result):
+            project = remove_result(project, name)
+    return set_pattern(project, pattern)
+
+
 def set_grid_size(project: Project, grid_size: GridSize | None) -> Project:
     """Return the project with a stated number of rows and columns, None to count them.
 

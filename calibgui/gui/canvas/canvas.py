@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from typing import Protocol
 
 import numpy as np
@@ -20,16 +20,7 @@ from PySide6.QtGui import (
 from PySide6.QtWidgets import QFrame, QGraphicsScene, QGraphicsView, QWidget
 
 from calibgui.engine.arrays import Array, Size
-from calibgui.gui.canvas.layers import (
-    Drawing,
-    Layer,
-    Marks,
-    draw_outline,
-    paint_drawing,
-    paint_labels,
-    paint_marks,
-    trace_hull,
-)
+from calibgui.gui.canvas.layers import Layer, Marks, paint_marks
 from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.focus_ring import FocusRing
 from calibgui.gui.widgets.picture import Picture
@@ -38,8 +29,6 @@ _STEP = 1.25
 """Zoom of a wheel's notch or a key."""
 _NEAREST, _FARTHEST = 64.0, 0.5
 """Largest zoom; smallest, over the one at which the image fits."""
-_HIGHLIGHT = 4.0
-"""Width of the line around the board that the cursor is over elsewhere, px."""
 _GRAB = 10
 """Distance at which a mark is hit, device-independent px."""
 
@@ -73,20 +62,14 @@ class Canvas(QGraphicsView):
     """Image position under the cursor, px; NaN when it leaves."""
     picked = Signal(int)
     """Index of the corner that was clicked."""
-    layers_changed = Signal()
-    """Other layers are shown than before."""
     stepped = Signal(int)
     """The user asks for the next image (1) or the one before (-1)."""
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.marks = Marks()
-        self.shown: set[Layer] = {Layer.REGION, Layer.CORNERS, Layer.RESIDUALS}
-        self.opacity: dict[Layer, float] = {}
-        """Opacity of each layer; 1 if it is not named."""
+        self.shown: set[Layer] = {Layer.CORNERS}
         self.residual_scale = 50.0
-        self._drawings: Mapping[Layer, Drawing] = {}
-        self._highlight: QColor | None = None
         self.tool: Tool | None = None
         self._picture = Picture()
         self._fits = True
@@ -106,7 +89,7 @@ class Canvas(QGraphicsView):
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         FocusRing(self)
         self.setMinimumSize(240, 180)
-        self._restyle()
+        self.setBackgroundBrush(QColor(theme.current().canvas))
 
     # What is shown
 
@@ -126,27 +109,10 @@ class Canvas(QGraphicsView):
         self.marks = marks
         self.viewport().update()
 
-    def show_highlight(self, colour: QColor | None) -> None:
-        """Draw a line of this colour around the board; None for no line."""
-        if colour != self._highlight:
-            self._highlight = colour
-            self.viewport().update()
-
-    def show_drawings(self, drawings: Mapping[Layer, Drawing]) -> None:
-        """Draw these over every image of their camera."""
-        self._drawings = drawings
-        self.viewport().update()
-
-    def set_opacity(self, layer: Layer, opacity: float) -> None:
-        """Draw a layer with an opacity of 0 to 1."""
-        self.opacity[layer] = opacity
-        self.viewport().update()
-
     def set_layer(self, layer: Layer, shown: bool) -> None:
         """Show or hide a layer."""
         (self.shown.add if shown else self.shown.discard)(layer)
         self.viewport().update()
-        self.layers_changed.emit()
 
     def set_residual_scale(self, scale: float) -> None:
         """Draw residuals that many times as long as they are."""
@@ -252,28 +218,7 @@ class Canvas(QGraphicsView):
         painter.resetTransform()
         painter.setClipRect(self.viewport().rect())
         if self.tool is None or self.tool.with_marks:
-            drawings = [
-                (drawing, self.opacity.get(layer, 1.0))
-                for layer, drawing in self._drawings.items()
-                if layer in self.shown and drawing.size == self._size
-            ]
-            for drawing, opacity in drawings:
-                paint_drawing(painter, drawing, self.to_screen, opacity)
-            paint_marks(
-                painter,
-                self.marks,
-                self.to_screen,
-                self.shown,
-                self.residual_scale,
-                self.opacity,
-            )
-            texts: list[QRectF] = []
-            for drawing, opacity in drawings:
-                paint_labels(painter, drawing, self.to_screen, opacity, texts)
-            corners = self.marks.corners
-            if self._highlight is not None and corners is not None:
-                at = self.to_screen(trace_hull(corners.uv))
-                draw_outline(painter, at, self._highlight, _HIGHLIGHT)
+            paint_marks(painter, self.marks, self.to_screen, self.shown, self.residual_scale)
         if self.tool is not None:
             self.tool.paint(painter, self)
         painter.restore()
@@ -337,11 +282,6 @@ class Canvas(QGraphicsView):
         if self._fits:
             self.fit()
 
-    def changeEvent(self, event: QEvent) -> None:  # noqa: N802
-        super().changeEvent(event)
-        if event.type() == QEvent.Type.PaletteChange:
-            self._restyle()
-
     def _pan(self, to: QPoint) -> None:
         assert self._pan_from is not None
         shift = to - self._pan_from
@@ -354,6 +294,3 @@ class Canvas(QGraphicsView):
     def _uv(self, event: QMouseEvent) -> Array:
         at = event.position()
         return self.to_image(np.array([[at.x(), at.y()]]))[0]
-
-    def _restyle(self) -> None:
-        self.setBackgroundBrush(QColor(theme.current().canvas))

@@ -6,17 +6,17 @@ import math
 from collections.abc import Callable
 
 import numpy as np
-from PySide6.QtCore import QEvent, QPointF, QSize, Qt, Signal
+from PySide6.QtCore import QPointF, QSize, Qt, Signal
 from PySide6.QtGui import QAction, QPolygonF
-from PySide6.QtWidgets import QHBoxLayout, QToolBar, QWidget
+from PySide6.QtWidgets import QHBoxLayout, QToolBar, QToolButton, QWidget
 
 from calibgui.app.projects.project import Project
 from calibgui.dataset import Result, View, ViewStatus
 from calibgui.engine.images import Image
+from calibgui.engine.numbers import format_two_digits
 from calibgui.gui.canvas.canvas import Canvas
 from calibgui.gui.canvas.caption import Caption
-from calibgui.gui.canvas.evidence import Evidence
-from calibgui.gui.canvas.layer_list import LayerList
+from calibgui.gui.canvas.layer_menu import LayerMenu
 from calibgui.gui.canvas.layers import Layer, Marks, trace_hull
 from calibgui.gui.canvas.marker import Marker
 from calibgui.gui.canvas.world_reading import describe_world
@@ -28,7 +28,6 @@ from calibgui.gui.widgets.actions import enable_action, make_action
 from calibgui.gui.widgets.icons import Icon, draw_icon
 from calibgui.gui.widgets.overlay import Overlay
 from calibgui.gui.widgets.picture import Levels, stretch_levels
-from calibgui.gui.widgets.reserved_label import ReservedLabel
 from calibgui.gui.widgets.wrapped_label import WrappedLabel
 
 
@@ -55,23 +54,30 @@ class ImagePage(QWidget):
         self.reason.setMargin(theme.SPACING)
         self.reason.hide()
         Overlay(self.reason, self.canvas, at_bottom=True)
-        self.facts = ReservedLabel(2)
-        """What is known of the image, or of its chosen corner; for the inspector."""
         self.marker = Marker(session, self.canvas)
-        self.layer_list = LayerList(self.canvas)
-        self.layers = self.layer_list.actions_by_layer
-        self.evidence = Evidence(session, self.canvas)
-        self.canvas.layers_changed.connect(self.evidence.need)
+        self.layer_menu = LayerMenu(self.canvas)
+        self.layers = self.layer_menu.actions_by_layer
         self.bar = QToolBar(self.tr("Tools"), orientation=Qt.Orientation.Vertical)
-        """Stands beside the page, clear of what lies over the picture."""
+        """Beside the picture, of which it covers nothing."""
         self.bar.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonTextUnderIcon)
         self.bar.setIconSize(_ICON)
-        self.bar.setStyleSheet("QToolBar { border: none; padding: 0; spacing: 0; }")
+        self.bar.setAutoFillBackground(True)
+        self.bar.setPalette(theme.make_dark_palette())
         self._add_tools()
         self._add_zoom()
+        self.layers_button = QToolButton()
+        self.layers_button.setText(self.tr("Layers"))
+        self.layers_button.setToolTip(self.tr("Choose what is drawn over the image"))
+        self.layers_button.setMenu(self.layer_menu)
+        self.layers_button.setPopupMode(QToolButton.ToolButtonPopupMode.InstantPopup)
+        self.layers_button.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonTextUnderIcon)
+        self.bar.addSeparator()
+        self.bar.addWidget(self.layers_button)
         self._restyle()
         layout = QHBoxLayout(self)
         layout.setContentsMargins(0, 0, 0, 0)
+        layout.setSpacing(0)
+        layout.addWidget(self.bar)
         layout.addWidget(self.canvas)
         self.canvas.hovered.connect(self._hovered)
         self.canvas.stepped.connect(session.select_next)
@@ -79,7 +85,6 @@ class ImagePage(QWidget):
         for changes_axes in (self.marker.corner_bar.turn, self.marker.corner_bar.flip):
             changes_axes.clicked.connect(lambda: self.layers[Layer.ORDER].setChecked(True))
         session.selected.connect(self._selected)
-        session.hovered.connect(lambda _: self._show_hovered())
         session.renewed.connect(lambda image: self._load(image) if image == session.image else None)
         session.changed.connect(self._project_changed)
         session.result_changed.connect(lambda _: self._show_marks())
@@ -148,19 +153,14 @@ class ImagePage(QWidget):
         """Draw the icons in the theme's colour."""
         icons = Icon.MARK, Icon.EDIT, Icon.FIT, Icon.ACTUAL_SIZE
         for action, icon in zip([*self.tools, *self.zoom_actions], icons, strict=True):
-            action.setIcon(draw_icon(icon))
+            action.setIcon(draw_icon(icon, theme.DARK.text))
             action.setIconVisibleInMenu(False)
-
-    def changeEvent(self, event: QEvent) -> None:  # noqa: N802 - Qt's name
-        super().changeEvent(event)
-        if event.type() == QEvent.Type.PaletteChange:
-            self._restyle()
+        self.layers_button.setIcon(draw_icon(Icon.LAYERS, theme.DARK.text))
 
     def _selected(self, image: str, corner: int) -> None:
         if self.shown_path != image:
             self._load(image)
         self._show_marks()
-        self._show_hovered()
         view = self._session.view
         if view is not None and view.corners is not None and 0 <= corner < len(view.corners):
             self.canvas.show_place(view.corners.uv[corner])
@@ -215,55 +215,36 @@ class ImagePage(QWidget):
         if view is None:
             self.caption.show_name("")
             self.canvas.show_marks(Marks())
-            self.facts.setText("")
             return
-        self.caption.show_name(view.name)
         measured, predicted = _find_residuals(session.result, view)
         region = view.roi
         if region is None and view.corners is not None:
             region = view.corners.roi
         marks = Marks(view.corners, region, measured, predicted, session.corner)
         self.canvas.show_marks(marks)
-        self.facts.setText(self._describe(view, marks))
+        self.caption.show_name(view.name, self._describe(view, marks))
 
     def _describe(self, view: View, marks: Marks) -> str:
         """Say what is known of the chosen corner, or of the image if none is chosen."""
         corners, k = marks.corners, marks.chosen
         if corners is None or not 0 <= k < len(corners):
             status = status_text(view)
-            text = status[:1].upper() + status[1:]
+            text = status
             if marks.measured is not None and marks.predicted is not None:
                 residuals = marks.measured - marks.predicted
                 rms = math.sqrt(float((residuals**2).sum(axis=1).mean()))
-                text += self.tr(", error {0:.3f} px (RMS)").format(rms)
-            if corners is None:
-                return text
-            hint = (
-                self.tr("Click a corner to see its place.")
-                if marks.predicted is None
-                else self.tr("Click a corner to see its residual.")
-            )
-            return f"{text}\n{hint}"
+                text += self.tr(", {0} px").format(format_two_digits(rms))
+            return text
         (row, col), (u, v) = corners.grid[k], corners.uv[k]
-        text = self.tr("Corner in row {0}, column {1}: u {2:.3f}, v {3:.3f} px").format(
+        text = self.tr("corner in row {0}, column {1}: u {2:.3f}, v {3:.3f} px").format(
             row, col, u, v
         )
         if marks.measured is None or marks.predicted is None:
             return text
         nearest = np.linalg.norm(marks.measured - corners.uv[k], axis=1).argmin()
         du, dv = marks.measured[nearest] - marks.predicted[nearest]
-        return text + self.tr("\nResidual: Δu {0:+.3f}, Δv {1:+.3f}, {2:.3f} px").format(
+        return text + self.tr("; residual Δu {0:+.3f}, Δv {1:+.3f}, {2:.3f} px").format(
             du, dv, math.hypot(du, dv)
-        )
-
-    def _show_hovered(self) -> None:
-        """Outline the board if the cursor is over it elsewhere, in the view's colour."""
-        session = self._session
-        is_pointed_at = bool(session.image) and session.hovered_image == session.image
-        self.canvas.show_highlight(
-            theme.view_colour(session.project.find(session.image))
-            if is_pointed_at and not self._is_over_board
-            else None
         )
 
     def _point_at_board(self, u: float, v: float) -> None:
@@ -309,7 +290,11 @@ class ImagePage(QWidget):
         if distance[k] > spacing / 2:
             return ""
         row, col = corners.grid[k]
-        return self.tr("   corner: row {0}, column {1}").format(row, col)
+        return (
+            self.tr("   corner: row {0}, column {1}; click to see its place")
+            if self.canvas.marks.predicted is None
+            else self.tr("   corner: row {0}, column {1}; click to see its residual")
+        ).format(row, col)
 
 
 _ICON = QSize(20, 20)

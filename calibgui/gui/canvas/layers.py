@@ -6,22 +6,18 @@ size on the screen at any zoom.
 
 from __future__ import annotations
 
-import math
-from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
-from contextlib import AbstractContextManager, contextmanager
+from collections.abc import Callable, Collection, Iterable
 from dataclasses import dataclass
 from enum import StrEnum
 from itertools import pairwise
-from types import MappingProxyType
 
 import numpy as np
 from PySide6.QtCore import QLineF, QPointF, QRectF, Qt
-from PySide6.QtGui import QColor, QPainter, QPen, QPixmap, QPixmapCache, QPolygonF
+from PySide6.QtGui import QColor, QPainter, QPen, QPolygonF
 
-from calibgui.engine.arrays import Array, Size
+from calibgui.engine.arrays import Array
 from calibgui.engine.features import Corners
 from calibgui.gui.widgets import theme
-from calibgui.gui.widgets.stamps import draw_stamps
 
 ToScreen = Callable[[Array], Array]
 """From (n, 2) px of the image to (n, 2) device-independent px of the widget."""
@@ -30,8 +26,8 @@ _ARM = 6.0
 """Half the length of a cross, if corners are far enough apart."""
 _ROOM = 0.22
 """Share of the distance between corners that a mark may take to each side."""
-_DOT = 2.5
-"""Radius of a dot."""
+_RING = 3.5
+"""Radius of a corner's ring, if corners are far enough apart."""
 _LINE = 1.4
 """Width of a line; its halo is 1 wider on each side."""
 _HEAD = 5.0
@@ -39,10 +35,7 @@ _HEAD = 5.0
 
 
 class Layer(StrEnum):
-    """The kinds of marks, each of which can be shown or hidden.
-
-    The first are of one view, the others of the whole calibration.
-    """
+    """The kinds of marks of one view, each of which can be shown or hidden."""
 
     REGION = "region"
     ESTIMATES = "estimates"
@@ -50,26 +43,6 @@ class Layer(StrEnum):
     ORDER = "order"
     REPROJECTION = "reprojection"
     RESIDUALS = "residuals"
-    UNCERTAINTY = "uncertainty"
-    DISTORTION = "distortion"
-    DISPLACEMENT = "displacement"
-    COVERAGE = "coverage"
-    NEXT_VIEW = "next view"
-
-
-@dataclass(frozen=True, eq=False, slots=True)
-class Drawing:
-    """Lines, labels and dots over the images of one camera, in px of the image."""
-
-    size: Size
-    """Width and height of the images that it lies over, px."""
-    colour: QColor
-    lines: tuple[Array, ...] = ()
-    """Open lines (n, 2)."""
-    labels: tuple[tuple[Array, str], ...] = ()
-    """Texts at places (n, 2), of which the first is taken where no other text stands."""
-    dots: tuple[tuple[Array, QColor], ...] = ()
-    """Dots (n, 2), with the colour of each group."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -93,81 +66,32 @@ def paint_marks(
     to_screen: ToScreen,
     shown: Collection[Layer],
     residual_scale: float,
-    opacity: Mapping[Layer, float] = MappingProxyType({}),
 ) -> None:
     """Draw the `shown` layers of `marks` on a painter in the widget's coordinates."""
     painter.setRenderHint(QPainter.RenderHint.Antialiasing)
 
-    def faded(layer: Layer) -> AbstractContextManager[None]:
-        return fade(painter, opacity.get(layer, 1.0))
-
     if Layer.REGION in shown and marks.region is not None:
-        with faded(Layer.REGION):
-            draw_outline(painter, to_screen(marks.region), theme.REGION)
+        draw_outline(painter, to_screen(marks.region), theme.REGION)
     corners = marks.corners
     if corners is not None:
         uv = to_screen(corners.uv)
         arm = choose_arm_length(uv)
         if Layer.ORDER in shown:
-            with faded(Layer.ORDER):
-                _draw_order(painter, corners, uv)
+            _draw_order(painter, corners, uv)
         if Layer.ESTIMATES in shown:
-            with faded(Layer.ESTIMATES):
-                draw_crosses(painter, to_screen(corners.estimate), theme.ESTIMATE, arm)
+            draw_crosses(painter, to_screen(corners.estimate), theme.ESTIMATE, arm)
         if Layer.CORNERS in shown:
-            with faded(Layer.CORNERS):
-                draw_crosses(painter, uv, theme.REFINED, arm)
+            _draw_grid(painter, corners, uv, arm)
     if marks.predicted is not None and marks.measured is not None:
         at, measured = to_screen(marks.predicted), to_screen(marks.measured)
         if Layer.REPROJECTION in shown:
-            with faded(Layer.REPROJECTION):
-                draw_rings(painter, at, theme.REPROJECTED, choose_arm_length(at))
+            draw_rings(painter, at, theme.REPROJECTED, choose_arm_length(at))
         if Layer.RESIDUALS in shown:
-            with faded(Layer.RESIDUALS):
-                draw_arrows(painter, at, at + residual_scale * (measured - at), theme.RESIDUAL)
+            draw_arrows(painter, at, at + residual_scale * (measured - at), theme.RESIDUAL)
     if corners is not None and 0 <= marks.chosen < len(corners):
         draw_rings(
             painter, to_screen(corners.uv[marks.chosen : marks.chosen + 1]), theme.REFINED, 12
         )
-
-
-def paint_drawing(painter: QPainter, drawing: Drawing, to_screen: ToScreen, opacity: float) -> None:
-    """Draw the dots and lines of what lies over the images, in the widget's coordinates."""
-    painter.setRenderHint(QPainter.RenderHint.Antialiasing)
-    with fade(painter, opacity):
-        for dots, colour in drawing.dots:
-            draw_dots(painter, to_screen(dots), colour)
-        for line in drawing.lines:
-            draw_polyline(painter, to_screen(line), drawing.colour)
-
-
-def paint_labels(
-    painter: QPainter,
-    drawing: Drawing,
-    to_screen: ToScreen,
-    opacity: float,
-    taken: list[QRectF],
-) -> None:
-    """Write the texts of what lies over the images, on a painter in the widget's coordinates.
-
-    Args:
-        painter, drawing, to_screen, opacity: where, what and how.
-        taken: boxes of texts that are written; those of this drawing are added.
-    """
-    with fade(painter, opacity):
-        for places, text in drawing.labels:
-            boxes = [_place_label(painter, at, text) for at in to_screen(places)]
-            free = (box for box in boxes if not any(map(box.intersects, taken)))
-            taken.append(next(free, boxes[0]))
-            _write(painter, taken[-1], text, drawing.colour)
-
-
-@contextmanager
-def fade(painter: QPainter, opacity: float) -> Iterator[None]:
-    """Draw with this opacity in the block."""
-    painter.setOpacity(opacity)
-    yield
-    painter.setOpacity(1.0)
 
 
 def choose_arm_length(at: Array) -> float:
@@ -211,31 +135,6 @@ def draw_arrows(painter: QPainter, start: Array, end: Array, colour: QColor) -> 
     ):
         lines += [QLineF(*a, *b), QLineF(*b, *left), QLineF(*b, *right)]
     _draw_lines(painter, lines, colour)
-
-
-def draw_dots(painter: QPainter, at: Array, colour: QColor) -> None:
-    """A dot at each of (n, 2) screen positions: there are ten thousands of a whole calibration."""
-    ratio = painter.device().devicePixelRatioF()
-    side = math.ceil((2 * _DOT + 2) * ratio)
-    stamp, key = QPixmap(), f"dot {colour.name()} {ratio}"
-    if not QPixmapCache.find(key, stamp):
-        stamp = _draw_dot(colour, side, ratio)
-        QPixmapCache.insert(key, stamp)
-    draw_stamps(painter, at, stamp, np.zeros(2), side)
-
-
-def _draw_dot(colour: QColor, side: int, ratio: float) -> QPixmap:
-    """Return a picture, `side` pixels wide, of a dot on a screen with a device pixel ratio."""
-    picture = QPixmap(side, side)
-    picture.fill(Qt.GlobalColor.transparent)
-    picture.setDevicePixelRatio(ratio)
-    painter = QPainter(picture)
-    painter.setRenderHint(QPainter.RenderHint.Antialiasing)
-    painter.setPen(QPen(theme.HALO, 1.0))
-    painter.setBrush(colour)
-    painter.drawEllipse(QPointF(side, side) / (2 * ratio), _DOT, _DOT)
-    painter.end()
-    return picture
 
 
 def trace_hull(uv: Array) -> Array:
@@ -299,6 +198,21 @@ def _write(painter: QPainter, box: QRectF, text: str, colour: QColor) -> None:
     painter.drawRoundedRect(box, 3, 3)
     painter.setPen(colour)
     painter.drawText(box, Qt.AlignmentFlag.AlignCenter, text)
+
+
+def _draw_grid(painter: QPainter, corners: Corners, uv: Array, radius: float) -> None:
+    """The corners as rings, with lines along the rows and columns of the board."""
+    lines = []
+    for fixed, along in ((0, 1), (1, 0)):
+        order = np.lexsort((corners.grid[:, along], corners.grid[:, fixed]))
+        grid, path = corners.grid[order], uv[order]
+        step = np.diff(grid, axis=0)
+        next_to = (step[:, fixed] == 0) & (step[:, along] == 1)
+        lines += [
+            QLineF(*a, *b) for a, b in zip(path[:-1][next_to], path[1:][next_to], strict=True)
+        ]
+    _draw_lines(painter, lines, theme.REFINED)
+    draw_rings(painter, uv, theme.REFINED, min(radius, _RING))
 
 
 def _draw_order(painter: QPainter, corners: Corners, uv: Array) -> None:

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
+from functools import partial
 from pathlib import PurePath
 
-import numpy as np
 from PySide6.QtCore import (
     QItemSelection,
     QItemSelectionModel,
@@ -16,29 +16,18 @@ from PySide6.QtCore import (
     Qt,
     Signal,
 )
-from PySide6.QtGui import QAction, QResizeEvent
-from PySide6.QtWidgets import (
-    QCheckBox,
-    QComboBox,
-    QDoubleSpinBox,
-    QGridLayout,
-    QHBoxLayout,
-    QLabel,
-    QPushButton,
-    QWidget,
-)
+from PySide6.QtGui import QAction, QActionGroup, QColor, QPainter, QPaintEvent
+from PySide6.QtWidgets import QVBoxLayout, QWidget
 
 from calibgui.app.projects.project import change_views, remove_views
 from calibgui.dataset import Result, View
-from calibgui.gui.images.film_view import Cell, FilmView
+from calibgui.engine.numbers import format_two_digits
+from calibgui.gui.images.film_view import FilmView
 from calibgui.gui.images.image_model import Criterion, ImageModel, Role
 from calibgui.gui.session.session import Session
 from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.actions import enable_action, make_action
-from calibgui.gui.widgets.number_box import fit_width
 
-_LEAST_IMAGES = 3
-"""Number of images below which a strip has no room for its controls."""
 Index = QModelIndex | QPersistentModelIndex
 
 
@@ -75,8 +64,8 @@ class _Order(QSortFilterProxyModel):
 class FilmStrip(QWidget):
     """The project's images, to look at, sort, exclude, search again and remove.
 
-    Under each image stands its error. A threshold across all is dragged or typed: the images above
-    it are selected, and Space or a button excludes them.
+    Under each image stands its error. A threshold across all is dragged, or moved by the keys Up
+    and Down: the images above it are selected, and Space or the words beside it exclude them.
     """
 
     search_wanted = Signal(list)
@@ -99,13 +88,16 @@ class FilmStrip(QWidget):
             away.connect(lambda: session.hover(""))
         self.list.setContextMenuPolicy(Qt.ContextMenuPolicy.ActionsContextMenu)
         self.list.setAccessibleName(self.tr("Images"))
-        layout = QHBoxLayout(self)
-        layout.setContentsMargins(theme.SPACING, 0, 0, 0)
-        self.controls = QWidget()
-        self.controls.setLayout(self._make_controls())
-        layout.addWidget(self.controls)
-        layout.addWidget(self.list, 1)
+        layout = QVBoxLayout(self)
+        layout.setContentsMargins(theme.SPACING, theme.SPACING // 2, theme.SPACING, 0)
+        layout.addWidget(self.list)
         self.setFixedHeight(layout.sizeHint().height())
+        self.exclude_above = self.list.words
+        self.exclude_above.setToolTip(
+            self.tr("Leave the images out whose error is above the threshold")
+        )
+        self.exclude_above.clicked.connect(lambda: self.exclude(self.above))
+        self.follows, self.sorting = self._make_choices()
         self.actions_for_menu = self._make_actions()
         self.list.addActions(self.actions_for_menu)
         self.list.selectionModel().currentChanged.connect(self._current_changed)
@@ -118,61 +110,38 @@ class FilmStrip(QWidget):
         self._refresh()
         self._result_changed(session.result)
 
-    def _make_controls(self) -> QGridLayout:
-        self.count = QLabel()
-        self.follows = QCheckBox(self.tr("Refit at once"))
-        self.follows.setChecked(True)
-        self.follows.setToolTip(
+    def _make_choices(self) -> tuple[QAction, list[QAction]]:
+        """Return the choice whether a fit follows, and those of the order."""
+        follows = make_action(
+            self,
+            self.tr("Refit at &once"),
+            None,
             self.tr(
                 "Calibrate again at once when images are excluded or included. The shown result is "
                 "replaced; undo brings it back."
-            )
+            ),
+            lambda: None,
         )
-        self.sorting = QComboBox()
-        self.sorting.addItems([self.tr("name"), self.tr("status"), self.tr("largest error")])
-        self.sorting.currentIndexChanged.connect(self._sort_by)
-        self.threshold = QDoubleSpinBox(
-            decimals=4, prefix=self.tr("Threshold "), suffix=self.tr(" px")
-        )
-        self.threshold.setAccessibleName(self.tr("Threshold"))
-        self.threshold.setStepType(QDoubleSpinBox.StepType.AdaptiveDecimalStepType)
-        self.threshold.setMaximum(1e6)
-        fit_width(self.threshold, self.tr("Threshold 100.000 px"))
-        self.threshold.setToolTip(
-            self.tr(
-                "Images whose RMS residual is larger are selected. Drag the line across the bars "
-                "to change it."
-            )
-        )
-        self.threshold.valueChanged.connect(self._threshold_typed)
-        self.exclude_above = QPushButton(self._describe_exclusion(100))
-        self.exclude_above.setMinimumWidth(self.exclude_above.sizeHint().width())
-        self.exclude_above.setToolTip(
-            self.tr("Leave the images out whose error is above the threshold")
-        )
-        self.exclude_above.clicked.connect(lambda: self.exclude(self.above))
-        sort_by = QLabel(self.tr("Sort b&y"))
-        sort_by.setBuddy(self.sorting)
-        grid = QGridLayout()
-        grid.setContentsMargins(0, 0, 0, 0)
-        grid.setVerticalSpacing(2)
-        grid.addWidget(self.count, 0, 0)
-        grid.addWidget(self.follows, 0, 1)
-        grid.addWidget(sort_by, 1, 0)
-        grid.addWidget(self.sorting, 1, 1)
-        grid.addWidget(self.threshold, 2, 0)
-        grid.addWidget(self.exclude_above, 2, 1)
-        return grid
+        follows.setCheckable(True)
+        follows.setChecked(True)
+        group, sorting = QActionGroup(self), []
+        for criterion, text in (
+            (Criterion.NAME, self.tr("Sort by &name")),
+            (Criterion.STATUS, self.tr("Sort by &status")),
+            (Criterion.ERROR, self.tr("Sort by lar&gest error")),
+        ):
+            tip = self.tr("Put the images in this order")
+            sort = partial(self._sort_by, criterion)
+            sorting.append(make_action(self, text, None, tip, sort))
+            sorting[-1].setCheckable(True)
+            group.addAction(sorting[-1])
+        sorting[0].setChecked(True)
+        return follows, sorting
 
-    def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name
-        """Leave a strip that is too narrow for both to the images."""
-        super().resizeEvent(event)
-        room = event.size().width() - self.controls.sizeHint().width()
-        self.controls.setVisible(room >= _LEAST_IMAGES * Cell.SIZE.width())
-
-    def list_stops(self) -> list[QWidget]:
-        """Return what the Tab key stops at, in this order."""
-        return [self.follows, self.sorting, self.threshold, self.exclude_above, self.list]
+    def paintEvent(self, event: QPaintEvent) -> None:  # noqa: N802, ARG002 - Qt's name
+        colours, painter = theme.current(), QPainter(self)
+        painter.fillRect(self.rect(), QColor(colours.base))
+        painter.fillRect(0, 0, self.width(), 1, QColor(colours.line))
 
     @property
     def chosen(self) -> list[str]:
@@ -252,41 +221,28 @@ class FilmStrip(QWidget):
             flags = QItemSelectionModel.SelectionFlag.ClearAndSelect
             self.list.selectionModel().select(self.list.currentIndex(), flags)
         self._chosen_above = set()
-        top = self.list.top
         self.list.set_threshold(None)
-        if top > 0:  # three digits of the largest error are as fine as it can be dragged
-            self.threshold.blockSignals(True)  # the last threshold, rounded, is nobody's choice
-            self.threshold.setDecimals(int(np.clip(2 - np.floor(np.log10(top)), 1, 4)))
-            self.threshold.blockSignals(False)
-        self._show_threshold(top)
-        self.threshold.setEnabled(top > 0)
+        self._offer_exclusion()
         if self._order.criterion is not Criterion.NAME:
             self.list.scrollTo(self.list.currentIndex())  # it may have another place
 
-    def _show_threshold(self, error: float) -> None:
-        """Show the threshold as a number, and what excluding by it would do."""
-        self.threshold.blockSignals(True)
-        self.threshold.setValue(error)
-        self.threshold.blockSignals(False)
-        self._offer_exclusion()
-
     def _offer_exclusion(self) -> None:
         """Say how many images are above the threshold; all of them cannot be excluded."""
-        count = len(self.above)
+        count, error = len(self.above), format_two_digits(self.list.threshold)
         usable = sum(view.usable for view in self._session.project.views)
+        text = (
+            self.tr("{0} px: {1} above · leave out")
+            if 0 < count < usable
+            else self.tr("{0} px: all are above")
+            if count
+            else self.tr("{0} px: none above")
+        )
         self.exclude_above.setEnabled(0 < count < usable)
-        self.exclude_above.setText(self._describe_exclusion(count))
+        self.exclude_above.setText(text.format(error, count))
+        self.list.place_words()
 
-    def _describe_exclusion(self, count: int) -> str:
-        return self.tr("E&xclude above: {0}").format(count) if count else self.tr("None above")
-
-    def _threshold_typed(self, error: float) -> None:
-        self.list.set_threshold(error)
-        self._offer_exclusion()  # the box is left alone: more digits may be about to come
-        self._select_above()
-
-    def _threshold_dragged(self, error: float) -> None:
-        self._show_threshold(error)
+    def _threshold_dragged(self) -> None:
+        self._offer_exclusion()
         self._select_above()
 
     def _select_above(self) -> None:
@@ -299,8 +255,8 @@ class FilmStrip(QWidget):
                 chosen.select(index, index)
         self.list.selectionModel().select(chosen, QItemSelectionModel.SelectionFlag.ClearAndSelect)
 
-    def _sort_by(self, criterion: int) -> None:
-        self._order.sort_by(Criterion(criterion))
+    def _sort_by(self, criterion: Criterion) -> None:
+        self._order.sort_by(criterion)
         self.list.horizontalScrollBar().setValue(0)  # the first are what was asked for
 
     def _current_changed(self, current: QModelIndex) -> None:
@@ -308,10 +264,6 @@ class FilmStrip(QWidget):
             self._session.select(current.data(Role.PATH))
 
     def _refresh(self) -> None:
-        views = self._session.project.views
-        self.count.setText(
-            self.tr("{0} of {1} usable").format(sum(v.usable for v in views), len(views))
-        )
         self._show_selected(self._session.image)
         self._enable_actions()
 

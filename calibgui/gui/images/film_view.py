@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from pathlib import PurePath
+
 from PySide6.QtCore import (
     QEvent,
     QModelIndex,
@@ -14,44 +16,58 @@ from PySide6.QtCore import (
     Qt,
     Signal,
 )
-from PySide6.QtGui import QColor, QFont, QMouseEvent, QPainter, QPaintEvent, QPen, QPixmap
+from PySide6.QtGui import (
+    QColor,
+    QKeyEvent,
+    QMouseEvent,
+    QPainter,
+    QPainterPath,
+    QPaintEvent,
+    QPen,
+    QPixmap,
+    QResizeEvent,
+)
 from PySide6.QtWidgets import QListView, QStyle, QStyledItemDelegate, QStyleOptionViewItem
 
+from calibgui.engine.numbers import format_two_digits
 from calibgui.gui.images.image_model import ImageModel, Role
 from calibgui.gui.images.thumbnails import THUMBNAIL
 from calibgui.gui.widgets import theme
+from calibgui.gui.widgets.buttons import Button, Kind
 from calibgui.gui.widgets.focus_ring import FocusRing
+from calibgui.gui.widgets.scrolling import SCROLL_BAR_WIDTH, make_thin
 
-_PAD = 4
-"""Around what stands in a cell, px."""
-_CHART = 24
-"""Least height of the bars' place, px; without a scroll bar there is more."""
-_BAR = 24
-"""Width of a bar, px."""
+_PAD, _GAP = 4, 5
+"""Around what stands in a cell, and between picture, chart and words, px."""
+_CHART, _WORDS = 28, 16
+"""Least height of the bars' place, which is higher without a scroll bar, and of the words, px."""
 _HEADROOM = 1.15
 """Height of the chart, in largest errors."""
 _GRAB = 4
 """Distance from which the threshold is dragged, px."""
-_RIM = 2
-"""Height of what the frame of the current image, which is drawn over it, covers below, px."""
-_SMALL = 0.82
-"""Size of the text in a cell, in sizes of the window's."""
+_STEPS = 40
+"""Steps by which keys move the threshold through the chart."""
 _FADED = 0.35
 """Opacity of what has no part in the calibration."""
+_WIDEST = 2.2
+"""Ratio of width to height up to which a picture fills its place, cut at two sides."""
 Index = QModelIndex | QPersistentModelIndex
 
 
 class Cell:
     """Says where in a cell its parts stand; all cells are alike."""
 
-    SIZE = QSize(THUMBNAIL.width() + 2 * _PAD, THUMBNAIL.height() + _CHART + 3 * _PAD)
+    SIZE = QSize(
+        THUMBNAIL.width() + 2 * _PAD, THUMBNAIL.height() + _CHART + _WORDS + 2 * _GAP + 2 * _PAD
+    )
 
     def __init__(self, rect: QRect) -> None:
         left, top = rect.left() + _PAD, rect.top() + _PAD
         self.thumbnail = QRect(QPoint(left, top), THUMBNAIL)
-        below = self.thumbnail.bottom() + 1 + _PAD
-        height = max(_CHART, rect.bottom() + 1 - _PAD - below)
+        below = self.thumbnail.bottom() + 1 + _GAP
+        height = max(_CHART, rect.bottom() + 1 - _PAD - _WORDS - _GAP - below)
         self.chart = QRect(left, below, THUMBNAIL.width(), height)
+        self.words = QRect(left, below + height + 1, THUMBNAIL.width(), _WORDS)
 
 
 class FilmView(QListView):
@@ -79,9 +95,17 @@ class FilmView(QListView):
         self.setHorizontalScrollMode(QListView.ScrollMode.ScrollPerPixel)
         self.setVerticalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         self.setMouseTracking(True)
+        self.setFrameShape(QListView.Shape.NoFrame)
+        make_thin(self)
         FocusRing(self)
-        bar = self.style().pixelMetric(QStyle.PixelMetric.PM_ScrollBarExtent)
-        self.setFixedHeight(Cell.SIZE.height() + bar + 2 * self.frameWidth())
+        self.setFixedHeight(Cell.SIZE.height() + SCROLL_BAR_WIDTH)
+        self.words = Button("", Kind.LINK)
+        """What the threshold is good for, at its right end; a button that does it."""
+        self.words.setParent(self.viewport())
+        self.words.setFont(theme.make_font(theme.CAPTION))
+        self.words.setAutoFillBackground(True)
+        self.words.setBackgroundRole(self.backgroundRole().Base)
+        self.words.hide()
 
     @property
     def top(self) -> float:
@@ -96,7 +120,15 @@ class FilmView(QListView):
     def set_threshold(self, error: float | None) -> None:
         """Draw the threshold at an error, px; None is above all views."""
         self._threshold = error
+        self.place_words()
         self.viewport().update()
+
+    def place_words(self) -> None:
+        """Put the words at the right end of the threshold, and show them once it was moved."""
+        self.words.setVisible(self._threshold is not None and self.top > 0)
+        self.words.adjustSize()
+        y = round(self.place_of(self.threshold)) - self.words.height()
+        self.words.move(self.viewport().width() - self.words.width() - _PAD, y)
 
     def show_hovered(self, image: str) -> None:
         """Frame the cell of an image that the cursor is over, here or elsewhere."""
@@ -138,9 +170,7 @@ class FilmView(QListView):
     def mouseMoveEvent(self, event: QMouseEvent) -> None:  # noqa: N802 - Qt's name
         if self._drags:
             self._pressed = None
-            self._threshold = self._error_at(event.position().y())
-            self.viewport().update()
-            self.threshold_dragged.emit(self._threshold)
+            self._move_threshold(self._error_at(event.position().y()))
             return
         shape = Qt.CursorShape.SizeVerCursor if self._is_at_threshold(event) else None
         if shape is None:
@@ -157,19 +187,37 @@ class FilmView(QListView):
             super().mouseReleaseEvent(event)
         self._pressed = None
 
+    def keyPressEvent(self, event: QKeyEvent) -> None:  # noqa: N802 - Qt's name
+        """Let the keys that go nowhere in a row move the threshold."""
+        step = {Qt.Key.Key_Up: 1, Qt.Key.Key_Down: -1}.get(Qt.Key(event.key()))
+        if step is None or self.top <= 0:
+            super().keyPressEvent(event)
+        else:
+            error = self.threshold + step * self.top / _STEPS
+            self._move_threshold(min(max(error, 0.0), self.top))
+
+    def _move_threshold(self, error: float) -> None:
+        self.set_threshold(error)
+        self.threshold_dragged.emit(error)
+
+    def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name
+        super().resizeEvent(event)
+        self.place_words()
+
     def paintEvent(self, event: QPaintEvent) -> None:  # noqa: N802 - Qt's name
         super().paintEvent(event)
         if self.top <= 0:
             return
-        painter = QPainter(self.viewport())
-        y = self.place_of(self.threshold)
-        painter.setPen(QPen(QColor(theme.current().bad), 2))
+        painter, colours = QPainter(self.viewport()), theme.current()
+        y = round(self.place_of(self.threshold)) + 0.5
+        colour = colours.muted if self._threshold is None else colours.bad
+        painter.setPen(QPen(QColor(colour), 1, Qt.PenStyle.DashLine))
         painter.drawLine(QPointF(0, y), QPointF(self.viewport().width(), y))
         painter.end()
 
 
 class _Delegate(QStyledItemDelegate):
-    """Draws a thumbnail with its name over the bar and the number of its error."""
+    """Draws a thumbnail over the bar of its error, with its name and the number below."""
 
     def __init__(self, view: FilmView) -> None:
         super().__init__(view)
@@ -182,71 +230,71 @@ class _Delegate(QStyledItemDelegate):
         painter.save()
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
         colours, cell = theme.current(), Cell(option.rect)
-        font = QFont(option.font)
-        font.setPointSizeF(_SMALL * font.pointSizeF())
-        painter.setFont(font)
+        painter.setFont(theme.make_font(theme.CAPTION))
         if option.state & QStyle.StateFlag.State_Selected:
             tint = QColor(colours.accent)
-            tint.setAlphaF(_FADED)
+            tint.setAlphaF(_FADED / 2)
             painter.fillRect(option.rect, tint)
         self._draw_thumbnail(painter, cell.thumbnail, index)
         is_current = index == self._view.currentIndex()
         if is_current or index.data(Role.PATH) == self._view.hovered:
             painter.setPen(QPen(QColor(colours.accent), 3 if is_current else 1))
             painter.setBrush(Qt.BrushStyle.NoBrush)
-            painter.drawRect(cell.thumbnail)
+            painter.drawRoundedRect(cell.thumbnail, theme.SMALL_RADIUS, theme.SMALL_RADIUS)
         rms = index.data(Role.RMS)
         if rms is None:
-            painter.setPen(QColor(colours.text))
+            painter.setPen(QColor(colours.muted))
             flags = Qt.AlignmentFlag.AlignCenter | Qt.TextFlag.TextWordWrap
-            painter.drawText(cell.chart, flags, index.data(Role.STATUS))
+            painter.drawText(cell.chart, int(flags), index.data(Role.STATUS))
         else:
-            self._draw_error(painter, cell.chart, rms, index)
+            self._draw_error(painter, cell, rms)
+        self._draw_words(painter, cell.words, "" if rms is None else format_two_digits(rms), index)
         painter.restore()
 
     def _draw_thumbnail(self, painter: QPainter, frame: QRect, index: Index) -> None:
+        shape = QPainterPath()
+        shape.addRoundedRect(QRectF(frame), theme.SMALL_RADIUS, theme.SMALL_RADIUS)
+        painter.setClipPath(shape)
         painter.fillRect(frame, QColor(theme.current().line))
         pixmap: QPixmap | None = index.data(Qt.ItemDataRole.DecorationRole)
         if pixmap is not None:
-            size = pixmap.size().scaled(frame.size(), Qt.AspectRatioMode.KeepAspectRatio)
-            board = QRect(QPoint(), size)
+            size = pixmap.size()
+            is_usual = size.height() <= size.width() <= _WIDEST * size.height()
+            mode = Qt.AspectRatioMode
+            scaled = size.scaled(
+                frame.size(), mode.KeepAspectRatioByExpanding if is_usual else mode.KeepAspectRatio
+            )
+            board = QRect(QPoint(), scaled)
             board.moveCenter(frame.center())
             painter.setRenderHint(QPainter.RenderHint.SmoothPixmapTransform)
             painter.setOpacity(1.0 if index.data(Role.ENABLED) else _FADED)
             painter.drawPixmap(board, pixmap)
             painter.setOpacity(1.0)
-        metrics = painter.fontMetrics()
-        # Higher than the name by the rim of the current image, which is drawn over it.
-        patch = QRectF(frame).adjusted(0, frame.height() - metrics.height() - _RIM, 0, 0)
-        painter.fillRect(patch, theme.HALO)
-        painter.setPen(QColor("#ffffff"))
-        dot = metrics.height() // 2
-        name = metrics.elidedText(
-            index.data(), Qt.TextElideMode.ElideLeft, frame.width() - dot - 3 * _PAD // 2
-        )
-        words = patch.adjusted(_PAD / 2, 0, 0, -_RIM)
-        painter.drawText(words, _LEFT, name)
-        painter.setPen(QPen(QColor("#ffffff"), 1))
-        painter.setBrush(index.data(Role.COLOUR))
-        centre = QPointF(patch.right() - dot / 2 - _PAD / 2, patch.center().y())
-        painter.drawEllipse(centre, dot / 2, dot / 2)
+        painter.setClipping(False)
 
-    def _draw_error(self, painter: QPainter, chart: QRect, rms: float, index: Index) -> None:
-        colours, view = theme.current(), self._view
-        top = chart.bottom() + 1 - round(chart.height() * min(rms / view.top, 1.0))
-        bar = QRect(chart.left(), min(top, chart.bottom()), _BAR, 0)
-        bar.setBottom(chart.bottom())
-        painter.fillRect(bar, index.data(Role.VIEW_COLOUR))
-        stands_out = rms > view.threshold
-        if stands_out:
-            painter.setPen(QPen(QColor(colours.bad), 2))
-            painter.setBrush(Qt.BrushStyle.NoBrush)
-            painter.drawRect(bar)
-        painter.setPen(QColor(colours.bad if stands_out else colours.text))
-        beside = chart.adjusted(_BAR + _PAD, 0, 0, 0)
-        painter.drawText(
-            beside, Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignBottom, f"{rms:.3f}"
+    def _draw_words(self, painter: QPainter, words: QRect, number: str, index: Index) -> None:
+        """Write the name, with a dot for the state and one in the view's colour, and the error."""
+        colours, metrics = theme.current(), painter.fontMetrics()
+        painter.setPen(QColor(colours.muted))
+        painter.drawText(words, int(_RIGHT), number)
+        painter.setPen(Qt.PenStyle.NoPen)
+        painter.setBrush(index.data(Role.VIEW_COLOUR if number else Role.COLOUR))
+        dot = QRectF(words.left() + 1, words.center().y() - 2.5, 6, 6)
+        painter.drawEllipse(dot)
+        painter.setPen(QColor(colours.text))
+        rest = words.adjusted(10, 0, -metrics.horizontalAdvance(number) - _PAD, 0)
+        name = metrics.elidedText(
+            PurePath(index.data()).stem, Qt.TextElideMode.ElideLeft, rest.width()
         )
+        painter.drawText(rest, int(_LEFT), name)
+
+    def _draw_error(self, painter: QPainter, cell: Cell, rms: float) -> None:
+        colours, view, chart = theme.current(), self._view, cell.chart
+        height = round(chart.height() * min(rms / view.top, 1.0))
+        bar = QRect(chart.left(), chart.bottom() + 1 - height, chart.width(), height)
+        colour = QColor(colours.bad if rms > view.threshold else colours.bar)
+        painter.fillRect(bar, colour)
 
 
 _LEFT = Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter
+_RIGHT = Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter

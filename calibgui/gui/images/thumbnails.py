@@ -18,7 +18,7 @@ from calibgui.gui.jobs.jobs import PICTURE
 from calibgui.gui.session.session import Session
 from calibgui.gui.widgets.picture import make_qimage
 
-THUMBNAIL = QSize(64, 44)
+THUMBNAIL = QSize(98, 62)
 """Device-independent px."""
 
 

@@ -1,22 +1,12 @@
-"""The panels on a result in their groups, one of which is shown."""
+"""The panels on a result by the modes that show them, one of which is in front."""
 
 from __future__ import annotations
 
 from functools import partial
 from typing import TypeVar, cast
 
-from PySide6.QtCore import QEvent, QTimer, Signal
-from PySide6.QtWidgets import (
-    QComboBox,
-    QHBoxLayout,
-    QLabel,
-    QMenu,
-    QPushButton,
-    QSizePolicy,
-    QStackedWidget,
-    QVBoxLayout,
-    QWidget,
-)
+from PySide6.QtCore import QTimer, Signal
+from PySide6.QtWidgets import QStackedWidget, QWidget
 
 from calibgui.app.projects.project import Project
 from calibgui.dataset import Result
@@ -30,45 +20,41 @@ from calibgui.gui.panels.evidence.coverage import CoveragePanel
 from calibgui.gui.panels.evidence.histograms import HistogramsPanel
 from calibgui.gui.panels.evidence.poses import PosesPanel
 from calibgui.gui.panels.evidence.residuals import ResidualsPanel
-from calibgui.gui.panels.groups import Group, Page
 from calibgui.gui.panels.method.convergence import ConvergencePanel
 from calibgui.gui.panels.method.distortion import DistortionPanel
 from calibgui.gui.panels.method.lens_models import LensModelsPanel
 from calibgui.gui.panels.method.methods import MethodsPanel
 from calibgui.gui.panels.method.stage_one import StageOnePanel
 from calibgui.gui.panels.method.synthetic import SyntheticPanel
+from calibgui.gui.panels.mode_page import ModePage, Row, describe_panel, name_panel
+from calibgui.gui.panels.modes import Mode, Page
 from calibgui.gui.panels.panel import Panel
-from calibgui.gui.panels.panel_area import PanelArea
-from calibgui.gui.panels.panel_chooser import PanelChooser, describe_panel, name_panel
 from calibgui.gui.panels.services import Services
 from calibgui.gui.session.session import Session
-from calibgui.gui.widgets import theme
 
-GROUPS: dict[Group, tuple[type[Panel], ...]] = {
-    Group.ANSWER: (ResultPanel, UncertaintyPanel, UndistortPanel, ComparePanel),
-    Group.EVIDENCE: (
-        ResidualsPanel,
-        HistogramsPanel,
-        PosesPanel,
-        CoveragePanel,
-        BoardShapePanel,
+MODES: dict[Mode, tuple[Row, ...]] = {
+    Mode.METHOD: (
+        Row((StageOnePanel,), 0.5),
+        Row((ConvergencePanel, SyntheticPanel), 0.5),
+        Row((MethodsPanel,), 1.0),
     ),
-    Group.METHOD: (
-        StageOnePanel,
-        ConvergencePanel,
-        DistortionPanel,
-        LensModelsPanel,
-        MethodsPanel,
-        SyntheticPanel,
+    Mode.FIT: (
+        Row((ResidualsPanel, UncertaintyPanel), 0.92),
+        Row((HistogramsPanel,), 0.6),
+        Row((ResultPanel,), 0.9),
     ),
+    Mode.LENS: (Row((DistortionPanel,), 0.92), Row((LensModelsPanel,), 0.9)),
+    Mode.BOARD: (Row((BoardShapePanel,), 1.0),),
+    Mode.SPACE: (Row((PosesPanel,), 0.92), Row((CoveragePanel,), 1.0)),
+    Mode.UNDISTORT: (Row((UndistortPanel,), 1.0),),
+    Mode.COMPARE: (Row((ComparePanel,), 1.0),),
 }
-"""The panels of each group, in their order."""
+"""The panels of each mode, in rows; the photographs have none."""
 
-PANELS: tuple[type[Panel], ...] = tuple(kind for kinds in GROUPS.values() for kind in kinds)
+PANELS: tuple[type[Panel], ...] = tuple(
+    kind for rows in MODES.values() for row in rows for kind in row.kinds
+)
 """All panels."""
-
-PANEL_WIDTH = 380
-"""Least width of a panel, px."""
 
 _TURN = 1
 """Time after which the event loop has begun another turn, ms; what waits for none is done in this
@@ -77,8 +63,11 @@ one."""
 P = TypeVar("P", bound=Panel)
 
 
-class Analysis(QWidget):
-    """Shows the named results, and every panel on the chosen one."""
+class Analysis(QStackedWidget):
+    """Shows every panel on the chosen result, those of one mode at a time.
+
+    A panel is made, filled and painted in turns of the event loop of their own.
+    """
 
     exclude_wanted = Signal(list)
     """Images that the user wants out of the calibration."""
@@ -88,11 +77,10 @@ class Analysis(QWidget):
     """See `Panel.lens_wanted`."""
     method_wanted = Signal(str, object)
     """See `Panel.method_wanted`."""
-    export_wanted = Signal()
-    rename_wanted = Signal(str)
-    delete_wanted = Signal(str)
-    group_shown = Signal(Group)
-    """A panel of this group has come to the front."""
+    mode_shown = Signal(Mode)
+    """A panel of this mode has come to the front."""
+    corner_picked = Signal()
+    """The user points at a corner, which is seen in its photograph."""
 
     def __init__(self, session: Session) -> None:
         super().__init__()
@@ -100,31 +88,20 @@ class Analysis(QWidget):
         self._services = Services(session.jobs, session.images.read)
         self._shown: Result | None = None
         self._built: dict[type[Panel], Panel] = {}
-        self._areas: dict[type[Panel], PanelArea] = {}
-        self.choosers = {group: PanelChooser(kinds) for group, kinds in GROUPS.items()}
-        self._last = {group: kinds[0] for group, kinds in GROUPS.items()}
-        """The panel that was shown last of each group."""
-        self._names = QStackedWidget()
-        self._names.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Fixed)
-        for chooser in self.choosers.values():
-            chooser.chosen.connect(self.show_panel)
-            self._names.addWidget(chooser)
-        self.stack = QStackedWidget()
-        # All panels get the width that there is, or choosing one would move the image.
-        self.stack.setMinimumSize(PANEL_WIDTH, 0)
-        layout = QVBoxLayout(self)
-        layout.setContentsMargins(0, 0, 0, 0)
-        layout.setSpacing(theme.SPACING // 2)
-        layout.addWidget(self._names)
-        layout.addLayout(self._make_bar())
-        layout.addWidget(self.stack, 1)
+        self._pages: dict[Mode, ModePage] = {}
+        self._front: type[Panel] = ResidualsPanel
+        self._filled: dict[type[Panel], Result | None] = {}
+        """The result that each panel was given last."""
+        self._waiting: list[type[Panel]] = []
+        """Panels that are made, filled and shown one after the other."""
+        self._turn = QTimer(self, singleShot=True, interval=_TURN)
+        self._turn.timeout.connect(self._bring_up_next)
         session.changed.connect(self._project_changed)
         session.result_changed.connect(self._show_result)
         session.judged.connect(self._note_verdict)
         session.selected.connect(self._select)
         session.hovered.connect(self._hover)
         self._show_result(session.result)
-        self.show_panel(ResultPanel)
 
     def panel(self, kind: type[P]) -> P:
         """The panel of that kind; built when it is wanted first."""
@@ -138,32 +115,60 @@ class Analysis(QWidget):
             panel.method_wanted.connect(self.method_wanted)
             panel.failed.connect(self._session.failed)
             panel.offer_results(self._session.project.results)
-            panel.show_result(self._shown)
-            panel.select(self._place(self._session.image), self._session.corner)
-            area = self._areas[kind] = PanelArea(panel)
-            self.stack.addWidget(area)
+            panel.hide()
+            self._page(find_mode(kind)).cards[kind].hold(panel)
+            self._fill(kind)
         return cast(P, self._built[kind])
 
     def show_panel(self, kind: type[P]) -> P:
-        """Bring a panel to the front."""
+        """Bring a panel to the front, and the others of its mode after it."""
+        self._bring_to_front(kind)
+        self._page(find_mode(kind)).bring_into_sight(kind)
+        return self.panel(kind)
+
+    def show_mode(self, mode: Mode) -> None:
+        """Show the panels of a mode as they were left, or from its top."""
+        is_there = self.currentWidget() is self._page(mode) and find_mode(self._front) is mode
+        self._bring_to_front(self._front if is_there else MODES[mode][0].kinds[0])
+
+    def _bring_to_front(self, kind: type[Panel]) -> None:
+        mode = find_mode(kind)
+        self._front, page = kind, self._page(mode)
+        others = [other for other in page.cards if other is not kind]
+        if self.currentWidget() is not page or not self.isVisible():
+            for other in others:  # each comes in a turn of its own
+                if other in self._built:
+                    self._built[other].hide()
+        self.setCurrentWidget(page)
+        self.mode_shown.emit(mode)
+        self._bring_up(kind)
+        self._waiting = [*others, *(other for other in self._waiting if other not in page.cards)]
+        self._turn.start()
+
+    def _bring_up(self, kind: type[Panel]) -> None:
+        """Have a panel show the result, and be in sight if its mode is."""
         panel = self.panel(kind)
-        group = next(group for group, kinds in GROUPS.items() if kind in kinds)
-        self._last[group] = kind
-        self._bring_to_front(self._areas[kind])
-        self.choosers[group].show_chosen(kind)
-        self._names.setCurrentWidget(self.choosers[group])
-        self.group_shown.emit(group)
-        return panel
+        if self._filled[kind] is not self._shown:
+            self._fill(kind)
+        if panel.isHidden() and find_mode(kind) is find_mode(self._front):
+            self._put_off_painting(panel)
+            panel.show()
 
-    def _bring_to_front(self, area: PanelArea) -> None:
-        if self.stack.currentWidget() is not area:
-            self._put_off_painting(area)
-            self.stack.setCurrentWidget(area)
+    def _bring_up_next(self) -> None:
+        if self._waiting:
+            self._bring_up(self._waiting.pop(0))
+            self._turn.start()
 
-    def _put_off_painting(self, area: QWidget) -> None:
+    def _put_off_painting(self, panel: QWidget) -> None:
         """Paint a panel in the next turn: to fill it, too, would take too long for one."""
-        area.setUpdatesEnabled(False)
-        QTimer.singleShot(_TURN, area, lambda: area.setUpdatesEnabled(True))
+        panel.setUpdatesEnabled(False)
+        QTimer.singleShot(_TURN, panel, lambda: panel.setUpdatesEnabled(True))
+
+    def _page(self, mode: Mode) -> ModePage:
+        if mode not in self._pages:
+            self._pages[mode] = ModePage(MODES[mode])
+            self.addWidget(self._pages[mode])
+        return self._pages[mode]
 
     def build_next(self) -> bool:
         """Build the first panel that is not there yet; return False if all are."""
@@ -174,13 +179,11 @@ class Analysis(QWidget):
 
     @property
     def shown(self) -> Panel:
-        """The panel in front."""
-        area = self.stack.currentWidget()
-        assert isinstance(area, PanelArea)
-        return area.panel
+        """The panel that was brought to the front last."""
+        return self.panel(self._front)
 
     def list_pages(self) -> list[Page]:
-        """Return the panels, as pages that the inspector shows."""
+        """Return the panels, as pages that the window shows."""
         return [
             Page(name_panel(kind), describe_panel(kind), partial(self.show_panel, kind))
             for kind in PANELS
@@ -189,10 +192,6 @@ class Analysis(QWidget):
     def show_panel_named(self, name: str) -> None:
         """Bring the panel of a class to the front."""
         self.show_panel(next(kind for kind in PANELS if kind.__name__ == name))
-
-    def show_group(self, group: Group) -> None:
-        """Bring that panel of a group to the front that was there last."""
-        self.show_panel(self._last[group])
 
     def show_beginning(self) -> None:
         """A calibration starts: its progress is shown where one looks at it."""
@@ -207,53 +206,12 @@ class Analysis(QWidget):
         """A calibration is over: what came of it is shown in place of its progress."""
         self.panel(ConvergencePanel).show_result(self._session.result)
 
-    def _make_bar(self) -> QHBoxLayout:
-        self.results = QComboBox()
-        self.results.setAccessibleName(self.tr("Result"))
-        self.results.setToolTip(self.tr("Every calibration keeps its result under a name"))
-        self.results.activated.connect(
-            lambda row: self._session.show_result(self.results.itemText(row))
-        )
-        self.state = QLabel()
-        self.export = QPushButton(self.tr("Export…"))
-        self.export.setToolTip(self.tr("Write the camera for another program (Ctrl+E)"))
-        self.export.clicked.connect(self.export_wanted)
-        self.more = QPushButton(self.tr("Manage"))
-        self.more.setToolTip(self.tr("Rename, delete or compare results"))
-        menu = QMenu(self.more)
-        self.compare = menu.addMenu(self.tr("&Compare with"))
-        menu.addAction(
-            self.tr("&Rename…"), lambda: self.rename_wanted.emit(self._session.result_name)
-        )
-        menu.addAction(
-            self.tr("&Delete"), lambda: self.delete_wanted.emit(self._session.result_name)
-        )
-        self.more.setMenu(menu)
-        bar = QHBoxLayout()
-        bar.setContentsMargins(0, 0, theme.SPACING, 0)
-        bar.addWidget(self.results, 1)
-        for widget in (self.state, self.export, self.more):
-            bar.addWidget(widget)
-        return bar
-
     def _project_changed(self, before: Project, after: Project) -> None:
         is_another_due = self._session.result is not self._shown  # which lists them itself
         if before.results is not after.results and not is_another_due:
-            self._list_results()
-        self._show_state()
+            self._offer_results()
 
-    def _list_results(self) -> None:
-        names = list(self._session.project.results)
-        self.results.clear()
-        self.results.addItems(names)
-        self.results.setCurrentText(self._session.result_name)
-        for control in (self.results, self.export, self.more):
-            control.setEnabled(bool(names))
-        self.compare.clear()
-        for name in names:
-            if name != self._session.result_name:
-                self.compare.addAction(name, partial(self.compare_with, name))
-        self.compare.setEnabled(len(names) > 1)
+    def _offer_results(self) -> None:
         for panel in self._built.values():
             panel.offer_results(self._session.project.results)
 
@@ -261,28 +219,26 @@ class Analysis(QWidget):
         """Set another result beside the one shown."""
         self.show_panel(ComparePanel).compare(name, self._session.result_name)
 
-    def _show_state(self) -> None:
-        age = self._session.describe_age(self._session.result)
-        self.state.setText(self.tr("out of date") if age else "")
-        self.state.setToolTip(age)
-        self.state.setStyleSheet(f"color: {theme.current().warning}")
-
-    def changeEvent(self, event: QEvent) -> None:  # noqa: N802 - Qt's name
-        super().changeEvent(event)
-        if event.type() == QEvent.Type.PaletteChange and hasattr(self, "state"):
-            self._show_state()
-
     def _show_result(self, result: Result | None) -> None:
-        self._list_results()
-        self._show_state()
+        self._offer_results()
         if result is self._shown:
             return
         self._shown = result
-        if (front := self.stack.currentWidget()) is not None:
-            self._put_off_painting(front)
-        for panel in self._built.values():
-            panel.show_result(result)
-        self._select(self._session.image, self._session.corner)
+        for kind, panel in self._built.items():
+            if kind is self._front or not panel.isVisible():
+                self._fill(kind)
+            else:
+                self._waiting.append(kind)
+        self._turn.start()
+
+    def _fill(self, kind: type[Panel]) -> None:
+        """Show the result in a panel, which is painted in the next turn."""
+        panel = self._built[kind]
+        if panel.isVisible():
+            self._put_off_painting(panel)
+        self._filled[kind] = self._shown
+        panel.show_result(self._shown)
+        panel.select(self._place(self._session.image), self._session.corner)
 
     def _note_verdict(self) -> None:
         for panel in self._built.values():
@@ -309,7 +265,14 @@ class Analysis(QWidget):
     def _select_picked(self, view: int, corner: int) -> None:
         if self._shown is not None:
             self._session.select(self._shown.views[view].image, corner)
+            if corner >= 0:
+                self.corner_picked.emit()
 
     def _exclude(self, views: tuple[int, ...]) -> None:
         if self._shown is not None:
             self.exclude_wanted.emit([self._shown.views[k].image for k in views])
+
+
+def find_mode(kind: type[Panel]) -> Mode:
+    """Return the mode that shows a kind of panel."""
+    return next(mode for mode, rows in MODES.items() if any(kind in row.kinds for row in rows))

@@ -90,6 +90,8 @@ class Panel(QWidget):
         """Highlight a view lightly that the cursor is over elsewhere, without announcing it."""
         if self._result is not None and self.isVisible() and not self._stale:
             self._hover_view(self._indices.index(view) if view in self._indices else -1)
+        else:
+            self._behind = True  # what was highlighted before is not when it is shown again
 
     def showEvent(self, event: QShowEvent) -> None:  # noqa: N802 - Qt's name
         super().showEvent(event)

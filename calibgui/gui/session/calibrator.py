@@ -47,8 +47,6 @@ class Calibrator(QObject):
         """Its camera so far; a length that is stated meanwhile changes the result, but not this."""
         self._views: tuple[View, ...] = ()
         """The views that the next answer is made from."""
-        self._said: list[str] = []
-        """What was done to make the camera better."""
         self._is_recording = False
         """Whether the project changes by an answer, which makes the calibration no less needed."""
         self._question: Hashable = None
@@ -120,7 +118,7 @@ class Calibrator(QObject):
                 job.rename(improving)
 
         self._name = find_free_name(project, self.tr("Calibration"))
-        self._camera, self._views, self._said = None, corner_set.views, []
+        self._camera, self._views = None, corner_set.views
         self._question = self._session.question()
         self._session.document.end_sliding_edit()
         job = self._job = self._session.jobs.start(
@@ -187,8 +185,6 @@ class Calibrator(QObject):
         session.show_result(name)
         self._is_recording, self._question = False, session.question()
         self._camera, self._views = result.calibration.camera, result.views
-        if step.said:
-            self._said.append(step.said)
         if result.calibration.status is Status.STOPPED:
             session.notified.emit(
                 self.tr("Stopped: “{0}” is the best so far, not the optimum.").format(name)
@@ -211,8 +207,4 @@ class Calibrator(QObject):
 
     def _end(self) -> None:
         self._job = None
-        if self._said:
-            said = [*self._said, self.tr("Undo goes back.")]
-            self._said = []
-            self._session.notified.emit(" ".join(said))
         self.ended.emit()

@@ -1,4 +1,4 @@
-"""The board: how many inner corners, how large the squares, and one to print."""
+"""The board: how many inner corners, and how large the squares."""
 
 from __future__ import annotations
 
@@ -13,7 +13,6 @@ from PySide6.QtWidgets import (
     QFormLayout,
     QHBoxLayout,
     QLabel,
-    QPushButton,
     QSpinBox,
     QWidget,
 )
@@ -49,7 +48,6 @@ class BoardPanel(QWidget):
 
     search_wanted = Signal()
     """The board has changed: images wait to be searched."""
-    print_wanted = Signal()
 
     def __init__(self, session: Session) -> None:
         super().__init__()
@@ -127,8 +125,6 @@ class BoardPanel(QWidget):
                 "Enter goes on to the next image."
             )
         )
-        self.print = QPushButton(self.tr("&Print a board…"))
-        self.print.setToolTip(self.tr("Make a PDF or SVG of a board of any size."))
 
         self.pattern = PatternChoice(self.tr("read from the images"))
         self.counted, self.side = QLabel(), QLabel()
@@ -142,9 +138,6 @@ class BoardPanel(QWidget):
         side.addWidget(QLabel("±"))
         side.addWidget(self.square_sigma, 1)
         side.addWidget(self.unit)
-        others = QHBoxLayout()
-        others.addWidget(self.by_hand)
-        others.addWidget(self.print, 1)
         form = self._form = QFormLayout(self)
         form.setContentsMargins(theme.SPACING, 0, theme.SPACING, 0)
         form.addRow(self.pattern)
@@ -153,7 +146,7 @@ class BoardPanel(QWidget):
         form.addRow(self.tr("Loca&ted"), self.method)
         form.addRow(self.tr("Interlaced"), self.field)
         form.addRow(self.side, side)
-        form.addRow("", others)
+        form.addRow("", self.by_hand)
 
         self.pattern.changed.connect(self._edit_pattern)
         self.pattern.listed.connect(self._take_list)
@@ -170,7 +163,6 @@ class BoardPanel(QWidget):
         self.field.activated.connect(self._edit_field)
         self.by_hand.clicked.connect(self._edit_by_hand)
         self.unit.activated.connect(self._edit_unit)
-        self.print.clicked.connect(self.print_wanted)
         session.changed.connect(self._project_changed)
         self._refresh()
 

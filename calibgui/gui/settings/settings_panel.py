@@ -10,7 +10,6 @@ from PySide6.QtWidgets import (
     QCheckBox,
     QFormLayout,
     QGridLayout,
-    QHBoxLayout,
     QLabel,
     QLineEdit,
     QVBoxLayout,
@@ -56,6 +55,9 @@ class SettingsPanel(QWidget):
     views, and a box for every parameter of the lens model: a parameter without its tick is held.
     The hundreds of coefficients of a splined model have none, nor have those of a model that is
     yet to be chosen.
+
+    Attributes:
+        lens, experts: two parts of it, which are laid out where they are shown.
     """
 
     def __init__(self, session: Session) -> None:
@@ -143,32 +145,33 @@ class SettingsPanel(QWidget):
         label, held = QLabel(self.tr("&Minimise")), QLabel(self.tr("Held at"))
         label.setBuddy(self.cost)
         held.setBuddy(self.values)
+        lens = QLabel(self.tr("Lens model"))
         # In line with the labels of the board's shape, which stand between.
-        for each in (label, held):
+        for each in (label, held, lens):
             each.setMinimumWidth(self.board_shape.known.sizeHint().width())
-        first = QFormLayout()
-        first.addRow(self.tr("Method"), self.method)
-        first.addRow(label, self.cost)
-        first.addRow(self.tr("Lens model"), self.model)
-        views = QHBoxLayout()
-        views.addWidget(self.robust)
-        views.addWidget(self.weigh, 1)
+        self.lens, self.experts = QWidget(self), QWidget(self)
+        model = QFormLayout()
+        model.addRow(lens, self.model)
+        column = QVBoxLayout(self.lens)
+        column.setContentsMargins(theme.SPACING, 0, 0, theme.SPACING)
+        column.addLayout(model)
+        column.addWidget(self.board_shape)
+        column.addWidget(self.improve)
+        how = QFormLayout()
+        how.addRow(self.tr("Method"), self.method)
+        how.addRow(label, self.cost)
         self._grid = QGridLayout()
         self._grid.setHorizontalSpacing(theme.SPACING)
         self._grid.addWidget(QLabel(self.tr("Estimate")), 0, 0)
         last = QFormLayout()
         last.addRow(held, self.values)
-        layout = QVBoxLayout(self)
-        layout.setContentsMargins(theme.SPACING, 0, theme.SPACING, 0)
-        layout.addLayout(first)
-        layout.addWidget(self.board_shape)
-        layout.addLayout(views)
-        rounds = QHBoxLayout()
-        rounds.addWidget(self.improve)
-        rounds.addWidget(self.again, 1)
-        layout.addLayout(rounds)
-        layout.addLayout(self._grid)
-        layout.addLayout(last)
+        column = QVBoxLayout(self.experts)
+        column.setContentsMargins(theme.SPACING, 0, 0, theme.SPACING)
+        column.addLayout(how)
+        for box in (self.robust, self.weigh, self.again):
+            column.addWidget(box)
+        column.addLayout(self._grid)
+        column.addLayout(last)
 
     def _arrange_boxes(self, names: Sequence[str]) -> None:
         """Show the boxes of these parameters, in this order, and no others."""

@@ -6,7 +6,7 @@ import math
 import textwrap
 
 import numpy as np
-from PySide6.QtCore import QSize, Signal, SignalInstance
+from PySide6.QtCore import Signal, SignalInstance
 from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import QHBoxLayout, QPushButton, QVBoxLayout, QWidget
 
@@ -16,10 +16,10 @@ from calibgui.gui.panels.latest import Latest
 from calibgui.gui.panels.parts.difference_map import DifferenceMap
 from calibgui.gui.panels.parts.estimates import estimate_columns
 from calibgui.gui.session.session import Session
-from calibgui.gui.verdict.drop_down import DropDown
 from calibgui.gui.verdict.remedy_runner import CarriedOut
 from calibgui.gui.verdict.texts import describe_grade
 from calibgui.gui.widgets import theme
+from calibgui.gui.widgets.sheet import Sheet
 from calibgui.gui.widgets.tables import Column, Table, with_decimals
 from calibgui.gui.widgets.wrapped_label import WrappedLabel
 from calibgui.report.comparison import compare_parameters
@@ -27,15 +27,11 @@ from calibgui.report.verdict import format_times
 
 _TABLES_SHARE = 0.55
 """Share of the width that the tables have at most: the map takes what they leave."""
-_AXES = QSize(130, 70)
-"""Room that axes, scale of colours and caption take beside and below the map, px."""
 _HEADING_LETTERS = 12
 """Letters of a grade that stand in one line over its errors, where the map needs the width."""
-_LEAST = 320
-"""Its least height where there is room, device-independent px: some parameters below the errors."""
 
 
-class BeforeAndAfter(DropDown):
+class BeforeAndAfter(Sheet):
     """Shows errors of pixels and parameters of two results, and a map of their difference."""
 
     kept = Signal(object)
@@ -43,8 +39,8 @@ class BeforeAndAfter(DropDown):
     taken_back = Signal(object)
     """The `CarriedOut` that the user does not want."""
 
-    def __init__(self, bar: QWidget, session: Session) -> None:
-        super().__init__(bar)  # all of a small window's height
+    def __init__(self, desk: QWidget, session: Session) -> None:
+        super().__init__(desk, fills=True)
         self._carried_out: CarriedOut | None = None
         self._natural = 0
         """Width of the tables with all their columns, as measured once for each content: the room
@@ -134,18 +130,9 @@ class BeforeAndAfter(DropDown):
             lambda error: self.map.show_reason(str(error)),
         )
         self._natural = max(self.errors.natural_width, self.parameters.natural_width)
-        self.open_up()
+        self.show()
         self._fit_tables()
         self.keep.setFocus()
-
-    def heightForWidth(self, width: int) -> int:  # noqa: N802 - Qt's
-        """Return the height at which the map fills the width that the tables leave."""
-        if self._carried_out is None:
-            return _LEAST
-        columns, rows = self._carried_out.after.calibration.camera.size
-        map_width = width - self._choose_tables_width(width) - 3 * theme.SPACING - _AXES.width()
-        head = self.keep.sizeHint().height() + 3 * theme.SPACING
-        return max(_LEAST, round(map_width * rows / columns) + _AXES.height() + head)
 
     def _choose_tables_width(self, width: int) -> int:
         """Return how wide the tables are if the sheet has this width."""

@@ -8,12 +8,10 @@ from collections.abc import Mapping, Sequence
 
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import (
-    QFrame,
     QGridLayout,
     QHBoxLayout,
     QLabel,
     QPushButton,
-    QScrollArea,
     QToolButton,
     QVBoxLayout,
     QWidget,
@@ -22,22 +20,21 @@ from PySide6.QtWidgets import (
 from calibgui.app.calibrating.true_board import GLASS, list_gains
 from calibgui.engine.assessment import Finding, Verdict
 from calibgui.engine.numbers import format_two_digits
-from calibgui.gui.verdict.drop_down import DropDown
 from calibgui.gui.verdict.texts import describe_button
 from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.elided import ElidedLabel
+from calibgui.gui.widgets.scrolling import make_scrollable
+from calibgui.gui.widgets.sheet import Sheet
 from calibgui.gui.widgets.wrapped_label import WrappedLabel
 from calibgui.report.verdict import format_times
 
-_SHARE = 0.6
-"""Share of the room below the bar that the list may take."""
 _LENGTH = re.compile(r"\d mm\b")
 """What a length looks like in a finding's sentences."""
 _MIN_TOLD = 1.1
 """Ratio of errors from which a row says by how much its action makes the camera better."""
 
 
-class FindingsList(DropDown):
+class FindingsList(Sheet):
     """Lists findings, the most harmful first; details unfold under a row."""
 
     action_wanted = Signal(object)
@@ -47,30 +44,20 @@ class FindingsList(DropDown):
     glass_wanted = Signal()
     """The user states that the board is of glass."""
 
-    def __init__(self, bar: QWidget) -> None:
-        super().__init__(bar, _SHARE)
+    def __init__(self, desk: QWidget) -> None:
+        super().__init__(desk)
         self.rows: list[FindingRow] = []
         self.glass: GlassRow | None = None
         self._body = QWidget()
         self._column = QVBoxLayout(self._body)
         self._column.setContentsMargins(theme.SPACING, 0, theme.SPACING, theme.SPACING)
         self._column.setSpacing(0)
-        area = QScrollArea(widgetResizable=True)
-        area.setFrameShape(QFrame.Shape.NoFrame)
-        area.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
-        area.setWidget(self._body)
-        for widget in (area.viewport(), self._body):  # the overlay's own colour shows
-            widget.setAutoFillBackground(False)
         layout = QVBoxLayout(self)
         layout.setContentsMargins(1, 0, 1, 2)
-        layout.addWidget(area)
+        layout.addWidget(make_scrollable(self._body))
 
     def show_verdict(
-        self,
-        verdict: Verdict,
-        names: Sequence[str],
-        condition: str,
-        glass: Mapping[str, float],
+        self, verdict: Verdict, names: Sequence[str], condition: str, glass: Mapping[str, float]
     ) -> None:
         """List the findings of a verdict, and what a board of glass would bring.
 

@@ -1,8 +1,6 @@
-"""The mark of a grade: a shape of its own for each, beside its colour and its words."""
+"""The mark of a grade: a sign of its own for each, beside its colour and its words."""
 
 from __future__ import annotations
-
-from typing import assert_never
 
 from PySide6.QtCore import QPointF, QRectF, QSize, Qt
 from PySide6.QtGui import QColor, QPainter, QPaintEvent, QPen, QPolygonF
@@ -20,8 +18,6 @@ _SIGNS = {
     Grade.NOT_USABLE: [(0.33, 0.33), (0.67, 0.67), (0.5, 0.5), (0.67, 0.33), (0.33, 0.67)],
 }
 """Lines of the signs, in the mark's width and height: a tick, an arrow upwards, a cross."""
-_OCTAGON = [(0.3, 0), (0.7, 0), (1, 0.3), (1, 0.7), (0.7, 1), (0.3, 1), (0, 0.7), (0, 0.3)]
-_TRIANGLE = [(0.5, 0.0), (1.04, 1.0), (-0.04, 1.0)]
 
 
 def get_colour(grade: Grade | None) -> str:
@@ -37,7 +33,7 @@ def get_colour(grade: Grade | None) -> str:
 
 
 class GradeIcon(QWidget):
-    """A full circle or a ring with a tick, a triangle with an arrow, an octagon with a cross."""
+    """A circle with a sign for each grade: a tick, full or as a ring, an arrow, or a cross."""
 
     def __init__(self) -> None:
         super().__init__()
@@ -61,15 +57,7 @@ class GradeIcon(QWidget):
         is_full = self.grade not in (None, Grade.USABLE)
         painter.setPen(QPen(colour, 2.5))
         painter.setBrush(colour if is_full else Qt.BrushStyle.NoBrush)
-        match self.grade:
-            case Grade.CAN_BE_BETTER:
-                painter.drawPolygon(_place(_TRIANGLE, frame))
-            case Grade.NOT_USABLE:
-                painter.drawPolygon(_place(_OCTAGON, frame))
-            case Grade.GOOD | Grade.USABLE | None:
-                painter.drawEllipse(frame)
-            case _:
-                assert_never(self.grade)
+        painter.drawEllipse(frame)
         if self.grade is not None:
             on = QColor(theme.current().base) if is_full else colour
             painter.setPen(QPen(on, 2.5, Qt.PenStyle.SolidLine, Qt.PenCapStyle.RoundCap))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from PySide6.QtWidgets import QDoubleSpinBox, QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QDoubleSpinBox, QHBoxLayout, QVBoxLayout, QWidget
 
 from calibgui.app.projects.lengths import confirm_lengths, set_square
 from calibgui.app.projects.project import Project
@@ -10,7 +10,7 @@ from calibgui.dataset import ViewStatus
 from calibgui.engine.boards import AprilGrid, Pattern
 from calibgui.gui.session.session import Session
 from calibgui.gui.widgets import theme
-from calibgui.gui.widgets.number_box import fit_width
+from calibgui.gui.widgets.buttons import Button, Kind
 from calibgui.gui.widgets.pattern_texts import list_pattern_texts
 from calibgui.gui.widgets.reserved_label import ReservedLabel
 
@@ -27,26 +27,25 @@ class SquareRow(QWidget):
         self._has_asked = False
         """Whether the question was put since a board was first found."""
         self.counted = ReservedLabel(1)
-        self.side = QLabel()
         self.square = QDoubleSpinBox(decimals=3, minimum=0.001, maximum=100_000.0)
-        fit_width(self.square, "100000.00 mm")
-        self.square.setAccessibleName(self.tr("Side of a square"))
+        self.square.setFixedWidth(120)
         self.square.setToolTip(
             self.tr(
                 "Only lengths depend on it, no pixel does. Until it is confirmed, every length "
                 "holds on this condition."
             )
         )
-        self.confirm = QPushButton(self.tr("Confirm"))
+        self.confirm = Button(self.tr("Confirm"), Kind.MAIN)
         self.square.valueChanged.connect(lambda _: self._name_button(self._session.project))
         self.square.lineEdit().returnPressed.connect(self.answer)
         self.confirm.clicked.connect(self.answer)
         answer = QHBoxLayout()
+        answer.setSpacing(theme.SPACING)
+        answer.addWidget(self.square)
+        answer.addWidget(self.confirm)
         answer.addStretch(1)
-        for widget in (self.side, self.square, self.confirm):
-            answer.addWidget(widget)
         column = self._column = QVBoxLayout(self)
-        column.setContentsMargins(theme.SPACING, 0, theme.SPACING, theme.SPACING)
+        column.setContentsMargins(0, 0, 0, theme.SPACING // 2)
         column.setSpacing(theme.SPACING // 2)
         column.addWidget(self.counted)
         column.addLayout(answer)
@@ -80,7 +79,7 @@ class SquareRow(QWidget):
         if self.isHidden():
             return
         self.counted.setText(self._ask(project))
-        self.side.setText(self._name_side(project.pattern))
+        self.square.setAccessibleName(self._name_side(project.pattern))
         if not self.square.hasFocus():
             self.square.blockSignals(True)
             self.square.setValue(project.square / project.unit.mm)
@@ -94,46 +93,36 @@ class SquareRow(QWidget):
             return self.tr("Lengths hold: you have confirmed the one below.")
         pattern, board = project.pattern, project.board
         if not pattern.has_squares:
-            known = self.tr(
-                "How far apart are the circles? {4}, {0} × {1}; "
-                "lengths hold if they are {2:g} {3} apart."
-            )
+            known = self.tr("How far apart are the circles? {2}, {0} × {1}.")
             counting = self.tr("How far apart are the circles? The board is being counted.")
             parts = self.tr(
                 "How far apart are the circles? Their number is not known: state it in the Set-up."
             )
         elif isinstance(pattern, AprilGrid):
-            known = self.tr(
-                "How long are the tags' sides? {4}, {0} × {1} corners; "
-                "lengths hold if tags are {2:g} {3}."
-            )
+            known = self.tr("How long are the tags' sides? {2}, {0} × {1} corners.")
             counting = self.tr("How long are the tags' sides? The board is being counted.")
             parts = self.tr(
                 "How long are the tags' sides? Their number is not known: state it in the Set-up."
             )
         else:
-            known = self.tr(
-                "How long are the squares? {4}, {0} × {1} inner corners; "
-                "lengths hold if squares are {2:g} {3}."
-            )
+            known = self.tr("How long are the squares? {2}, {0} × {1} inner corners.")
             counting = self.tr("How long are the squares? The board is being counted.")
             parts = self.tr(
                 "How long are the squares? Their number is not known: state it in the Set-up."
             )
         if board is not None and project.grid_size_doubt is None:
-            length = project.square / project.unit.mm
             name = list_pattern_texts()[pattern.kind].name
-            return known.format(board.rows, board.cols, length, project.unit, name)
+            return known.format(board.rows, board.cols, name)
         if any(view.status is ViewStatus.WAITING for view in project.views):
             return counting
         return parts
 
     def _name_side(self, pattern: Pattern) -> str:
         if not pattern.has_squares:
-            return self.tr("Distance of circles:")
+            return self.tr("Distance of circles")
         if isinstance(pattern, AprilGrid):
-            return self.tr("Side of a tag:")
-        return self.tr("Side of a square:")
+            return self.tr("Side of a tag")
+        return self.tr("Side of a square")
 
     def _name_button(self, project: Project) -> None:
         text = self.tr("Confirm {0:g} {1}")

@@ -35,7 +35,7 @@ def describe_grade(grade: Grade, times_better: float) -> str:
         case Grade.USABLE:
             return translate("VerdictTexts", "USABLE")
         case Grade.CAN_BE_BETTER:
-            text = translate("VerdictTexts", "CAN BE {0} TIMES BETTER")
+            text = translate("VerdictTexts", "CAN BE {0}× BETTER")
             return text.format(format_times(times_better))
         case Grade.NOT_USABLE:
             return translate("VerdictTexts", "NOT USABLE")
@@ -47,15 +47,12 @@ def describe_pixel_error(error: PixelError) -> str:
     """Describe the error of a pixel over the image, px."""
     if not np.isfinite(error.worst):
         return translate("VerdictTexts", "Error: unknown")
-    text = translate(
-        "VerdictTexts",
-        "Error: centre {0}, covered {1}, edge {2}, worst {3} px",
-    )
+    text = translate("VerdictTexts", "Error: centre {0}, covered {1}, edge {2}, worst {3} px")
     figures = error.centre, error.covered, error.edge, error.worst
-    return text.format(*map(_format_pixels, figures))
+    return text.format(*map(format_pixels, figures))
 
 
-def _format_pixels(error: float) -> str:
+def format_pixels(error: float) -> str:
     """Format an error, px: below 0.01 px its second digit tells nobody anything."""
     return format_two_digits(error) if error >= _FINEST else f"{error:.3f}"
 
@@ -68,6 +65,14 @@ def describe_figures(verdict: Verdict, result: Result) -> list[str]:
         parts.append(text.format(format_two_digits(mm), verdict.distance))
         parts[-1] += describe_condition(result)
     return parts
+
+
+def describe_length(verdict: Verdict) -> str:
+    """Describe in short what the error along the edge is in the scene; empty if it is unknown."""
+    if not np.isfinite(mm := verdict.error.edge * verdict.mm_per_pixel):
+        return ""
+    text = translate("VerdictTexts", "edge: {0} mm at {1} m")
+    return text.format(format_two_digits(mm), format_two_digits(verdict.distance / 1000.0))
 
 
 def describe_fit(result: Result) -> str:

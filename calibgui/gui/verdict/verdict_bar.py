@@ -8,84 +8,68 @@ from functools import partial
 from pathlib import PurePath
 from typing import assert_never
 
-from PySide6.QtCore import QCoreApplication, QEvent, Signal
-from PySide6.QtGui import QColor, QPainter, QPaintEvent, QResizeEvent
-from PySide6.QtWidgets import (
-    QBoxLayout,
-    QFrame,
-    QHBoxLayout,
-    QLabel,
-    QPushButton,
-    QSizePolicy,
-    QVBoxLayout,
-    QWidget,
-)
+from PySide6.QtCore import QEvent, Signal
+from PySide6.QtWidgets import QHBoxLayout, QLabel, QSizePolicy, QVBoxLayout, QWidget
 
 from calibgui.app.calibrating.true_board import measure_gain_of_glass
 from calibgui.app.projects.project import Project
 from calibgui.app.projects.remedies import apply_action, state_glass
 from calibgui.dataset import Result, ViewStatus
 from calibgui.dataset.judging import judge_result, recall_verdict
-from calibgui.engine.assessment import (
-    Action,
-    ActionKind,
-    Cause,
-    Finding,
-    Grade,
-    Verdict,
-)
+from calibgui.engine.arrays import Array
+from calibgui.engine.assessment import Action, ActionKind, Cause, Finding, Grade, Verdict
 from calibgui.engine.calibration import METHODS, Status
+from calibgui.engine.uncertainty import estimate_projection_uncertainty
 from calibgui.gui.jobs.job import Job
 from calibgui.gui.panels.latest import Latest
 from calibgui.gui.session.session import Session
 from calibgui.gui.verdict.findings_list import FindingsList
 from calibgui.gui.verdict.grade_icon import GradeIcon, get_colour
-from calibgui.gui.verdict.reason_and_figures import ReasonAndFigures
 from calibgui.gui.verdict.remedy_runner import CarriedOut, RemedyRunner
+from calibgui.gui.verdict.sensor_figure import SensorFigure
 from calibgui.gui.verdict.square_row import SquareRow
-from calibgui.gui.verdict.texts import (
-    describe_button,
-    describe_figures,
-    describe_fit,
-    describe_grade,
-)
+from calibgui.gui.verdict.texts import describe_button, describe_fit, describe_grade
 from calibgui.gui.widgets import theme
+from calibgui.gui.widgets.buttons import Button, Kind
 from calibgui.gui.widgets.elided import elide_name
 from calibgui.gui.widgets.lengths import state_condition
 from calibgui.gui.widgets.pattern_texts import list_pattern_texts
+from calibgui.gui.widgets.reserved_label import ReservedLabel
 from calibgui.report.summary import describe_lost_images
-from calibgui.report.verdict import describe_reason, join_names
+from calibgui.report.verdict import describe_reason
 
 _PLACES = "CoveragePanel"
 """The panel that shows where to hold the board."""
-_WIDE = 640
-"""Width from which the buttons stand beside the words, device-independent px."""
-_WIDEST = 1100
-"""Width from which all figures stand in one line, device-independent px."""
-_LINES, _LINES_IF_LOW, _LINES_IF_HIGH, _LINES_IF_WIDE, _LINES_IF_WIDEST = 5, 3, 6, 3, 2
-"""Lines that are reserved for reason and figures, so that another verdict moves nothing below."""
+_LINES, _LINES_IF_HIGH = 2, 3
+"""Lines that are reserved for the reason, so that another verdict moves nothing below."""
 _LINES_OF_QUESTION = 2
 """Lines that are reserved for the question how long the squares are."""
-_LOW = 600
-"""Height of the window below which the first figure stands for all, device-independent px."""
-_HIGH = 850
-"""Height of the window from which all figures stand below the longest reason, too."""
+_LOW, _HIGH = 600, 800
+"""Heights of the inspector below which the picture of the sensor is lower, and from which the
+reason has another line, device-independent px."""
+_HEIGHT, _HEIGHT_IF_LOW = 196, 120
+"""Heights of the picture, device-independent px."""
 _NAME_LENGTH = 16
 """Letters of a name that have room on a button in the least width."""
-_STRIPE = 5
-"""Width of the stripe in the grade's colour, device-independent px."""
 
 
-class VerdictBar(QFrame):
-    """Always in sight; what is wrong is listed beside or below it on demand, over the desk."""
+class VerdictBar(QWidget):
+    """Always in sight; what is wrong is listed on demand, over the desk.
+
+    Args:
+        session: whose shown result is judged.
+        desk: over which the lists open.
+    """
 
     panel_wanted = Signal(str)
     """The class name of a panel that the user wants to see."""
+    shown = Signal(object, str)
+    """The grade that is shown, or None, and the headline."""
 
-    def __init__(self, session: Session) -> None:
+    def __init__(self, session: Session, desk: QWidget) -> None:
         super().__init__()
         self.setObjectName("verdict")
-        self._session = session
+        self._session, self._desk = session, desk
         self._result: Result | None = None
         self._judged: Result | None = None
         """The result whose verdict is shown: the last one that has any, in the same project."""
@@ -99,37 +83,32 @@ class VerdictBar(QFrame):
 
         None until the shown result is judged.
         """
-        self._work = Latest(session.jobs, self)
+        self._work, self._map_work = Latest(session.jobs, self), Latest(session.jobs, self)
         self.remedy_runner = RemedyRunner(session)
         self.icon = GradeIcon()
         self.headline = QLabel()
-        font = self.headline.font()
-        font.setBold(True)
-        font.setPointSizeF(1.25 * font.pointSizeF())
-        self.headline.setFont(font)
-        self._words = ReasonAndFigures()
-        self.reason, self.figures = self._words.reason, self._words.figures
+        self.headline.setFont(theme.make_font(theme.HEADLINE, bold=True))
+        # It must not push aside what stands beside the verdict below the strip.
+        self.headline.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
+        self.reason = ReservedLabel(_LINES)
+        self.figures = SensorFigure()
         self._fit = ""
         """The words on the residuals, which are made once for each calibration."""
-        self._figures: list[str] = []
-        self._lines = _LINES
-        """Lines of reason and figures where these are narrow."""
-        self.button = QPushButton(self.tr("Remedy"))
+        self.button = Button(self.tr("Remedy"), Kind.MAIN)
         self.button.clicked.connect(self._do_first)
-        self.unfold = QPushButton()
+        self.unfold = Button()
         self.unfold.setCheckable(True)
-        self.unfold.toggled.connect(self._unfold)
-        policy = self.unfold.sizePolicy()
-        policy.setRetainSizeWhenHidden(True)  # nothing moves when a new result is judged
-        self.unfold.setSizePolicy(policy)
+        self.unfold.toggled.connect(lambda shown: self.findings.setVisible(shown))
         self.square = SquareRow(session)
-        self.findings = FindingsList(self)
+        self.square.reserve(_LINES_OF_QUESTION)
+        self.findings = FindingsList(desk)
         self.findings.action_wanted.connect(lambda finding: self._act(finding.action))
         self.findings.proof_wanted.connect(self._show_proof)
         self.findings.glass_wanted.connect(self._state_glass)
         self.findings.closed.connect(lambda: self.unfold.setChecked(False))
         self.comparison: QWidget | None = None
         self._lay_out()
+        self.fit_height(_LOW)
         self.remedy_runner.began.connect(self._show_buttons)
         self.remedy_runner.ended.connect(self._show_buttons)
         self.remedy_runner.done.connect(self._compare)
@@ -142,39 +121,22 @@ class VerdictBar(QFrame):
         top.setSpacing(theme.SPACING)
         top.addWidget(self.icon)
         top.addWidget(self.headline, 1)
-        words = QVBoxLayout()
-        words.setSpacing(theme.SPACING // 2)
-        words.addLayout(top)
-        words.addWidget(self._words)
-        buttons = QHBoxLayout()
+        self.actions = QWidget()
+        """What can be done about the verdict; it stands where the inspector has room."""
+        buttons = QHBoxLayout(self.actions)
+        buttons.setContentsMargins(0, 0, 0, 0)
         buttons.setSpacing(theme.SPACING)
-        buttons.addStretch(1)
         buttons.addWidget(self.button)
         buttons.addWidget(self.unfold)
-        self._row = QBoxLayout(QBoxLayout.Direction.LeftToRight)
-        self._row.setContentsMargins(*[theme.SPACING] * 4)
-        self._row.setSpacing(theme.SPACING // 2)
-        self._row.addLayout(words, 1)
-        self._row.addLayout(buttons)
+        buttons.addStretch(1)
         column = QVBoxLayout(self)
-        column.setContentsMargins(_STRIPE, 0, 0, 1)
-        column.setSpacing(0)
-        column.addLayout(self._row)
+        column.setContentsMargins(0, 0, 0, 0)
+        column.setSpacing(theme.SPACING // 2)
+        column.addLayout(top)
+        column.addWidget(self.reason)
         column.addWidget(self.square)
-        self.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Maximum)
-
-    def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name
-        super().resizeEvent(event)
-        is_wide = event.size().width() >= _WIDE
-        direction = QBoxLayout.Direction
-        self._row.setDirection(direction.LeftToRight if is_wide else direction.TopToBottom)
-        if is_wide:
-            lines = _LINES_IF_WIDE if event.size().width() < _WIDEST else _LINES_IF_WIDEST
-        else:
-            lines = self._lines
-        self._words.reserve(lines)
-        self.square.reserve(1 if is_wide else _LINES_OF_QUESTION)
-        self._show_figures()
+        column.addWidget(self.figures)
+        self.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Fixed)
 
     def show_running(self, running: bool) -> None:
         """Say that a better result is on its way, or judge the one that there is."""
@@ -183,26 +145,10 @@ class VerdictBar(QFrame):
             if self._glass is None:
                 self._judge(self._result)
 
-    def fit_height(self, of_window: int) -> None:
-        """Leave room to what is below in a window that is not high."""
-        usual = _LINES if of_window < _HIGH else _LINES_IF_HIGH
-        self._lines = _LINES_IF_LOW if of_window < _LOW else usual
-        self.resizeEvent(QResizeEvent(self.size(), self.size()))
-
-    def _show_figures(self) -> None:
-        """Show the figures in a line each, or one after the other where there is room."""
-        is_wide = self._row.direction() is QBoxLayout.Direction.LeftToRight
-        shown = self._figures if is_wide or self._lines > _LINES_IF_LOW else self._figures[:1]
-        self.figures.setText(("; " if is_wide else "\n").join(shown))
-        meaning = self.tr(
-            "How far off the camera puts a distant point in the image (one standard deviation). "
-            "The covered part is where corners were found, the edge the mean along the image's "
-            "border. Where the remedy of a finding was tried, this is the distance to the camera "
-            "that it gives, and the uncertainty of that one; otherwise it is the calibration's "
-            "own uncertainty, as in the panel Uncertainty. Where there are no corners, how far "
-            "another lens model that fits as well goes apart from this one counts, too."
-        )
-        self.figures.explain("\n".join([*self._figures, meaning]))
+    def fit_height(self, of_inspector: int) -> None:
+        """Leave room to what is below in an inspector that is not high."""
+        self.reason.reserve(_LINES if of_inspector < _HIGH else _LINES_IF_HIGH)
+        self.figures.setFixedHeight(_HEIGHT_IF_LOW if of_inspector < _LOW else _HEIGHT)
 
     def _judge(self, result: Result | None) -> None:
         """Find out what the shown result is worth, beside the window, once nothing better comes.
@@ -217,6 +163,7 @@ class VerdictBar(QFrame):
         if not is_alike:
             self._fit = "" if result is None else describe_fit(result)
             self._glass = None
+            self._map(result)
         if self.verdict is None:
             self.unfold.setChecked(False)
         else:
@@ -231,6 +178,15 @@ class VerdictBar(QFrame):
                 self._session.failed.emit,
             )
         self._show()
+
+    def _map(self, result: Result | None) -> None:
+        """Find the colours of the sensor; the last ones stay until then."""
+        show = self.figures.show_map
+        if result is None:
+            self._map_work.cancel()
+            show(None)
+        else:
+            self._map_work.start("", lambda _: _map_errors(result), show, lambda _: show(None))
 
     def _receive(self, answer: tuple[Verdict, Mapping[str, float]]) -> None:
         self.verdict, self._glass = answer
@@ -254,19 +210,14 @@ class VerdictBar(QFrame):
         self.icon.show_grade(None if verdict is None else verdict.grade, dimmed=self._is_dimmed)
         if verdict is None or result is None:
             self.headline.setText(self._describe_state())
-            self._figures = [] if self._result is None else [self._fit]
         else:
             self.headline.setText(describe_grade(verdict.grade, verdict.times_better))
-            fit = self.tr("Now: {0}").format(self._fit) if self._is_dimmed else self._fit
-            self._figures = [*describe_figures(verdict, result), fit]
+        self.figures.show_verdict(verdict, result, self._fit, dimmed=self._is_dimmed)
+        self.shown.emit(None if verdict is None else verdict.grade, self.headline.text())
         if self.verdict is not None and self._result is not None:
             self.findings.show_verdict(
-                self.verdict,
-                self._list_names(),
-                state_condition(self._result),
-                self._offered_glass,
+                self.verdict, self._list_names(), state_condition(self._result), self._offered_glass
             )
-        self._show_figures()
         self._show_buttons()
         self._restyle()
 
@@ -300,7 +251,7 @@ class VerdictBar(QFrame):
             reason = self._describe_work()
         else:
             reason = f"{self._age} {_describe_reason(verdict, result)}".lstrip()
-        self._words.give_reason(reason)
+        self.reason.setText(reason)
         colours = theme.current()
         plain = colours.muted if self._is_dimmed else colours.text
         theme.set_text_colour(self.reason, colours.warning if self._age else plain)
@@ -334,6 +285,7 @@ class VerdictBar(QFrame):
         self.button.setVisible(action is not None)
         if action is not None:
             self.button.setText(describe_button(action, self._list_names()))
+            self.button.setToolTip(self.button.text())  # a name in it may be shortened
         self.button.setEnabled(not busy)
         self.findings.set_busy(busy)
         count = 0 if self.verdict is None else len(self.verdict.findings)
@@ -346,6 +298,7 @@ class VerdictBar(QFrame):
             tip = self.tr("Say what it brings to state that the board is of glass")
         self.unfold.setText(text)
         self.unfold.setToolTip(tip)
+        self.actions.setVisible(not (self.button.isHidden() and self.unfold.isHidden()))
 
     @property
     def _offered_glass(self) -> Mapping[str, float]:
@@ -368,12 +321,6 @@ class VerdictBar(QFrame):
     def _list_names(self) -> list[str]:
         used = () if self._result is None else self._result.used
         return [elide_name(PurePath(view.image).stem, _NAME_LENGTH) for view in used]
-
-    def _unfold(self, shown: bool) -> None:
-        if shown:
-            self.findings.open_up()
-        else:
-            self.findings.hide()
 
     def _do_first(self) -> None:
         self._act(self._action)
@@ -416,7 +363,7 @@ class VerdictBar(QFrame):
         from calibgui.gui.verdict.before_after import BeforeAndAfter
 
         if not isinstance(self.comparison, BeforeAndAfter):
-            self.comparison = BeforeAndAfter(self, self._session)
+            self.comparison = BeforeAndAfter(self._desk, self._session)
             self.comparison.taken_back.connect(self.remedy_runner.take_back)
         self.comparison.show_carried_out(carried_out)
 
@@ -427,22 +374,13 @@ class VerdictBar(QFrame):
 
     def _restyle(self) -> None:
         """Colour the words, by palettes: a style sheet would style all that is in the bar."""
-        colours = theme.current()
         theme.set_text_colour(self.headline, get_colour(self._grade))
-        theme.set_text_colour(self.figures, colours.muted)
         self.update()
 
     @property
     def _grade(self) -> Grade | None:
         """The grade of the shown result, if it is known."""
         return None if self.verdict is None else self.verdict.grade
-
-    def paintEvent(self, event: QPaintEvent) -> None:  # noqa: N802, ARG002 - Qt's name
-        """Paint the ground, the grade's colour along the left, and the line below."""
-        colours, painter = theme.current(), QPainter(self)
-        painter.fillRect(self.rect(), QColor(colours.base))
-        painter.fillRect(0, 0, _STRIPE, self.height(), QColor(get_colour(self._grade)))
-        painter.fillRect(_STRIPE, self.height() - 1, self.width(), 1, QColor(colours.line))
 
 
 def _judge_with_glass(result: Result, job: Job) -> tuple[Verdict, Mapping[str, float]]:
@@ -453,23 +391,19 @@ def _judge_with_glass(result: Result, job: Job) -> tuple[Verdict, Mapping[str, f
     return verdict, measure_gain_of_glass(replace(result, lengths_confirmed=True))
 
 
+def _map_errors(result: Result) -> Array | None:
+    """Map the calibration's own uncertainty; None where the views do not determine the camera."""
+    if result.calibration.diagnosis is not None:
+        return None
+    views = result.observations()
+    return estimate_projection_uncertainty(result.calibration, views).worst_direction
+
+
 def _describe_reason(verdict: Verdict, result: Result) -> str:
-    """Say why a result has its grade, and which photographs it lacks."""
+    """Say why a result has its grade."""
     if (diagnosis := result.calibration.diagnosis) is not None:
         return f"{diagnosis.message} {describe_lost_images(result) or diagnosis.hint}"
-    reason = describe_reason(verdict, result)
-    searched = [view for view in result.views if view.status is not ViewStatus.WAITING]
-    lost = [
-        elide_name(PurePath(view.image).stem, _NAME_LENGTH)
-        for view in searched
-        if view.enabled and not view.usable
-    ]
-    if not lost:
-        return reason
-    text = QCoreApplication.translate(
-        "VerdictBar", "{0} of {1} ({2}) could not be used: click one to see why."
-    )
-    return f"{reason} {text.format(len(lost), len(result.views), join_names(lost, most=1))}"
+    return describe_reason(verdict, result)
 
 
 def _choose_proof(cause: Cause) -> str:

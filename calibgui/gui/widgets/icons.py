@@ -20,20 +20,13 @@ _LINE = 1.6
 class Icon(Enum):
     """What an icon shows: its lines, each through points of the grid."""
 
-    FOLDER = (
-        ((3, 19), (3, 5), (9, 5), (11, 8), (21, 8), (21, 19), (3, 19)),
-        ((3, 11), (21, 11)),
-    )
+    FOLDER = (((3, 19), (3, 5), (9, 5), (11, 8), (21, 8), (21, 19), (3, 19)), ((3, 11), (21, 11)))
     PICTURE = (
         ((3, 5), (21, 5), (21, 19), (3, 19), (3, 5)),
         ((3, 17), (9, 11), (13, 15), (16, 12), (21, 17)),
         ((16, 8), (17, 8), (17, 9), (16, 9), (16, 8)),
     )
-    BOARD = (
-        ((4, 4), (20, 4), (20, 20), (4, 20), (4, 4)),
-        ((12, 4), (12, 20)),
-        ((4, 12), (20, 12)),
-    )
+    BOARD = (((4, 4), (20, 4), (20, 20), (4, 20), (4, 4)), ((12, 4), (12, 20)), ((4, 12), (20, 12)))
     MARK = (
         ((5, 7), (19, 4), (20, 20), (3, 17), (5, 7)),
         *[
@@ -66,6 +59,7 @@ class Icon(Enum):
         ((7, 17), (3, 17), (3, 9), (21, 9), (21, 17), (17, 17)),
         ((7, 14), (17, 14), (17, 21), (7, 21), (7, 14)),
     )
+    LAYERS = (((12, 4), (21, 9), (12, 14), (3, 9), (12, 4)), ((3, 13), (12, 18), (21, 13)))
     CROSS = (((4, 4), (20, 20)), ((4, 20), (20, 4)))
 
 
@@ -73,12 +67,12 @@ _SQUARES = (QRectF(4, 4, 8, 8), QRectF(12, 12, 8, 8))
 """The dark squares of the board."""
 
 
-def draw_icon(icon: Icon) -> QIcon:
-    """Draw an icon in the theme's accent."""
+def draw_icon(icon: Icon, ink: str = "") -> QIcon:
+    """Draw an icon in a colour, by default in the theme's accent."""
     pixmap = QPixmap(_FINEST * _SIDE, _FINEST * _SIDE)
     pixmap.setDevicePixelRatio(_FINEST)
     pixmap.fill(Qt.GlobalColor.transparent)
-    colour = QColor(theme.current().accent)
+    colour = QColor(ink or theme.current().accent)
     painter = QPainter(pixmap)
     painter.setRenderHint(QPainter.RenderHint.Antialiasing)
     join, cap = Qt.PenJoinStyle.RoundJoin, Qt.PenCapStyle.RoundCap

@@ -21,10 +21,7 @@ class NarrowCombo(QComboBox):
         option = QStyleOptionComboBox()
         self.initStyleOption(option)
         field = self.style().subControlRect(
-            QStyle.ComplexControl.CC_ComboBox,
-            option,
-            QStyle.SubControl.SC_ComboBoxEditField,
-            self,
+            QStyle.ComplexControl.CC_ComboBox, option, QStyle.SubControl.SC_ComboBoxEditField, self
         )
         width = field.width() - theme.SPACING // 2
         return self.fontMetrics().elidedText(option.currentText, Qt.TextElideMode.ElideRight, width)

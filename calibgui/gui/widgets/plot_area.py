@@ -19,7 +19,7 @@ _GRID = 38
 """Opacity of the grid, of 255."""
 _TITLE_HEIGHT = 30.0
 """Room of a title, two lines at most, px."""
-MARGIN = 5.0
+MARGIN = 6.0
 """Around a plot, px: by so much the axes' names stand out of their axes."""
 _ABOVE_IMAGES = 0.5
 """Height of the axes in the pile: an image, which lies at 0, would hide the grid."""

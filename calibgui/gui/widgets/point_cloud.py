@@ -4,16 +4,17 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from typing import Any, cast
 
 import numpy as np
 import pyqtgraph as pg
+import shiboken6
 from pyqtgraph.graphicsItems.ScatterPlotItem import Symbols
 from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QColor, QPainter, QPixmap
 from PySide6.QtWidgets import QStyleOptionGraphicsItem, QWidget
 
 from calibgui.engine.arrays import Array
-from calibgui.gui.widgets.stamps import draw_stamps
 
 _REACH = 8.0
 """Distance from a point within which a click means it, px of the screen."""
@@ -159,3 +160,23 @@ class PointCloud(pg.GraphicsObject):  # type: ignore[misc]  # pyqtgraph is not t
         painter.end()
         sheet.setDevicePixelRatio(ratio)
         return sheet
+
+
+def draw_stamps(painter: QPainter, at: Array, sheet: QPixmap, source: Array, side: int) -> None:
+    """Copy squares of a sheet to places in the painter's coordinates.
+
+    Args:
+        painter: that draws.
+        at: (n, 2) middles of the copies; finite.
+        sheet: picture that holds the squares; its device pixel ratio tells their size when drawn.
+        source: (n, 2), or (2,) for all, left upper corners of the squares, pixels of the sheet.
+            Squares must lie on it: Qt does not check.
+        side: of the squares, pixels of the sheet.
+    """
+    # The fields of QPainter::PixmapFragment: place, source, its size, scale, rotation, opacity.
+    stamps = np.empty((len(at), 10))
+    stamps[:, :2], stamps[:, 2:4] = at, source
+    stamps[:, 4:] = [side, side, *[1 / sheet.devicePixelRatio()] * 2, 0, 1]
+    if len(stamps):
+        first = cast(Any, shiboken6.wrapInstance(stamps.ctypes.data, QPainter.PixmapFragment))
+        painter.drawPixmapFragments(first, len(stamps), sheet)

@@ -2,10 +2,18 @@
 
 from __future__ import annotations
 
+import math
 import sys
 
 from PySide6.QtCore import QEvent, QPointF, QSize, Qt
-from PySide6.QtGui import QPainter, QPaintEvent, QResizeEvent, QTextLayout, QTextOption
+from PySide6.QtGui import (
+    QFontMetricsF,
+    QPainter,
+    QPaintEvent,
+    QResizeEvent,
+    QTextLayout,
+    QTextOption,
+)
 from PySide6.QtWidgets import QSizePolicy
 
 from calibgui.gui.widgets.wrapped_label import WrappedLabel, typeset
@@ -28,7 +36,7 @@ class ReservedLabel(WrappedLabel):
     def reserve(self, lines: int) -> None:
         """Take the height of so many lines from now on."""
         self._lines = lines
-        self.setFixedHeight(lines * self.fontMetrics().lineSpacing())
+        self.setFixedHeight(lines * self.line_height)
         self._show_rest()
 
     def setText(self, text: str) -> None:  # noqa: N802 - Qt's name
@@ -44,6 +52,11 @@ class ReservedLabel(WrappedLabel):
     def count_lines(self) -> int:
         """Return how many lines the whole text takes in the width that there is."""
         return len(self._break_lines(sys.maxsize))
+
+    @property
+    def line_height(self) -> int:
+        """The height of a line, px, as Qt's labels have it."""
+        return math.ceil(QFontMetricsF(self.font()).lineSpacing())
 
     @property
     def is_cut(self) -> bool:
@@ -73,7 +86,7 @@ class ReservedLabel(WrappedLabel):
         painter, metrics = QPainter(self), self.fontMetrics()
         painter.setPen(self.palette().windowText().color())
         for k, line in enumerate(self._break_lines(self._lines)):
-            painter.drawText(QPointF(0, k * metrics.lineSpacing() + metrics.ascent()), line)
+            painter.drawText(QPointF(0, k * self.line_height + metrics.ascent()), line)
 
     def _show_rest(self) -> None:
         """Have the tooltip say what there is no room for."""

@@ -32,6 +32,7 @@ from PySide6.QtGui import (
 )
 from PySide6.QtWidgets import (
     QAbstractItemView,
+    QFrame,
     QHeaderView,
     QMenu,
     QStyle,
@@ -214,6 +215,8 @@ _NUMBER_TYPES = (int, float, np.number)
 """Types of numbers."""
 _NUMBERS = Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter
 """Place of numbers in their cells."""
+_MORE = 40
+"""Room that a column gets beyond its contents at most, device-independent px."""
 _LEGIBLE = 8
 """Characters of the first column that are shown however narrow the table is."""
 _TINT = 60
@@ -288,7 +291,8 @@ class Table(QTableView):
         self.setSortingEnabled(True)
         self.sortByColumn(-1, Qt.SortOrder.AscendingOrder)
         self.setSelectionBehavior(QAbstractItemView.SelectionBehavior.SelectRows)
-        self.setAlternatingRowColors(True)
+        self.setFrameShape(QFrame.Shape.NoFrame)
+        self.setShowGrid(False)
         self.setEditTriggers(QAbstractItemView.EditTrigger.NoEditTriggers)
         self.setAccessibleName(self.tr("Table"))
         self.setWordWrap(False)
@@ -404,7 +408,10 @@ class Table(QTableView):
             self.scrollTo(chosen)  # it was selected before the table had its height
 
     def _fit(self) -> None:
-        """Spare the user sideways scrolling: leave columns out, then narrow the first one."""
+        """Spare the user sideways scrolling: leave columns out, then narrow the first one.
+
+        Where there is room all columns get a part of it.
+        """
         header, columns = self.horizontalHeader(), self._model.columns
         for place, column in enumerate(columns):
             self.setColumnHidden(place, column.hidden)
@@ -429,6 +436,11 @@ class Table(QTableView):
             left = room - header.length()
             header.resizeSection(0, max(least, min(whole, header.sectionSize(0) + left)))
             heading.setText(self._elide_lines(heading.text(), header.sectionSize(0)))
+            return
+        shown = [place for place in range(len(columns)) if not self.isColumnHidden(place)]
+        more = min((room - header.length()) // len(shown), _MORE)
+        for place in shown:
+            header.resizeSection(place, header.sectionSize(place) + more)
 
     def _elide_lines(self, text: str, width: int) -> str:
         """Put "…" for what has no room in a heading; Qt would take its lines for one."""

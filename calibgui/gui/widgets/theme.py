@@ -12,13 +12,23 @@ from types import SimpleNamespace
 from typing import assert_never
 
 from PySide6.QtCore import Qt
-from PySide6.QtGui import QColor, QFont, QFontDatabase, QGuiApplication, QPalette, QPen
+from PySide6.QtGui import QColor, QFont, QFontDatabase, QFontInfo, QGuiApplication, QPalette, QPen
 from PySide6.QtWidgets import QApplication, QWidget
 
 from calibgui.gui.widgets.kept_settings import keep, read_kept_text
 
 SPACING = 8
-"""Between widgets, and around a panel's content, device-independent px."""
+"""Between widgets, and around a panel's content, device-independent px: twice the grid's step."""
+MARGIN = 16
+"""Around what fills a part of the window, device-independent px."""
+TEXT, CAPTION, FIGURE, HEADLINE = 13, 11, 17, 19
+"""Sizes of letters: text, what is secondary, numbers on a picture, and the verdict, px."""
+CONTROL = 32
+"""Height of a button in a bar, device-independent px."""
+RADIUS, SMALL_RADIUS = 8, 6
+"""Radii of the corners of cards and of controls, device-independent px."""
+ERROR_STOPS = ("#16335b", "#1d5f86", "#2f9c95", "#9fc75f", "#f4e04d")
+"""Colours of errors on the sensor, from the least to the largest."""
 
 _OKABE_ITO = (
     "#0072B2",
@@ -36,14 +46,7 @@ _DISTINCT = 64
 """Number of views after which colours come again: more cannot be told apart."""
 _DARKENED = 140
 """The percentage by which Fusion divides the lightness of the window for borders."""
-_BORDERED = (
-    "QCheckBox",
-    "QRadioButton",
-    "QMenu",
-    "QTreeView",
-    "QLineEdit",
-    "QAbstractSpinBox",
-)
+_BORDERED = ("QCheckBox", "QRadioButton", "QMenu", "QTreeView", "QLineEdit", "QAbstractSpinBox")
 """Kinds of widgets whose border alone shows where they are."""
 _SYMBOLS = ("o", "s", "t1", "d", "+", "x", "star")
 
@@ -78,6 +81,8 @@ class Theme:
     accent: str
     """Selection and the main action."""
     on_accent: str
+    bar: str
+    """Of what is compared by its length."""
     good: str
     warning: str
     bad: str
@@ -91,14 +96,15 @@ LIGHT = Theme(
     window="#f4f5f7",
     button="#f4f5f7",
     base="#ffffff",
-    canvas="#d9dce1",
+    canvas="#22262e",
     text="#1c2026",
     muted="#5b6470",
     line="#c3c9d1",
     border="#6f7884",
-    accent="#0067b0",
+    accent="#0b5cad",
     on_accent="#ffffff",
-    good="#007a58",
+    bar="#4a8fd3",
+    good="#17804d",
     warning="#8a5a00",
     bad="#b3400a",
     warning_base="#fff3d6",
@@ -108,13 +114,14 @@ DARK = Theme(
     window="#2d323a",
     button="#3b424d",
     base="#191c21",
-    canvas="#121417",
+    canvas="#22262e",
     text="#e7eaee",
     muted="#a2abb7",
     line="#525a66",
     border="#8a94a2",
     accent="#4aa3df",
     on_accent="#0b1117",
+    bar="#3f83c4",
     good="#35c79a",
     warning="#f0b429",
     bad="#f38b57",
@@ -130,10 +137,6 @@ REPROJECTED = QColor("#56b4e9")
 RESIDUAL = QColor("#ff8c1a")
 PATH = QColor("#00d39b")
 MUTED_MARK = QColor("#ffffff")
-UNCERTAIN = QColor("#ff9ff3")
-MAGNITUDE = QColor("#8be9fd")
-DISPLACED = QColor("#c3f73a")
-NEXT_VIEW = QColor("#ff5c8a")
 HALO = QColor(0, 0, 0, 150)
 
 
@@ -176,6 +179,7 @@ def apply(app: QApplication, scheme: Scheme) -> None:
     theme = _shown.theme = DARK if dark else LIGHT
     if app.style().objectName() != "fusion":
         app.setStyle("Fusion")
+    app.setFont(make_font())
     palette = _palette(theme)
     app.setPalette(palette)
     # Fusion makes their borders by darkening what it takes for the window's colour.
@@ -235,9 +239,27 @@ def set_text_colour(label: QWidget, colour: str) -> None:
         label.setPalette(palette)
 
 
+def make_font(size: int = TEXT, *, bold: bool = False) -> QFont:
+    """Return the window's font in a size, px; whoever has asked the system for larger letters gets
+    them larger in proportion."""
+    font = QFontDatabase.systemFont(QFontDatabase.SystemFont.GeneralFont)
+    usual = QFontInfo(font).pixelSize()
+    font.setPixelSize(round(size * max(usual / TEXT, 1.0)))
+    font.setBold(bold)
+    return font
+
+
 def fixed_font() -> QFont:
     """A font whose digits align."""
     return QFontDatabase.systemFont(QFontDatabase.SystemFont.FixedFont)
+
+
+def make_dark_palette() -> QPalette:
+    """Return the palette of what stands beside a photograph, which is dark in either scheme."""
+    palette = _palette(DARK)
+    palette.setColor(QPalette.ColorRole.Window, QColor(LIGHT.canvas))
+    palette.setColor(QPalette.ColorRole.Button, QColor(LIGHT.canvas))
+    return palette
 
 
 def _palette(theme: Theme) -> QPalette:

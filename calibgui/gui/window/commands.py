@@ -2,20 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from functools import partial
 from pathlib import Path
 
 from PySide6.QtCore import QObject
 from PySide6.QtGui import QKeySequence
-from PySide6.QtWidgets import QDockWidget, QWidget
+from PySide6.QtWidgets import QWidget
 
 from calibgui.app.projects.recent import list_recent
 from calibgui.gui.canvas.image_page import ImagePage
 from calibgui.gui.dialogs.files import Files
 from calibgui.gui.dialogs.many_cameras import ManyCameras
 from calibgui.gui.images.film_strip import FilmStrip
-from calibgui.gui.panels.groups import Page
+from calibgui.gui.panels.modes import Page
 from calibgui.gui.session.session import Session
 from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.actions import COPY_PICTURE, COPY_TABLE, find_copier, show_dialog
@@ -45,9 +45,7 @@ class Commands(QObject):
         calibrate: Callable[[], object],
         stop: Callable[[], object],
         leave: Callable[[], object],
-        change_room: Callable[[], object],
         leave_alone: Callable[[], object],
-        docks: Mapping[str, QDockWidget],
         list_pages: Callable[[], Sequence[Page]],
         find_action: Callable[[], object],
     ) -> Sequence[Menu]:
@@ -57,18 +55,26 @@ class Commands(QObject):
             calibrate: starts a calibration.
             stop: ends the work that the progress bar tells of.
             leave: closes the window.
-            change_room: gives the inspector more room, or the photograph.
-            leave_alone: leaves the photograph alone in the window, or not.
-            docks: by the text of the entry that shows and hides each.
-            list_pages: returns what the inspector can show now.
+            leave_alone: leaves the desk alone in the window, or not.
+            list_pages: returns what the window can show now.
             find_action: opens the palette of all actions.
         """
         return (
             self._describe_file(leave),
             self._describe_edit(),
-            Menu(self.tr("&Images"), (*self._images.actions_for_menu, None, *self._page.tools)),
+            Menu(
+                self.tr("&Images"),
+                (
+                    *self._images.actions_for_menu,
+                    self._images.follows,
+                    None,
+                    *self._images.sorting,
+                    None,
+                    *self._page.tools,
+                ),
+            ),
             self._describe_calibration(calibrate, stop),
-            self._describe_view(change_room, leave_alone, docks, list_pages),
+            self._describe_view(leave_alone, list_pages),
             self._describe_help(find_action),
         )
 
@@ -139,15 +145,13 @@ class Commands(QObject):
     def _list_recent(self) -> Sequence[Command]:
         if recent := list_recent():
             return tuple(self._describe_recent(entry.path) for entry in recent)
-        return (
-            Command(
-                text=self.tr("None yet"),
-                tip=self.tr("Projects and folders that were opened stand here"),
-                run=lambda: None,
-                is_enabled=lambda: False,
-                why_disabled=self.tr("No project or folder has been opened yet."),
-            ),
-        )
+        tip = self.tr("Projects and folders that were opened stand here")
+        return self._describe_nothing(tip, self.tr("No project or folder has been opened yet."))
+
+    def _describe_nothing(self, tip: str, why: str) -> Sequence[Command]:
+        """Return what stands in a menu that has no entries, and why."""
+        text, never = self.tr("None yet"), lambda: False
+        return (Command(text=text, tip=tip, run=never, is_enabled=never, why_disabled=why),)
 
     def _describe_recent(self, path: Path) -> Command:
         return Command(
@@ -267,17 +271,8 @@ class Commands(QObject):
         )
 
     def _describe_view(
-        self,
-        change_room: Callable[[], object],
-        leave_alone: Callable[[], object],
-        docks: Mapping[str, QDockWidget],
-        list_pages: Callable[[], Sequence[Page]],
+        self, leave_alone: Callable[[], object], list_pages: Callable[[], Sequence[Page]]
     ) -> Menu:
-        toggles = []
-        for text, dock in docks.items():
-            toggle = dock.toggleViewAction()
-            toggle.setText(text)
-            toggles.append(toggle)
         page, chosen = self._page, theme.chosen()
         schemes = (
             (theme.Scheme.SYSTEM, self.tr("As the &system")),
@@ -301,17 +296,10 @@ class Commands(QObject):
                 *page.layers.values(),
                 None,
                 Menu(self.tr("S&how panel"), lambda: self._list_pages(list_pages())),
-                *toggles,
                 Command(
-                    text=self.tr("&Large inspector, or back"),
-                    shortcut="F8",
-                    tip=self.tr("Give the inspector most of the width, or the photograph"),
-                    run=change_room,
-                ),
-                Command(
-                    text=self.tr("The photo&graph alone, or back"),
+                    text=self.tr("The &desk alone, or back"),
                     shortcut="F7",
-                    tip=self.tr("Hide the film strip and the inspector, or show them again"),
+                    tip=self.tr("Hide the strip of images and the inspector, or show them again"),
                     run=leave_alone,
                     is_enabled=lambda: bool(self._session.project.views),
                     why_disabled=self.tr("There are no images yet: add some first."),
@@ -323,15 +311,8 @@ class Commands(QObject):
     def _list_pages(self, pages: Sequence[Page]) -> Sequence[Command]:
         if pages:
             return [Command(text=page.title, tip=page.tip, run=page.show) for page in pages]
-        return (
-            Command(
-                text=self.tr("None yet"),
-                tip=self.tr("What the inspector can show stands here"),
-                run=lambda: None,
-                is_enabled=lambda: False,
-                why_disabled=self.tr("There are no images yet: add some first."),
-            ),
-        )
+        tip = self.tr("What the window can show stands here")
+        return self._describe_nothing(tip, self.tr("There are no images yet: add some first."))
 
     def _describe_help(self, find_action: Callable[[], object]) -> Menu:
         return Menu(

@@ -1,183 +1,135 @@
-"""The inspector at the right: the image's layers, the set-up, and the panels on the result."""
+"""The inspector: the verdict, what was done, and the camera's values."""
 
 from __future__ import annotations
 
-from functools import partial
 from typing import ClassVar
 
-from PySide6.QtCore import Qt, Signal
+from PySide6.QtCore import Qt
+from PySide6.QtGui import QColor, QPainter, QPaintEvent, QResizeEvent
 from PySide6.QtWidgets import (
-    QFrame,
+    QBoxLayout,
+    QGridLayout,
     QHBoxLayout,
-    QLabel,
     QPushButton,
-    QScrollArea,
     QStackedWidget,
-    QToolButton,
     QVBoxLayout,
     QWidget,
 )
 
 from calibgui.gui.canvas.image_page import ImagePage
-from calibgui.gui.panels.groups import Group, Page, describe_group, name_group
-from calibgui.gui.settings.board_panel import BoardPanel
-from calibgui.gui.settings.settings_panel import SettingsPanel
+from calibgui.gui.session.session import Session
+from calibgui.gui.verdict.camera_values import CameraValues
+from calibgui.gui.verdict.done_list import DoneList
+from calibgui.gui.verdict.verdict_bar import VerdictBar
 from calibgui.gui.widgets import theme
-from calibgui.gui.widgets.tab_bar import TabBar
+from calibgui.gui.widgets.scrolling import make_scrollable
 from calibgui.gui.window.progress import Progress
+
+_LEAST_ROW = 296
+"""Least height below the strip, device-independent px."""
+_HIGH_ENOUGH = 700
+"""Height beside the desk for which the verdict is as it is below the strip."""
 
 
 class Inspector(QWidget):
-    """Follows what one does: shows one page at a time, over the button that calibrates.
+    """A column beside the desk, or three columns below the strip.
+
+    While a tool is used on the photograph, what it says stands in the place of what was done.
 
     Args:
-        page: the image, whose layers and tools are one page.
-        board, settings: the sections of the page of the set-up.
-        progress, calibrate: what stands below every page.
+        session: whose result is shown.
+        verdict: what stands first.
+        page: the photograph, whose tools have words and buttons.
+        progress, calibrate: what stands last.
     """
 
-    WIDTH: ClassVar[int] = 396
-    """Least width, px: that of a panel with its margins."""
-    group_wanted = Signal(Group)
-    """The user chose the panels of this group."""
-    room_wanted = Signal()
-    """The user wants more room for the inspector, or the photograph's back."""
+    WIDTH: ClassVar[int] = 340
+    """Width beside the desk, device-independent px."""
 
     def __init__(
         self,
+        session: Session,
+        verdict: VerdictBar,
         page: ImagePage,
-        board: BoardPanel,
-        settings: SettingsPanel,
         progress: Progress,
         calibrate: QPushButton,
     ) -> None:
         super().__init__()
-        self.setMinimumWidth(self.WIDTH)
-        self.tabs = TabBar(documentMode=True, expanding=False, drawBase=False)
-        self.tabs.setUsesScrollButtons(False)
-        self.tabs.setAccessibleName(self.tr("Inspector"))
-        self._pages = QStackedWidget()
-        self._before_tool = 0
-        self._add_page(self.tr("Image"), self.tr("What is drawn over the image."), _stack(page))
-        self._add_page(
-            self.tr("Set-up"),
-            self.tr("The board, and how to calibrate."),
-            self._make_setup(board, settings),
-        )
-        self._groups = list(Group)
-        for group in self._groups:
-            self.tabs.addTab(name_group(group))
-            self.tabs.setTabToolTip(self.tabs.count() - 1, describe_group(group))
-        self._results = QStackedWidget()
-        nothing = QLabel(self.tr("Nothing is calibrated yet."))
-        nothing.setAlignment(Qt.AlignmentFlag.AlignCenter)
-        self._results.addWidget(nothing)
-        self._pages.addWidget(self._results)
-        self.room = QToolButton()
-        self.room.setText("↔")
-        self.room.setAutoRaise(True)
-        self.room.setToolTip(self.tr("More room for the inspector, or back (F8)"))
-        self.room.setAccessibleName(self.room.toolTip())
-        self.room.clicked.connect(self.room_wanted)
-        head = QHBoxLayout()
-        head.addWidget(self.tabs, 1)
-        head.addWidget(self.room)
-        foot = QHBoxLayout()
+        self._verdict = verdict
+        self.done, self.camera = DoneList(session), CameraValues(session)
+        self._lists = QBoxLayout(QBoxLayout.Direction.TopToBottom)
+        self._lists.setContentsMargins(0, 0, 0, 0)
+        self._lists.setSpacing(theme.MARGIN)
+        first = QVBoxLayout()
+        first.setSpacing(theme.SPACING)
+        first.addWidget(verdict.actions)
+        first.addWidget(self.done)
+        self._lists.addLayout(first)
+        self._lists.addWidget(self.camera, 1)
+        inside = QWidget()
+        inside.setLayout(self._lists)
+        tools = QWidget()
+        words = QVBoxLayout(tools)
+        words.setContentsMargins(0, 0, 0, 0)
+        for bar in (page.marker.roi_bar, page.marker.corner_bar):
+            words.addWidget(bar)
+        words.addStretch(1)
+        self._lower = QStackedWidget()
+        self._lower.addWidget(make_scrollable(inside))
+        self._lower.addWidget(tools)
+        page.tool_changed.connect(self._lower.setCurrentIndex)
+        self._foot = QWidget()
+        foot = QHBoxLayout(self._foot)
+        foot.setContentsMargins(0, 0, 0, 0)
         foot.addWidget(progress, 1)
         foot.addWidget(calibrate)
-        self.column = QVBoxLayout(self)
-        """From top to bottom; the verdict can stand above."""
-        self.column.setContentsMargins(theme.SPACING, 0, theme.SPACING, theme.SPACING // 2)
-        self.column.setSpacing(theme.SPACING // 2)
-        self.column.addLayout(head)
-        self.column.addWidget(self._pages, 1)
-        self.column.addLayout(foot)
-        self.tabs.currentChanged.connect(self._show)
-        page.tool_changed.connect(self._follow_tool)
+        self._grid = QGridLayout(self)
+        self._grid.setContentsMargins(theme.MARGIN, 12, theme.MARGIN, 12)
+        self._grid.setHorizontalSpacing(theme.MARGIN)
+        self._grid.setVerticalSpacing(12)
+        self._is_row: bool | None = None
+        self.stand_in_row(False)
 
-    def show_image_page(self) -> None:
-        """Show the layers of the image, and what its tools say."""
-        self.tabs.setCurrentIndex(0)
+    def stand_in_row(self, is_row: bool) -> None:
+        """Arrange the parts in columns below the strip, or in one beside the desk."""
+        if is_row is self._is_row:
+            return
+        self._is_row = is_row
+        if is_row:
+            self._verdict.fit_height(_HIGH_ENOUGH)
+        direction = QBoxLayout.Direction
+        self._lists.setDirection(direction.LeftToRight if is_row else direction.TopToBottom)
+        self._lists.setStretch(0, int(is_row))
+        top = Qt.AlignmentFlag.AlignTop
+        if is_row:
+            self._grid.addWidget(self._verdict, 0, 0, 2, 1, top)
+            self._grid.addWidget(self._lower, 0, 1)
+            self._grid.addWidget(self._foot, 1, 1)
+        else:
+            self._grid.addWidget(self._verdict, 0, 0)
+            self._grid.addWidget(self._lower, 1, 0)
+            self._grid.addWidget(self._foot, 2, 0)
+        for row in range(3):
+            self._grid.setRowStretch(row, int(row == (0 if is_row else 1)))
+        for column in range(2):
+            self._grid.setColumnStretch(column, column if is_row else 1 - column)
+        self._grid.setColumnMinimumWidth(0, self.WIDTH - 2 * theme.MARGIN if is_row else 0)
 
-    def show_setup(self) -> None:
-        """Show the board and the settings."""
-        self.tabs.setCurrentIndex(1)
+    def find_row_height(self) -> int:
+        """Return the height that the inspector takes below the strip."""
+        margins, parts = self._grid.contentsMargins(), self._verdict.layout()
+        assert parts is not None
+        parts.invalidate()
+        needed = parts.sizeHint().height() + margins.top() + margins.bottom()
+        return max(_LEAST_ROW, needed)
 
-    def list_pages(self) -> list[Page]:
-        """Return the pages before the groups of panels."""
-        tabs = self.tabs
-        return [
-            Page(tabs.tabText(k), tabs.tabToolTip(k), partial(tabs.setCurrentIndex, k))
-            for k in range(_FIRST_GROUP)
-        ]
+    def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name
+        super().resizeEvent(event)
+        if not self._is_row:
+            self._verdict.fit_height(event.size().height())
 
-    def show_group(self, group: Group) -> None:
-        """Show the panels on the result; which of them is theirs to decide."""
-        self.tabs.setCurrentIndex(_FIRST_GROUP + self._groups.index(group))
-
-    def set_analysis(self, analysis: QWidget) -> None:
-        """Show the panels on the result from now on."""
-        self._results.addWidget(analysis)
-        self._results.setCurrentWidget(analysis)
-
-    @property
-    def group(self) -> Group | None:
-        """The group whose panels are shown; None on the other pages."""
-        k = self.tabs.currentIndex() - _FIRST_GROUP
-        return self._groups[k] if k >= 0 else None
-
-    def _show(self, tab: int) -> None:
-        self._pages.setCurrentIndex(min(tab, _FIRST_GROUP))
-        if self.group is not None:
-            self.group_wanted.emit(self.group)
-
-    def _follow_tool(self, taken: bool) -> None:
-        """Show what a tool on the image says while it is used, then what was there before."""
-        if taken:
-            self._before_tool = self.tabs.currentIndex()
-            self.show_image_page()
-        elif self.tabs.currentIndex() == 0:
-            self.tabs.setCurrentIndex(self._before_tool)
-
-    def _add_page(self, title: str, tip: str, page: QWidget) -> None:
-        area = QScrollArea()
-        area.setWidget(page)
-        area.setWidgetResizable(True)
-        area.setFrameShape(QFrame.Shape.NoFrame)
-        area.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
-        area.setFocusPolicy(Qt.FocusPolicy.NoFocus)
-        self._pages.addWidget(area)
-        self.tabs.setTabToolTip(self.tabs.addTab(title), tip)
-
-    def _make_setup(self, board: BoardPanel, settings: SettingsPanel) -> QWidget:
-        page = QWidget()
-        column = QVBoxLayout(page)
-        column.setContentsMargins(0, theme.SPACING // 4, 0, 0)
-        for title, section in ((self.tr("Board"), board), (self.tr("Calibration"), settings)):
-            column.addWidget(_make_heading(title))
-            column.addWidget(section)
-        column.addStretch(1)
-        return page
-
-
-def _make_heading(text: str) -> QLabel:
-    heading = QLabel(text)
-    font = heading.font()
-    font.setBold(True)
-    heading.setFont(font)
-    return heading
-
-
-def _stack(page: ImagePage) -> QWidget:
-    """Put the bars of the image's tools, of which one is shown at most, above facts and layers."""
-    whole = QWidget()
-    column = QVBoxLayout(whole)
-    column.setContentsMargins(0, theme.SPACING, 0, 0)
-    for part in (page.marker.roi_bar, page.marker.corner_bar, page.facts, page.layer_list):
-        column.addWidget(part)
-    column.addStretch(1)
-    return whole
-
-
-_FIRST_GROUP = 2
-"""Tab of the first group of panels."""
+    def paintEvent(self, event: QPaintEvent) -> None:  # noqa: N802, ARG002 - Qt's name
+        colours, painter = theme.current(), QPainter(self)
+        painter.fillRect(self.rect(), QColor(colours.base))
+        edge = (self.width(), 1) if self._is_row else (1, self.height())
+        painter.fillRect(0, 0, *edge, QColor(colours.line))

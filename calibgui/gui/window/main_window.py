@@ -3,23 +3,14 @@
 from __future__ import annotations
 
 import gc
-from functools import partial
 from importlib import import_module
 from itertools import pairwise
 from traceback import extract_tb
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import QEvent, QSize, Qt, QTimer
-from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent, QResizeEvent
-from PySide6.QtWidgets import (
-    QApplication,
-    QHBoxLayout,
-    QMainWindow,
-    QPushButton,
-    QStackedWidget,
-    QVBoxLayout,
-    QWidget,
-)
+from PySide6.QtCore import QEvent, Qt, QTimer
+from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent
+from PySide6.QtWidgets import QApplication, QMainWindow, QStackedWidget, QVBoxLayout, QWidget
 
 from calibgui.app.projects.recent import list_recent
 from calibgui.app.system.kernel_preparation import compile_kernels, prepare_solver
@@ -32,27 +23,28 @@ from calibgui.gui.dialogs.files import Files
 from calibgui.gui.images.film_strip import FilmStrip
 from calibgui.gui.jobs import qt_names
 from calibgui.gui.jobs.job import nothing
-from calibgui.gui.panels.groups import Group, Page
+from calibgui.gui.panels.modes import Mode, Page, describe_mode, name_mode
 from calibgui.gui.session.calibrator import Calibrator
 from calibgui.gui.session.detector import Detector
 from calibgui.gui.session.refitter import Refitter
 from calibgui.gui.session.session import Session
 from calibgui.gui.settings.board_panel import BoardPanel
 from calibgui.gui.settings.settings_panel import SettingsPanel
-from calibgui.gui.verdict.drop_down import PICTURE
 from calibgui.gui.verdict.verdict_bar import VerdictBar
 from calibgui.gui.widgets.actions import show_dialog
-from calibgui.gui.widgets.focus_ring import FocusRing
+from calibgui.gui.widgets.buttons import Button
 from calibgui.gui.widgets.kept_settings import keep, read_kept_bytes
 from calibgui.gui.widgets.overlay import Overlay
 from calibgui.gui.window.banner import Banner
+from calibgui.gui.window.body import Body
 from calibgui.gui.window.commands import Commands
-from calibgui.gui.window.dock import Dock
+from calibgui.gui.window.header import Header
 from calibgui.gui.window.inspector import Inspector
 from calibgui.gui.window.menus import Menus
 from calibgui.gui.window.offers import Offers
 from calibgui.gui.window.palette import Palette
 from calibgui.gui.window.progress import Progress
+from calibgui.gui.window.setup_sheet import SetupSheet
 from calibgui.gui.window.welcome import Welcome
 
 if TYPE_CHECKING:
@@ -60,9 +52,9 @@ if TYPE_CHECKING:
 
 
 class MainWindow(QMainWindow):
-    """Shows the selected image over a film strip of all images, and the inspector beside both.
+    """A bar of modes over the desk; below it the strip of all photographs, and the inspector.
 
-    The verdict on the calibration stands above the inspector; above the image without one.
+    What a mode shows fills the desk: the selected photograph, or panels on the shown result.
     """
 
     def __init__(self) -> None:
@@ -78,6 +70,8 @@ class MainWindow(QMainWindow):
         self.page = ImagePage(self.session)
         self.board = BoardPanel(self.session)
         self.settings = SettingsPanel(self.session)
+        self.settings.setParent(self)
+        self.settings.hide()
         self.analysis: Analysis | None = None
         self._empty = True
         self._bugs: set[tuple[object, ...]] = set()
@@ -86,15 +80,23 @@ class MainWindow(QMainWindow):
         self._building.timeout.connect(self._build_ahead)
         self._at = (self.session.document, 0)
         self.welcome = Welcome(self.session.jobs)
+        self.pages = QStackedWidget()
         self.banner = Banner()
-        self.verdict = VerdictBar(self.session)
-        self.calibrate = QPushButton(self.tr("C&alibrate"))
+        # Over the picture: what one points at must not move when a message comes.
+        Overlay(self.banner, self.pages, is_on_top=True)
+        self.header = Header(self.session)
+        self.verdict = VerdictBar(self.session, self.pages)
+        self.setup = SetupSheet(self.pages, self.board, self.settings)
+        self.progress = Progress(self.session.jobs)
+        self.calibrate = Button(self.tr("C&alibrate"))
         self.calibrate.setToolTip(
             self.tr("Find the corners still missing, then estimate the camera")
         )
-        self.calibrate.setMinimumSize(_CALIBRATE)
         self.calibrate.setDefault(True)
-        FocusRing(self.calibrate)  # the style marks it as default, focused or not
+        self.inspector = Inspector(
+            self.session, self.verdict, self.page, self.progress, self.calibrate
+        )
+        self.body = Body(self.pages, self.images, self.inspector)
         self._lay_out()
         self._connect()
         self._make_menus()
@@ -113,64 +115,34 @@ class MainWindow(QMainWindow):
         self.show()
 
     def _lay_out(self) -> None:
-        self.pages = QStackedWidget()
-        self.pages.setObjectName(PICTURE)
         self.pages.addWidget(self.welcome)
         self.pages.addWidget(self.page)
         centre = QWidget()
-        self._centre = QVBoxLayout(centre)
-        self._centre.setContentsMargins(0, 0, 0, 0)
-        self._centre.setSpacing(0)
-        desk = QHBoxLayout()
-        desk.setSpacing(0)
-        desk.addWidget(self.page.bar)
-        desk.addWidget(self.pages, 1)
-        self._centre.addLayout(desk, 1)
+        column = QVBoxLayout(centre)
+        column.setContentsMargins(0, 0, 0, 0)
+        column.setSpacing(0)
+        column.addWidget(self.header)
+        column.addWidget(self.body, 1)
         self.setCentralWidget(centre)
-        # Over the picture: what one points at must not move when a message comes.
-        Overlay(self.banner, self.pages)
-        self.progress = Progress(self.session.jobs)
-        self.inspector = Inspector(
-            self.page, self.board, self.settings, self.progress, self.calibrate
+        stops = (
+            self.header.modes,
+            self.page.canvas,
+            self.images.list,
+            self.images.exclude_above,
+            self.verdict.button,
         )
-        self.inspector_dock = Dock(self.tr("Inspector"), "inspector", self.inspector, self)
-        self.addDockWidget(Qt.DockWidgetArea.RightDockWidgetArea, self.inspector_dock)
-        self.setCorner(Qt.Corner.BottomRightCorner, Qt.DockWidgetArea.RightDockWidgetArea)
-        self.strip_dock = Dock(self.tr("Images"), "images", self.images, self)
-        self._hidden_docks = [self.strip_dock, self.inspector_dock]
-        """The docks that come back beside the photograph."""
-        self.strip_dock.setTitleBarWidget(QWidget())  # none: the strip is as low as it can be
-        self.addDockWidget(Qt.DockWidgetArea.BottomDockWidgetArea, self.strip_dock)
-        # What the inspector shows comes after its tabs, and last: it is made when it is wanted.
-        for before, after in pairwise((self.page.canvas, *self.images.list_stops())):
+        for before, after in pairwise(stops):
             self.setTabOrder(before, after)
-        for changed in (self.inspector_dock.visibilityChanged, self.inspector_dock.topLevelChanged):
-            changed.connect(lambda _: self._place_verdict())
-        self._place_verdict()
-
-    def _place_verdict(self) -> None:
-        """Put the verdict above the inspector, or above the photograph if that stands alone."""
-        dock = self.inspector_dock
-        alone = dock.isHidden() or dock.isFloating()
-        place = self._centre if alone else self.inspector.column
-        if place.indexOf(self.verdict) < 0:
-            place.insertWidget(0, self.verdict)
 
     def _make_menus(self) -> None:
         commands = Commands(self, self.session, self.files, self.images, self.page)
-        docks = {
-            self.tr("F&ilm strip"): self.strip_dock,
-            self.tr("Inspec&tor"): self.inspector_dock,
-        }
         menus = Menus(
             self.menuBar(),
             commands.list_menus(
                 self.calibrate.click,
                 self.progress.end_shown,
                 self.close,
-                self.change_room,
-                self.leave_photograph_alone,
-                docks,
+                self.body.leave_desk_alone,
                 self._list_pages,
                 lambda: show_dialog(Palette(menus, self)),
             ),
@@ -190,8 +162,7 @@ class MainWindow(QMainWindow):
         self.images.list.addActions(self.page.tools)
         self.page.canvas.addAction(self.images.actions_for_menu[0])
         self.page.tool_changed.connect(self._follow_tool)
-        self.inspector.group_wanted.connect(lambda group: self.need_analysis().show_group(group))
-        self.inspector.room_wanted.connect(self.change_room)
+        self._connect_parts()
         refitter = Refitter(self.session, self.detector, self.calibrator)
         self.images.excluded.connect(
             lambda label: refitter.refit(label) if self.images.follows.isChecked() else None
@@ -205,26 +176,75 @@ class MainWindow(QMainWindow):
         for changed in (self.session.jobs.changed, self.calibrator.began, self.calibrator.ended):
             changed.connect(self._show_calibrate)
         self.files.saver.opened.connect(self.images.thumbnails.look_for_changes)
-        self.board.print_wanted.connect(self.files.print_board)
         self.welcome.folder_wanted.connect(self.files.ask_for_folder)
         self.welcome.images_wanted.connect(self.files.ask_for_images)
         self.welcome.sample_wanted.connect(self.files.open_sample)
         self.welcome.board_wanted.connect(self.files.print_board)
         self.welcome.recent_wanted.connect(lambda path: self.files.open_paths([str(path)]))
 
+    def _connect_parts(self) -> None:
+        """Connect the header and the inspector."""
+        header, inspector = self.header, self.inspector
+        header.modes.chosen.connect(self.show_mode)
+        header.setup.toggled.connect(self.setup.setVisible)
+        self.setup.closed.connect(lambda: header.setup.setChecked(False))
+        header.export.clicked.connect(self.files.export)
+        header.grade.clicked.connect(self.body.show_inspector)
+        self.verdict.shown.connect(header.show_grade)
+        header.show_grade(None, self.verdict.headline.text())
+        self.body.hidden_changed.connect(header.stand_in_for_inspector)
+        inspector.done.panel_wanted.connect(self._show_panel_named)
+        inspector.done.image_wanted.connect(self._show_photograph)
+        camera = inspector.camera
+        camera.all_wanted.connect(lambda: self._show_panel_named("ResultPanel"))
+        camera.compare_wanted.connect(lambda name: self.need_analysis().compare_with(name))
+        camera.rename_wanted.connect(self.files.rename_result)
+        camera.delete_wanted.connect(self.files.delete_result)
+
+    def show_mode(self, mode: Mode) -> None:
+        """Fill the desk with a mode."""
+        self.header.modes.show_mode(mode)
+        if mode is Mode.PHOTOGRAPHS:
+            self.pages.setCurrentWidget(self.welcome if self._empty else self.page)
+        elif not self._empty:
+            self.page.marker.leave()
+            analysis = self.need_analysis()
+            analysis.show_mode(mode)
+            self.pages.setCurrentWidget(analysis)
+
+    def _bring_up(self, mode: Mode) -> None:
+        """Show the mode of a panel that has come to the front by its name."""
+        self.header.modes.blockSignals(True)
+        self.header.modes.show_mode(mode)
+        self.header.modes.blockSignals(False)
+        if not self._empty:
+            self.pages.setCurrentWidget(self.need_analysis())
+
+    def _show_photograph(self, image: str = "") -> None:
+        """Show a photograph, the selected one by default."""
+        if image:
+            self.session.select(image)
+        self.show_mode(Mode.PHOTOGRAPHS)
+
+    def show_setup(self) -> None:
+        """Open the sheet of the set-up."""
+        self.header.setup.setChecked(True)
+
     def _list_pages(self) -> list[Page]:
-        """Return what the inspector can show now, which comes into sight with it."""
-        pages = [] if self._empty else self.inspector.list_pages()
+        """Return what the window can show now."""
+        if self._empty:
+            return []
+        pages = [
+            Page(
+                name_mode(Mode.PHOTOGRAPHS), describe_mode(Mode.PHOTOGRAPHS), self._show_photograph
+            ),
+            Page(self.tr("Set-up"), self.header.setup.toolTip(), self.show_setup),
+        ]
         if self.session.result is not None:
             pages += self.need_analysis().list_pages()
-        return [page._replace(show=partial(self._show_page, page)) for page in pages]
-
-    def _show_page(self, page: Page) -> None:
-        self.inspector_dock.show()
-        page.show()
+        return pages
 
     def _show_panel_named(self, name: str) -> None:
-        self.inspector_dock.show()
         self.need_analysis().show_panel_named(name)
 
     def need_analysis(self) -> Analysis:
@@ -237,12 +257,9 @@ class MainWindow(QMainWindow):
             self.analysis.save_wanted.connect(self.files.save_changed_images)
             self.analysis.lens_wanted.connect(self._calibrate_with_lens)
             self.analysis.method_wanted.connect(self._calibrate_with_method)
-            self.analysis.export_wanted.connect(self.files.export)
-            self.analysis.rename_wanted.connect(self.files.rename_result)
-            self.analysis.delete_wanted.connect(self.files.delete_result)
-            self.analysis.group_shown.connect(self.inspector.show_group)
-            self.inspector.set_analysis(self.analysis)
-            self.inspector.show_group(Group.ANSWER)
+            self.analysis.mode_shown.connect(self._bring_up)
+            self.analysis.corner_picked.connect(self._show_photograph)
+            self.pages.addWidget(self.analysis)
         return self.analysis
 
     def _show_beginning(self) -> None:
@@ -351,49 +368,25 @@ class MainWindow(QMainWindow):
 
     def _show_parts(self, empty: bool) -> None:
         """Show the welcome page alone while there are no images, and all parts otherwise."""
-        self._keep_layout()
         self._empty = empty
         if empty:
             self.welcome.show_recent(list_recent())
-        self.pages.setCurrentWidget(self.welcome if empty else self.page)
-        for part in (self.strip_dock, self.inspector_dock, self.page.bar, self.verdict):
-            part.setVisible(not empty)
-        if empty:
-            return
-        state = read_kept_bytes("layout")
-        if state is None or not self.restoreState(state, _LAYOUT):
-            self._widen_inspector(_INSPECTOR_SHARE)
-
-    def _keep_layout(self) -> None:
-        if not self._empty:
-            keep("layout", self.saveState(_LAYOUT))
-
-    def change_room(self) -> None:
-        """Give the inspector most of the width, or the photograph if the inspector has it."""
-        is_wide = self.inspector.width() > self.width() / 2
-        self._widen_inspector(_INSPECTOR_SHARE if is_wide else _LARGE_SHARE)
-
-    def leave_photograph_alone(self) -> None:
-        """Hide the film strip and the inspector, or show again what was hidden."""
-        shown = [dock for dock in (self.strip_dock, self.inspector_dock) if dock.isVisible()]
-        for dock in shown or self._hidden_docks:
-            dock.setVisible(not shown)
-        if shown:
-            self._hidden_docks = shown
-
-    def _widen_inspector(self, share: float) -> None:
-        width = max(Inspector.WIDTH, round(share * self.width()))
-        self.resizeDocks([self.inspector_dock], [width], Qt.Orientation.Horizontal)
+            self.header.setup.setChecked(False)
+        self.body.show_parts(empty=empty)
+        self.header.show_modes(not empty)
+        self.show_mode(Mode.PHOTOGRAPHS)
 
     def _follow_tool(self, taken: bool) -> None:
         if taken:
-            self.inspector_dock.show()  # what the tool says stands there
+            self.show_mode(Mode.PHOTOGRAPHS)
+            self.body.show_inspector()  # what the tool says stands there
             self.banner.hide_failure()  # it would cover corners
 
     def _show_calibrate(self) -> None:
         running = self.calibrator.running
         self.verdict.show_running(running)
         self.calibrate.setEnabled(bool(self.session.project.views) and not running)
+        self.header.export.setEnabled(self.session.result is not None)
 
     def _calibrate(self) -> None:
         self.board.finish_typing()  # a shortcut does not take the focus from a box
@@ -418,10 +411,6 @@ class MainWindow(QMainWindow):
         self.files.open_paths([url.toLocalFile() for url in urls if url.isLocalFile()])
         _accept_copy(event)
 
-    def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name
-        super().resizeEvent(event)
-        self.verdict.fit_height(event.size().height())
-
     def changeEvent(self, event: QEvent) -> None:  # noqa: N802 - Qt's name
         super().changeEvent(event)
         if event.type() == QEvent.Type.ActivationChange and self.isActiveWindow():
@@ -432,7 +421,6 @@ class MainWindow(QMainWindow):
             event.ignore()
             return
         keep("geometry", self.saveGeometry())
-        self._keep_layout()
         self.session.jobs.close()
         self.files.saver.close()
         event.accept()
@@ -467,10 +455,3 @@ _PAUSE = 150
 _SHARE_OF_SCREEN = 0.8
 _SMALL_SCREEN = 1600
 """Width of a screen below which the window fills it, px."""
-_INSPECTOR_SHARE = 0.33
-"""Share of the window's width that the inspector gets, so that the photograph has the most."""
-_LARGE_SHARE = 0.72
-"""The same when a plot needs the room."""
-_CALIBRATE = QSize(110, 32)
-_LAYOUT = 3
-"""Version of the parts' layout: one that was kept of other parts is not restored."""

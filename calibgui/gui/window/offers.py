@@ -2,30 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Hashable, Sequence
+from collections.abc import Callable, Hashable
 from functools import partial
 from pathlib import Path
-from typing import NamedTuple
 
 from PySide6.QtCore import QFileInfo, QLocale, QObject
 
-from calibgui.app.photographs.board_recognition import (
-    choose_samples,
-    find_grid_size,
-    find_mirrored_pattern,
-    find_other_pattern,
-    recognise_pattern,
-)
+from calibgui.app.photographs.other_board import OtherBoard, find_other_board, read_marks
 from calibgui.app.photographs.paths import NoImagesError, is_remote
 from calibgui.app.projects.autosave import find_unsaved_work
 from calibgui.app.projects.document import Document
-from calibgui.app.projects.project import (
-    Project,
-    remove_result,
-    set_grid_size,
-    set_pattern,
-)
-from calibgui.dataset import View, ViewStatus
+from calibgui.app.projects.project import set_grid_size, take_pattern
+from calibgui.dataset import ViewStatus
 from calibgui.engine.arrays import GridSize
 from calibgui.engine.boards import CHECKERBOARD, Pattern
 from calibgui.engine.errors import CalibrationError
@@ -43,17 +31,6 @@ _AFTER_FIRST_FIT = 400
 """Time after which marks are looked for, ms: the first calibration needs the processor before."""
 _MAX_FOLDERS = 3
 """Number of folders that have a button of their own, at most: a message has one line of them."""
-
-
-class _OtherBoard(NamedTuple):
-    """The board that photographs show in place of the one that was looked for, if any."""
-
-    pattern: Pattern | None = None
-    """Another pattern, or the same; None if nothing was found or `grid_size` is another."""
-    is_mirrored: bool = False
-    """True if its marks can be read in a mirror only."""
-    grid_size: GridSize | None = None
-    """Another number of corners."""
 
 
 class Offers(QObject):
@@ -228,9 +205,11 @@ class Offers(QObject):
             return
         asked = self._session.document, self._get_question()
         if not any(v.usable for v in searched):
-            look = partial(_find_other_board, project)
+            look = lambda job: find_other_board(  # noqa: E731
+                project.views, project.pattern, project.grid_size, job.cancelling
+            )
         elif project.pattern == CHECKERBOARD and asked != self._marks_asked:
-            self._marks_asked, look = asked, partial(_read_marks, searched)
+            self._marks_asked, look = asked, lambda _: read_marks(searched)
         else:
             return
         self._looking_for = self._get_question()
@@ -256,7 +235,7 @@ class Offers(QObject):
             self._looked_early = session.document
             session.jobs.start(
                 "",
-                partial(_read_marks, [found]),
+                lambda _: read_marks([found]),
                 self._offer_another,
                 inputs=self._get_sought,
                 owner=self,
@@ -296,8 +275,8 @@ class Offers(QObject):
         if failure is not None:
             self._banner.show_error(failure)
 
-    def _offer_another(self, found: _OtherBoard) -> None:
-        if found != _OtherBoard():
+    def _offer_another(self, found: OtherBoard) -> None:
+        if found != OtherBoard():
             self._put_off = None
         if found.grid_size is not None:
             self._offer_size(found.grid_size)
@@ -329,7 +308,7 @@ class Offers(QObject):
         session, texts = self._session, list_pattern_texts()[pattern.kind]
 
         def edit() -> None:
-            session.edit(self.tr("Pattern"), partial(_take_pattern, pattern=pattern))
+            session.edit(self.tr("Pattern"), partial(take_pattern, pattern=pattern))
 
         if session.project.pattern != CHECKERBOARD or self._taken is session.document:
             self._offer_other(texts.recognised, texts.search, edit)
@@ -343,35 +322,6 @@ class Offers(QObject):
         """Search for another board than before, and calibrate."""
         self._detector.search()  # also while the calibrator is at work
         self._calibrator.calibrate()
-
-
-def _find_other_board(project: Project, job: Job) -> _OtherBoard:
-    """Find the board in photographs that show none of the stated kind and size."""
-    samples, pattern = choose_samples(project.views), project.pattern
-    if project.grid_size is not None:
-        grid_size = find_grid_size(samples, pattern, job.cancelling)
-        if grid_size not in (None, project.grid_size):
-            return _OtherBoard(grid_size=grid_size)
-    if (mirrored := find_mirrored_pattern(samples, job.cancelling)) is not None:
-        return _OtherBoard(mirrored, is_mirrored=True)
-    return _OtherBoard(find_other_pattern(samples, pattern, job.cancelling))
-
-
-def _take_pattern(project: Project, pattern: Pattern) -> Project:
-    """Return the project with another pattern, without results from corners that were taken for
-    the one before."""
-    for name, result in project.results.items():
-        if project.has_views_of(result):
-            project = remove_result(project, name)
-    return set_pattern(project, pattern)
-
-
-def _read_marks(views: Sequence[View], _: Job) -> _OtherBoard:
-    """Find out whether boards that were found as plain ones bear marks."""
-    try:
-        return _OtherBoard(recognise_pattern(views))
-    except CalibrationError:
-        return _OtherBoard(is_mirrored=True)
 
 
 def _describe_time(path: Path) -> str:

@@ -52,7 +52,7 @@ class Welcome(QScrollArea):
         self._jobs = jobs
         title = QLabel(self.tr("Calibrate a camera"))
         font = title.font()
-        font.setPointSizeF(1.8 * font.pointSizeF())
+        font.setPixelSize(24)
         font.setBold(True)
         title.setFont(font)
         words = WrappedLabel(
@@ -71,11 +71,7 @@ class Welcome(QScrollArea):
                 self.tr("Corners are found and the camera is calibrated at once."),
                 self.folder_wanted,
             ),
-            self._link(
-                self.tr("&Add images"),
-                self.tr("Choose single files."),
-                self.images_wanted,
-            ),
+            self._link(self.tr("&Add images"), self.tr("Choose single files."), self.images_wanted),
             self._link(
                 self.tr("Open the &sample"),
                 self.tr("Fourteen rendered photographs, to look around."),

@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-from itertools import combinations
-
 import numpy as np
 import pytest
-from PySide6.QtCore import QPoint, QPointF, QRectF, Qt
+from PySide6.QtCore import QPoint, QPointF, Qt
 from PySide6.QtGui import QColor, QImage, QPainter, QWheelEvent
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
@@ -15,7 +13,7 @@ from calibgui.engine.arrays import Array
 from calibgui.engine.features.corners import Corners
 from calibgui.gui.canvas import layers
 from calibgui.gui.canvas.canvas import Canvas
-from calibgui.gui.canvas.layers import Drawing, Layer, Marks
+from calibgui.gui.canvas.layers import Layer, Marks
 from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.picture import make_qimage
 
@@ -209,7 +207,7 @@ def test_a_label_is_whole_where_its_place_is_in_sight(u: float, v: float, is_who
         picture.fill(255)
         painter = QPainter(picture)
         painter.setClipRect(0, 0, 200, 100)
-        layers.draw_label(painter, np.array([u, v]), "20 px", theme.MAGNITUDE)
+        layers.draw_label(painter, np.array([u, v]), "20 px", theme.PATH)
         painter.end()
         grey = np.frombuffer(picture.constBits(), np.uint8).reshape(200, -1)[:100, :200]
         return int((grey < 255).sum())
@@ -217,17 +215,3 @@ def test_a_label_is_whole_where_its_place_is_in_sight(u: float, v: float, is_who
     whole = count_painted(20.0, 20.0)
     assert whole > 200
     assert (abs(count_painted(u, v) - whole) < 0.02 * whole) is is_whole
-
-
-@pytest.mark.usefixtures("qapp")
-def test_texts_of_two_drawings_stand_apart() -> None:
-    picture = QImage(300, 200, QImage.Format.Format_RGB32)
-    painter = QPainter(picture)
-    painter.setClipRect(0, 0, 300, 200)
-    places = np.array([[50.0, 50.0], [150.0, 50.0], [60.0, 120.0]])
-    taken: list[QRectF] = []
-    for text in ("10 px", "20 px", "30 px"):
-        drawing = Drawing((300, 200), theme.MAGNITUDE, labels=((places, text),))
-        layers.paint_labels(painter, drawing, lambda at: at, 1.0, taken)
-    painter.end()
-    assert not any(a.intersects(b) for a, b in combinations(taken, 2))

@@ -121,7 +121,7 @@ def test_calibrating_without_a_marked_board_says_that_it_must_be_marked(
     qtbot.mouseClick(window.calibrate, Qt.MouseButton.LeftButton)
     qtbot.waitUntil(window.banner.isVisible)
     assert "Mark the four outermost corners" in window.banner.text.text()
-    window.inspector.show_setup()
+    window.show_setup()
     box = window.board.by_hand
     assert box.text().replace("&", "") in window.banner.text.text()
 
@@ -139,7 +139,7 @@ def test_enter_goes_on_to_images_with_corners_where_all_are_marked(
     project = Project(views=(views[0], marked, views[2]), size=(640, 480))
     hand, page = Hand(window, qtbot), window.page
     window.session.begin(Document(project))
-    window.inspector.show_setup()
+    window.show_setup()
     box = window.board.by_hand
     qtbot.mouseClick(box, Qt.MouseButton.LeftButton, pos=QPoint(8, box.height() // 2))
     assert window.session.project.by_hand
@@ -203,6 +203,6 @@ def test_places_outside_of_the_image_have_no_coordinates(window: MainWindow, qtb
     window.session.begin(Document(Project(views=(View(str(path)),), by_hand=True)))
     hand.choose_image(path.name)
     page.canvas.hovered.emit(639.4, 479.4)
-    assert page.caption.text().startswith("view01.png   u 639.40  v 479.40 px   grey ")
+    assert page.caption.text().split("\n")[1].startswith("u 639.40  v 479.40 px   grey ")
     page.canvas.hovered.emit(639.6, 479.4)
-    assert page.caption.text() == "view01.png"
+    assert page.caption.text() == "view01.png — not searched"

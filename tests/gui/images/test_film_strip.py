@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from PySide6.QtCore import QPoint, Qt
+from PySide6.QtGui import QColor
 from PySide6.QtWidgets import (
     QApplication,
 )
@@ -34,19 +35,19 @@ def test_the_list_says_what_was_found_and_how_well_it_fits(full: MainWindow) -> 
     assert result is not None
     rms = [residuals.rms for residuals in result.calibration.residuals]
     assert listed(full, Role.RMS) == [*rms, None]
-    assert full.images.count.text() == "6 of 7 usable"
+    assert full.header.summary.text().startswith("6 of 7 photographs usable")
     tip = full.images.list.model().index(6, 0).data(Qt.ItemDataRole.ToolTipRole)
     assert "No checkerboard was found" in tip
 
 
 def test_sorting_by_name_status_and_error(full: MainWindow) -> None:
-    full.images.sorting.setCurrentIndex(2)
+    full.images.sorting[2].trigger()
     rms = [value for value in listed(full, Role.RMS) if value is not None]
     assert rms == sorted(rms, reverse=True)
     assert listed(full)[-1] == "blank.png"
-    full.images.sorting.setCurrentIndex(1)
+    full.images.sorting[1].trigger()
     assert listed(full, Role.STATUS)[-1] == "no board"
-    full.images.sorting.setCurrentIndex(0)
+    full.images.sorting[0].trigger()
     assert listed(full)[0] == "0.png"
 
 
@@ -56,7 +57,7 @@ def test_what_is_sorted_by_error_stays_in_sight(full: MainWindow, qtbot: QtBot) 
     bar = view.horizontalScrollBar()
     qtbot.waitUntil(lambda: bar.maximum() > 0)
     bar.setValue(bar.maximum())
-    full.images.sorting.setCurrentIndex(2)
+    full.images.sorting[2].trigger()
     assert bar.value() == 0
 
     def is_in_sight() -> bool:
@@ -86,10 +87,11 @@ def test_several_images_are_excluded_and_removed_by_keys(
     qtbot.keyClick(view, Qt.Key.Key_Space)
     assert full.session.document.undo_label == "Exclude 3 images"
     assert listed(full, Role.STATUS)[1] == "excluded"
-    assert full.need_analysis().state.text() == "out of date"
+    assert full.inspector.camera.state.text() == "out of date"
     theme.apply(qapp, theme.Scheme.DARK)
     qapp.processEvents()
-    assert theme.current().warning in full.need_analysis().state.styleSheet()
+    state = full.inspector.camera.state
+    assert state.palette().color(state.foregroundRole()).name() == theme.current().warning
     assert len(full.images.chosen) == 3, "an edit keeps the selection"
     qtbot.keyClick(view, Qt.Key.Key_Space)
     assert all(v.enabled for v in full.session.project.views)
@@ -98,7 +100,7 @@ def test_several_images_are_excluded_and_removed_by_keys(
     for _ in range(3):
         full.session.document.undo()
     assert len(listed(full)) == 7
-    assert full.need_analysis().state.text() == ""
+    assert full.inspector.camera.state.text() == ""
 
 
 def test_what_is_heard_of_an_image_holds_its_error(full: MainWindow) -> None:
@@ -112,8 +114,7 @@ def test_dragging_the_threshold_selects_the_images_above_and_a_button_excludes_t
     full: MainWindow, qtbot: QtBot
 ) -> None:
     strip, view = full.images, full.images.list
-    assert strip.above == [] and not strip.exclude_above.isEnabled()
-    assert 1 <= len(strip.threshold.cleanText().strip("0.").replace(".", "")) <= 3
+    assert strip.above == [] and not strip.exclude_above.isVisible()
     rms = dict(zip(listed(full, Role.PATH), listed(full, Role.RMS), strict=True))
     errors = sorted((error for error in rms.values() if error is not None), reverse=True)
     between = (errors[1] + errors[2]) / 2
@@ -125,11 +126,11 @@ def test_dragging_the_threshold_selects_the_images_above_and_a_button_excludes_t
         QPoint(x, round(view.place_of(between))),
     )
     one_pixel = view.top / (view.place_of(0.0) - view.place_of(view.top))
-    assert strip.threshold.value() == pytest.approx(between, abs=one_pixel)
+    assert view.threshold == pytest.approx(between, abs=one_pixel)
     worst = {path for path, error in rms.items() if error is not None and error > view.threshold}
     assert set(strip.chosen) == set(strip.above) == worst
-    strip.threshold.setValue(between)
-    assert len(strip.chosen) == 2
+    strip.list._move_threshold(between)
+    assert len(strip.chosen) == 2 and strip.exclude_above.text().endswith("2 above · leave out")
     qtbot.mouseClick(strip.exclude_above, LEFT)
     assert [v.image for v in full.session.project.views if not v.enabled] == sorted(strip_two(rms))
     assert full.session.document.undo_label == "Exclude 2 images"
@@ -140,28 +141,29 @@ def strip_two(rms: dict[str, float | None]) -> list[str]:
     return sorted(rms, key=lambda path: -(rms[path] or 0.0))[:2]
 
 
-def test_the_threshold_can_be_typed(full: MainWindow, qtbot: QtBot) -> None:
-    strip = full.images
-    strip.threshold.setFocus()
-    strip.threshold.selectAll()
-    qtbot.keyClicks(strip.threshold, "0")
-    qtbot.keyClick(strip.threshold, Qt.Key.Key_Return)
-    assert strip.list.threshold == 0.0
-    assert len(strip.above) == 6
+def test_the_threshold_is_moved_by_keys(full: MainWindow, qtbot: QtBot) -> None:
+    strip, view = full.images, full.images.list
+    view.setFocus()
+    while not strip.above:
+        before = view.threshold
+        qtbot.keyClick(view, Qt.Key.Key_Down)
+        assert view.threshold < before
+    assert set(strip.chosen) == set(strip.above) and strip.exclude_above.isVisible()
+    for _ in range(50):
+        qtbot.keyClick(view, Qt.Key.Key_Down)
+    assert view.threshold == 0.0 and len(strip.above) == 6
     assert not strip.exclude_above.isEnabled(), "nothing would be left"
+    for _ in range(50):
+        qtbot.keyClick(view, Qt.Key.Key_Up)
+    assert view.threshold == view.top and strip.above == []
 
 
-def test_every_digit_of_a_threshold_can_be_typed(full: MainWindow, qtbot: QtBot) -> None:
-    strip = full.images
-    errors = sorted(error for error in listed(full, Role.RMS) if isinstance(error, float))
-    typed = f"{errors[3]:.4f}"
-    strip.threshold.setFocus()
-    strip.threshold.selectAll()
-    for k, key in enumerate(typed, start=1):
-        qtbot.keyClicks(strip.threshold, key)
-        assert strip.threshold.cleanText() == typed[:k]
-    assert strip.list.threshold == float(typed)
-    assert set(strip.chosen) == set(strip.above) and 1 <= len(strip.above) <= 3
+def test_the_words_of_the_threshold_stand_at_its_right_end(full: MainWindow) -> None:
+    view, words = full.images.list, full.images.exclude_above
+    for share in (0.9, 0.5, 0.1):
+        view._move_threshold(share * view.top)
+        assert words.geometry().right() <= view.viewport().width()
+        assert words.geometry().bottom() == pytest.approx(view.place_of(view.threshold), abs=2)
 
 
 def test_a_result_with_other_errors_puts_the_threshold_above_them(full: MainWindow) -> None:
@@ -172,7 +174,7 @@ def test_a_result_with_other_errors_puts_the_threshold_above_them(full: MainWind
     worse = replace(session.result, calibration=replace(calibration, residuals=larger))
     chosen = strip.chosen
     session.edit("Calibrate", lambda p: replace(p, results={session.result_name: worse}))
-    assert strip.threshold.value() == pytest.approx(strip.list.top, rel=0.01)
+    assert strip.list.threshold == strip.list.top and not strip.exclude_above.isVisible()
     assert strip.above == [] and strip.chosen == chosen
 
 
@@ -182,7 +184,7 @@ def test_what_the_threshold_selected_is_not_selected_without_it(
     strip, session = full.images, full.session
     first, before = session.result, strip.chosen
     errors = sorted(error for error in listed(full, Role.RMS) if isinstance(error, float))
-    strip.threshold.setValue(errors[3])
+    strip.list._move_threshold(errors[3])
     assert set(strip.chosen) == set(strip.above) != set(before)
     qtbot.mouseClick(strip.exclude_above, LEFT)
     qtbot.waitUntil(lambda: session.result is not first)
@@ -190,20 +192,20 @@ def test_what_the_threshold_selected_is_not_selected_without_it(
     session.document.undo()
     assert session.result is first and strip.chosen == before
     # What the user selects stays.
-    strip.threshold.setValue(errors[3])
+    strip.list._move_threshold(errors[3])
     strip.list.selectAll()
     strip.exclude(strip.above)
     qtbot.waitUntil(lambda: session.result is not first)
     assert len(strip.chosen) == 7
 
 
-def test_a_bar_is_as_high_as_its_error_in_the_colour_of_its_view(full: MainWindow) -> None:
+def test_a_bar_is_as_high_as_its_error(full: MainWindow) -> None:
     view = full.images.list
     QApplication.processEvents()
     picture = view.viewport().grab().toImage()
     for row, error in enumerate(listed(full, Role.RMS)[:6]):
-        x = view.visualRect(view.model().index(row, 0)).left() + 8
-        colour = theme.view_colour(row)
+        x = view.visualRect(view.model().index(row, 0)).left() + 40
+        colour = QColor(theme.current().bar)
         drawn = [y for y in range(picture.height()) if picture.pixelColor(x, y) == colour]
         assert min(drawn) == pytest.approx(view.place_of(error), abs=1.0)
 
@@ -230,9 +232,9 @@ def test_the_fit_follows_and_one_undo_takes_both_back(full: MainWindow, qtbot: Q
     assert len(session.result.used) == 5
 
 
-def test_the_fit_does_not_follow_if_it_is_not_wanted(full: MainWindow, qtbot: QtBot) -> None:
+def test_the_fit_does_not_follow_if_it_is_not_wanted(full: MainWindow) -> None:
     before = full.session.result
-    qtbot.mouseClick(full.images.follows, LEFT, pos=QPoint(8, full.images.follows.height() // 2))
+    full.images.follows.trigger()
     full.images.exclude([full.session.image])
     assert not full.session.jobs.running
     assert full.session.result is before

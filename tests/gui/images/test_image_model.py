@@ -29,7 +29,7 @@ def test_one_finding_among_a_thousand_looks_at_few(
     images = FilmStrip(session)
     names = [str(tmp_path / f"{k:04}.png") for k in range(1000)]
     session.begin(Document(add_images(Project(), names)))
-    images.sorting.setCurrentIndex(criterion)
+    images.sorting[criterion].trigger()
     compared: list[int] = []
     sort_key = image_model.ImageModel.sort_key
 

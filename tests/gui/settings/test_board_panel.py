@@ -233,7 +233,7 @@ def test_the_shortcut_calibrates_with_the_size_that_was_typed(
     full: MainWindow, qtbot: QtBot
 ) -> None:
     full.activateWindow()
-    full.inspector.show_setup()
+    full.show_setup()
     full.board.inferred.click()
     for done in type_size(full.board, "8", "9"):
         if done == "columns":

@@ -63,9 +63,16 @@ def choose_item(combo: QComboBox, data: str | None, qtbot: QtBot) -> None:
         qtbot.keyClick(combo, step)
 
 
+def show_all_settings(window: MainWindow) -> None:
+    """Open the set-up with all that is folded up at first."""
+    window.show_setup()
+    for fold in window.setup.folds:
+        fold.setChecked(True)
+
+
 def test_the_lens_model_decides_what_can_be_held(full: MainWindow, qtbot: QtBot) -> None:
     panel, session = full.settings, full.session
-    full.inspector.show_setup()
+    show_all_settings(full)
     models = [panel.model.itemData(k) for k in range(panel.model.count())]
     assert models == [None, *MODEL_CHOICES]
     assert shown_boxes(panel) == list(list_parameter_names("lucchese"))
@@ -264,10 +271,10 @@ def test_outliers_left_out_are_seen_in_the_images_and_undone(
 
 
 def test_all_fields_begin_in_one_column(full: MainWindow, qtbot: QtBot) -> None:
-    full.inspector.show_setup()
+    show_all_settings(full)
     panel = full.settings
     fields = (panel.method, panel.model, panel.board_shape.model, panel.values)
-    qtbot.waitUntil(lambda: len({field.mapTo(panel, QPoint()).x() for field in fields}) == 1)
+    qtbot.waitUntil(lambda: len({field.mapTo(full, QPoint()).x() for field in fields}) == 1)
 
 
 def test_a_new_project_begins_with_the_automatic_choice(window: MainWindow) -> None:
@@ -301,7 +308,7 @@ def test_every_lens_model_can_be_chosen_and_its_parameters_held(
     full: MainWindow, qtbot: QtBot
 ) -> None:
     panel, session = full.settings, full.session
-    full.inspector.show_setup()
+    show_all_settings(full)
     for model in MODEL_CHOICES:
         choose_item(panel.model, model, qtbot)
         assert session.project.settings.model == model

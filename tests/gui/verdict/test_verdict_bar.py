@@ -17,7 +17,7 @@ from pytestqt.qtbot import QtBot
 from calibgui.app.calibrating.calibration import calibrate_views
 from calibgui.app.calibrating.settings import Settings
 from calibgui.app.projects.document import Document
-from calibgui.app.projects.project import Project, change_views, record_result
+from calibgui.app.projects.project import Project, Unit, change_views, record_result
 from calibgui.app.projects.project_file import read_project, write_project
 from calibgui.dataset import CornerSet, View, ViewStatus, judging
 from calibgui.engine.assessment import Cause, Grade
@@ -126,20 +126,24 @@ def test_a_sound_result_has_its_figures_and_no_findings(
     assert "if squares" not in bar.figures.text()
     assert not bar.unfold.isVisible() and not bar.square.isVisible()
     # What can be done about pixels that are not known well is to add views.
-    window.inspector_dock.hide()
     assert not verdict.is_known_well and bar.button.text() == "Show where to hold the board"
     qtbot.mouseClick(bar.button, LEFT)
     assert isinstance(window.need_analysis().shown, CoveragePanel)
     assert window.need_analysis().isVisible()
 
 
-def test_photographs_that_are_not_used_are_counted(plain: Project, open_project: Open) -> None:
-    bar = open_project(calibrated(plain))
-    name = Path(plain.views[-1].image).stem
-    lost = f"1 of 7 ({name}) could not be used: click one to see why."
-    assert bar.reason.text().endswith(lost)
-    bar = open_project(calibrated(replace(plain, views=plain.views[:-1])))
-    assert "could not be used" not in bar.reason.text()
+def test_photographs_that_are_not_used_are_counted(
+    plain: Project, open_project: Open, window: MainWindow, qtbot: QtBot
+) -> None:
+    open_project(calibrated(plain))
+    done, name = window.inspector.done, Path(plain.views[-1].image).stem
+    [row] = [row for row in done.rows if not row.entry.is_good]
+    assert row.words.text() == f"1 of 7 photographs could not be used: {name}"
+    window.session.select(plain.views[0].image)
+    qtbot.mouseClick(row.link, LEFT)
+    assert window.session.image == plain.views[-1].image and window.page.isVisible()
+    open_project(calibrated(replace(plain, views=plain.views[:-1])))
+    assert all(row.entry.is_good for row in done.rows)
 
 
 def test_no_photograph_that_can_be_used_is_said(plain: Project, window: MainWindow) -> None:
@@ -361,10 +365,10 @@ def test_a_project_that_is_opened_again_is_not_judged_again(
         (
             Circles(),
             "How far apart are the circles?",
-            "Distance of circles:",
+            "Distance of circles",
             "circles are {} apart",
         ),
-        (AprilGrid(), "How long are the tags' sides?", "Side of a tag:", "tags are {}"),
+        (AprilGrid(), "How long are the tags' sides?", "Side of a tag", "tags are {}"),
     ],
     ids=["circles", "aprilgrid"],
 )
@@ -380,7 +384,7 @@ def test_what_is_asked_of_other_boards_than_squares(
     window.session.begin(Document(replace(project, pattern=pattern, results=MappingProxyType({}))))
     row = window.verdict.square
     assert row.isVisible() and row.counted.text().startswith(question)
-    assert "square" not in row.counted.text() and row.side.text() == side
+    assert "square" not in row.counted.text() and row.square.accessibleName() == side
 
 
 def test_a_project_whose_lengths_are_confirmed_asks_nothing(
@@ -418,7 +422,8 @@ def test_changed_settings_make_a_result_old_and_undo_makes_it_new(
 ) -> None:
     bar = open_project(calibrated(plain))
     session, settings = window.session, window.settings
-    window.inspector.show_setup()
+    window.show_setup()
+    window.setup.folds[2].setChecked(True)
 
     def click(box: QCheckBox) -> None:
         qtbot.mouseClick(box, LEFT, pos=QPoint(8, box.height() // 2))
@@ -447,8 +452,8 @@ def test_changed_settings_make_a_result_old_and_undo_makes_it_new(
     ):
         change()
         assert bar.reason.text().startswith("Out of date, as settings have changed"), change
-        assert window.need_analysis().state.text() == "out of date"
-        assert "settings" in window.need_analysis().state.toolTip()
+        assert window.inspector.camera.state.text() == "out of date"
+        assert "settings" in window.inspector.camera.state.toolTip()
         qtbot.keyClick(window, Qt.Key.Key_E, Qt.KeyboardModifier.ControlModifier)
         dialog = QApplication.activeModalWidget()
         assert isinstance(dialog, ExportDialog)
@@ -456,7 +461,7 @@ def test_changed_settings_make_a_result_old_and_undo_makes_it_new(
         dialog.close()
         qtbot.keyClick(window, Qt.Key.Key_Z, Qt.KeyboardModifier.ControlModifier)
         assert "Out of date" not in bar.reason.text(), change
-        assert not window.need_analysis().state.text()
+        assert not window.inspector.camera.state.text()
     click(settings.robust)
     qtbot.mouseClick(window.calibrate, LEFT)
     qtbot.waitUntil(lambda: len(session.project.results) == 2, timeout=60_000)
@@ -509,3 +514,38 @@ def test_before_and_after_measures_its_tables_once(
         window.resize(width, 720)
         QApplication.processEvents()
     assert comparison.geometry() == before
+
+
+def test_a_step_that_made_the_camera_better_is_said_and_undone(
+    plain: Project, open_project: Open, window: MainWindow, qtbot: QtBot
+) -> None:
+    first = calibrated(plain)
+    open_project(first)
+    done, name = window.inspector.done, next(iter(first.results))
+    better = replace(first.results[name], improvements=("The board is bowed: estimated.",))
+    window.session.edit("Make camera better", lambda p: record_result(p, name, plain.views, better))
+    row = done.rows[0]
+    assert row.words.text() == "The board is bowed: estimated." and row.link.text() == "undo"
+    window.session.edit("Other", lambda p: replace(p, unit=Unit.INCH))
+    assert done.rows[0].link.text() == "why", "what was done since would be taken back"
+    qtbot.mouseClick(done.rows[0].link, LEFT)
+    assert isinstance(window.need_analysis().shown, ResidualsPanel)
+    window.session.document.undo()
+    qtbot.mouseClick(done.rows[0].link, LEFT)
+    assert window.session.project is first
+    assert all(row.link.text() != "undo" for row in done.rows)
+    qtbot.waitUntil(lambda: not window.session.jobs.running, timeout=60_000)
+
+
+def test_the_numbers_stand_on_a_map_of_the_sensor(
+    plain: Project, open_project: Open, window: MainWindow
+) -> None:
+    bar = open_project(calibrated(plain))
+    picture = bar.figures.grab().toImage()
+    colours = {
+        picture.pixelColor(x, picture.height() // 3).name() for x in range(20, picture.width(), 20)
+    }
+    assert len(colours) > 5, "the error differs over the sensor"
+    assert len(bar.figures.list_places()) >= 7
+    window.session.edit("Begin", lambda p: replace(p, results={}))
+    assert bar.figures.list_places() == [] and bar.figures.text() == ""

@@ -6,7 +6,7 @@ import pytest
 from PySide6.QtGui import QFontMetrics
 from PySide6.QtWidgets import QApplication
 
-from calibgui.gui.panels.analysis import PANEL_WIDTH
+from calibgui.gui.panels.mode_page import PANEL_WIDTH
 from calibgui.gui.widgets.elided import elide_name
 
 

@@ -19,13 +19,13 @@ def make_label(qtbot: QtBot, lines: int) -> ReservedLabel:
 
 def test_its_height_is_that_of_its_lines(qtbot: QtBot) -> None:
     label = make_label(qtbot, 3)
-    height = 3 * label.fontMetrics().lineSpacing()
+    height = 3 * label.line_height
     for text in ("", "One line.", LONG, "Two\nlines."):
         label.setText(text)
         assert label.text() == text
         assert label.height() == label.sizeHint().height() == height
     label.reserve(1)
-    assert label.height() == label.fontMetrics().lineSpacing()
+    assert label.height() == label.line_height
 
 
 def test_what_is_cut_stands_in_the_tooltip(qtbot: QtBot) -> None:
@@ -60,4 +60,4 @@ def test_it_looks_as_a_label_does(qtbot: QtBot) -> None:
     plain.setWordWrap(True)
     label.setText(text)
     plain.resize(label.size())
-    assert label.count_lines() * label.fontMetrics().lineSpacing() == plain.heightForWidth(300)
+    assert label.count_lines() * label.line_height == plain.heightForWidth(300)

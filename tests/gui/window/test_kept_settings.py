@@ -50,7 +50,8 @@ def _open_window(qtbot: QtBot, project: Project) -> None:
     qtbot.addWidget(window)
     window.open_up()
     window.session.begin(Document(project))
-    assert window.isVisible() and window.inspector_dock.isVisible()
+    assert window.isVisible() and window.images.isVisible()
+    assert window.inspector.isVisible() or window.header.grade.isVisible()
 
 
 def test_what_is_kept_is_read_as_what_it_was() -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import replace
+from itertools import combinations
 from pathlib import Path
 
 import pytest
@@ -16,7 +17,7 @@ from calibgui.dataset import ViewStatus
 from calibgui.engine.assessment import Action, ActionKind, Grade, PixelError
 from calibgui.gui.panels.analysis import PANELS
 from calibgui.gui.panels.panel import Panel
-from calibgui.gui.verdict.texts import describe_button, describe_grade, describe_pixel_error
+from calibgui.gui.verdict.texts import describe_button, describe_grade
 from calibgui.gui.widgets.overlay import Overlay
 from calibgui.gui.widgets.reserved_label import ReservedLabel
 from calibgui.gui.widgets.wrapped_label import WrappedLabel
@@ -77,15 +78,14 @@ def is_over_the_desk(widget: QWidget) -> bool:
 
 
 def show_pages(window: MainWindow) -> Iterator[Panel | None]:
-    """Show the pages of the inspector one after the other, and the words of the tools."""
-    window.inspector.show_setup()
+    """Show what lies over the desk, the words of the tools, and what the modes show."""
+    window.show_setup()
     yield None
+    window.header.setup.setChecked(False)
     for tool in window.page.tools:
-        window.inspector.show_image_page()
         tool.trigger()
         yield None
     window.page.marker.leave()
-    window.inspector.show_image_page()
     yield None
     for kind in PANELS:
         yield window.need_analysis().show_panel(kind)
@@ -120,12 +120,16 @@ def test_every_text_of_several_lines_has_its_place(sized: MainWindow, qtbot: QtB
     qtbot.waitUntil(lambda: not sized.session.jobs.running, timeout=60_000)
 
 
-def test_every_error_of_a_pixel_has_a_line(sized: MainWindow) -> None:
-    figures = sized.verdict.figures
+def test_every_error_of_a_pixel_has_its_place(sized: MainWindow) -> None:
+    """The numbers and what is below them stand apart, as long as they can be."""
+    figures, verdict = sized.verdict.figures, sized.verdict.verdict
+    assert verdict is not None
     for px in (0.0001, 0.0088, 0.088, 0.88, 8.8, 888.0, 8888.0):
-        line = describe_pixel_error(PixelError(*[px] * 6))
-        figures.setText("\n".join([line] * 3))
-        assert not figures.is_cut, line
+        shown = replace(verdict, error=PixelError(*[px] * 6))
+        figures.show_verdict(shown, sized.verdict._result, "RMS 0.12 px", dimmed=False)
+        places = figures.list_places()
+        assert all(figures.rect().contains(place.toAlignedRect()) for place in places), px
+        assert not any(a.intersects(b) for a, b in combinations(places, 2)), px
 
 
 def test_other_names_and_numbers_move_nothing(sized: MainWindow, qtbot: QtBot) -> None:
@@ -134,7 +138,7 @@ def test_other_names_and_numbers_move_nothing(sized: MainWindow, qtbot: QtBot) -
     assert result is not None
     views = tuple(replace(v, image=f"{LONG}_{v.name}") for v in result.views)
     bar._result = replace(result, views=views)
-    analysis = sized.need_analysis()
+    camera = sized.inspector.camera
     leave_out = Action(ActionKind.LEAVE_OUT_VIEWS, views=tuple(range(6)))
     bar.button.show()
     bar.unfold.show()
@@ -143,22 +147,23 @@ def test_other_names_and_numbers_move_nothing(sized: MainWindow, qtbot: QtBot) -
         bar.headline.setText(describe_grade(Grade.CAN_BE_BETTER if much else Grade.GOOD, 888.0))
         bar.button.setText(describe_button(leave_out, bar._list_names()) if much else "Free fx")
         bar.unfold.setText("88 &findings" if much else "&1 finding")
-        sized.images.count.setText("1,888 of 1,888 usable" if much else "1 of 1 usable")
-        sized.images.exclude_above.setText("E&xclude above: 188" if much else "None above")
-        analysis.state.setText("out of date" if much else "")
-        analysis.results.setItemText(0, LONG if much else "A")
-        analysis.results.setCurrentIndex(0)
+        sized.header.summary.setText("1,888 of 1,888 photographs" if much else "1 photograph")
+        sized.header.name.setText("A name" if much else "A")
+        camera.state.setText("out of date" if much else "")
+        camera.results.setItemText(0, LONG if much else "A")
+        camera.results.setCurrentIndex(0)
         sized.calibrate.setText("Stopping…" if much else "&Stop")
 
     say(much=False)
-    own = (bar.headline, bar.button, bar.unfold, sized.images.count, analysis.state)
-    before = find_places(sized, qtbot, *own, analysis.results)
+    own = (bar.headline, bar.button, bar.unfold, camera.state, camera.more)
+    own += (sized.header.name, sized.header.summary, sized.calibrate, sized.progress)
+    before = find_places(sized, qtbot, *own)
     say(much=True)
     job = session.jobs.start(MANY, lambda job: job.cancelling.wait(60))
     after = find_places(sized, qtbot)
     job.cancel()
     assert list_moved(before, after) == []
-    assert (sized.inspector.minimumSizeHint().width()) == Inspector.WIDTH
+    assert sized.inspector.width() in (Inspector.WIDTH, sized.width())
     qtbot.waitUntil(lambda: not session.jobs.running)
 
 
@@ -170,7 +175,7 @@ def test_the_place_of_the_question_is_kept(
     waiting = tuple(replace(v, status=ViewStatus.WAITING, corners=None) for v in project.views)
     window.session.begin(Document(replace(project, views=waiting, results={})))
     assert not window.verdict.square.isVisible()
-    before = find_places(window, qtbot)
+    before = find_places(window, qtbot, window.page.caption)  # which lies over the picture
     window.session.document.learn(lambda p: replace(p, views=project.views))
     assert window.verdict.square.isVisible()
     assert list_moved(before, find_places(window, qtbot)) == []

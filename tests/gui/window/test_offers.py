@@ -16,6 +16,7 @@ from pytestqt.qtbot import QtBot
 from calibgui.app.calibrating.settings import DEFAULT_SETTINGS
 from calibgui.app.photographs.board_recognition import find_other_pattern
 from calibgui.app.photographs.detection import Detection, find_views
+from calibgui.app.photographs.other_board import OtherBoard
 from calibgui.app.photographs.paths import find_images
 from calibgui.app.projects.document import Document
 from calibgui.app.projects.project import Project, add_images, set_grid_size, set_pattern
@@ -87,7 +88,7 @@ def test_an_offer_ends_with_its_project(window: MainWindow, tmp_path: Path) -> N
 def test_an_offer_of_another_board_ends_when_another_is_chosen(window: MainWindow) -> None:
     """It would offer what is searched for already, or over what was found with undo."""
     window.session.edit("Pattern", lambda project: set_pattern(project, AprilGrid()))
-    window.offers._offer_another(offers._OtherBoard(Charuco()))
+    window.offers._offer_another(OtherBoard(Charuco()))
     assert "ChArUco" in window.banner.text.text() and window.banner.isVisible()
     window.session.edit("Square", lambda project: replace(project, square=12.0))
     assert window.banner.isVisible()
@@ -166,7 +167,7 @@ def test_a_board_of_another_kind_is_taken_as_one_where_none_was_stated(
     session.document.undo()
     session.document.undo()
     assert session.project.pattern == CHECKERBOARD
-    window.offers._offer_another(offers._OtherBoard(pattern))
+    window.offers._offer_another(OtherBoard(pattern))
     assert session.project.pattern == CHECKERBOARD and window.banner.buttons
 
 
@@ -353,7 +354,7 @@ def test_grids_of_circles_that_are_cut_are_refused_as_by_the_command_line(
     assert session.result is None and not session.jobs.running, "the button does no other"
 
     # Once the size is stated, what is seen of such a grid is its whole.
-    window.inspector.show_setup()
+    window.show_setup()
     qtbot.mouseClick(board.inferred, LEFT, pos=QPoint(8, board.inferred.height() // 2))
     assert session.project.grid_size == (4, 4)
     qtbot.mouseClick(window.calibrate, LEFT)

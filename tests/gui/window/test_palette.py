@@ -99,7 +99,6 @@ def test_it_finds_by_the_menu_and_by_the_tip(full: MainWindow, qtbot: QtBot) -> 
 def test_it_finds_panels_and_brings_them_into_sight(
     full: MainWindow, qtbot: QtBot, typed: str, title: str, kind: type[Panel]
 ) -> None:
-    full.inspector_dock.hide()
     palette = open_palette(full, qtbot)
     qtbot.keyClicks(palette.search, typed)
     assert texts(palette)[0] == title
@@ -112,7 +111,7 @@ def test_the_set_up_is_found_before_there_is_a_result(window: MainWindow, qtbot:
     window.session.edit("Add", lambda p: add_images(p, ["a.png"]))
     palette = open_palette(window, qtbot)
     palette.search.setText("show panel")
-    assert texts(palette) == ["Image", "Set-up"]
+    assert texts(palette) == ["Photographs", "Set-up"]
     palette.reject()
 
 
@@ -169,11 +168,11 @@ def test_the_reason_goes_when_the_action_can_be_chosen(full: MainWindow) -> None
 
 PARTS: dict[str, Callable[[MainWindow], QWidget]] = {
     "list": lambda window: window.images.list,
-    "sorting": lambda window: window.images.sorting,
+    "modes": lambda window: window.header.modes,
     "canvas": lambda window: window.page.canvas,
     "calibrate": lambda window: window.calibrate,
-    "results": lambda window: window.need_analysis().results,
-    "panels": lambda window: window.need_analysis().shown,
+    "results": lambda window: window.inspector.camera.results,
+    "panels": lambda window: window.need_analysis().show_panel(StageOnePanel).table,
 }
 
 

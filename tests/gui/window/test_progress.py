@@ -91,7 +91,7 @@ def test_a_search_is_ended_where_its_progress_is_told(
 
 
 def test_the_longest_words_about_a_job_have_room(window: MainWindow, qtbot: QtBot) -> None:
-    progress, jobs = window.inspector.findChildren(Progress)[0], window.session.jobs
+    progress, jobs = window.progress, window.session.jobs
     window.resize(1120, 760)
     go_on = Event()
     compiling = "Compiling for speed, once"
@@ -113,7 +113,7 @@ def test_the_longest_words_about_a_job_have_room(window: MainWindow, qtbot: QtBo
 def test_what_the_user_works_on_is_told_before_what_is_compiled(
     window: MainWindow, qtbot: QtBot
 ) -> None:
-    progress, jobs = window.inspector.findChildren(Progress)[0], window.session.jobs
+    progress, jobs = window.progress, window.session.jobs
     go_on = Event()
     jobs.start("Compiling", lambda _: go_on.wait(20), is_about_document=False)
     qtbot.waitUntil(lambda: progress.label.text() == "Compiling")

@@ -2,27 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import replace
+from collections.abc import Mapping, Sequence
 from functools import partial
-from typing import cast
 
 import numpy as np
 from PySide6.QtCore import QT_TRANSLATE_NOOP
 from PySide6.QtWidgets import QComboBox, QHBoxLayout, QLabel, QVBoxLayout
 
 from calibgui.app.calibrating.calibration import shorten_names
-from calibgui.app.outputs.resampling import Undistortion
+from calibgui.app.outputs.previews import undistort_alike
 from calibgui.dataset import Result
-from calibgui.engine.arrays import Array
 from calibgui.engine.assessment import CameraDifference, compare_cameras
-from calibgui.engine.geometry import rotation_from_vector
-from calibgui.engine.images import Image, make_ideal_image
 from calibgui.engine.numbers import format_two_digits
 from calibgui.gui.panels.latest import Latest
 from calibgui.gui.panels.panel import Panel
 from calibgui.gui.panels.parts.difference_map import DifferenceMap
-from calibgui.gui.panels.parts.divided_images import DividedImages, Grey
+from calibgui.gui.panels.parts.divided_images import DividedImages
 from calibgui.gui.panels.parts.estimates import estimate_columns
 from calibgui.gui.panels.services import Services
 from calibgui.gui.widgets.narrow_combo import NarrowCombo
@@ -232,26 +227,3 @@ class ComparePanel(Panel):
     def _fail_image(self, error: Exception) -> None:
         self.images.show_images(None, None)
         self.words.setText(str(error))
-
-
-def undistort_alike(
-    a: Result, b: Result, turn: Array, path: str, read: Callable[[str], Image]
-) -> tuple[Grey, Grey]:
-    """Undistort an image by the cameras of two results, so that both show the same directions.
-
-    Args:
-        a, b: results of one image size.
-        turn: (3,) rotation vector b_from_a, rad, between the cameras' frames.
-        path: the image.
-        read: reads it.
-
-    Raises:
-        CalibrationError: if the image cannot be read, or has another size.
-    """
-    grey = read(path).grey
-    (ideal,) = Undistortion().choose_cameras(a.calibration.camera).values()
-    turned = replace(ideal, rotation=rotation_from_vector(turn) @ ideal.rotation)
-    return (
-        cast(Grey, make_ideal_image(grey, a.calibration.camera, ideal).image),
-        cast(Grey, make_ideal_image(grey, b.calibration.camera, turned).image),
-    )

@@ -48,7 +48,7 @@ class Matrix(QWidget):
         painter = QPainter(self)
         colours = theme.current()
         font = painter.font()
-        font.setPointSizeF(max(6.0, min(10.0, self.cell(0, 0).width() / 5)))
+        font.setPixelSize(round(max(8.0, min(theme.TEXT, self.cell(0, 0).width() / 4))))
         painter.setFont(font)
         centred = Qt.AlignmentFlag.AlignCenter
         for i, name in enumerate(self._names):

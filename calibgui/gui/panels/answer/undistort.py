@@ -3,33 +3,22 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
-from typing import cast
 
-import numpy as np
 from PySide6.QtCore import QT_TRANSLATE_NOOP
 from PySide6.QtWidgets import QComboBox, QHBoxLayout, QPushButton, QSpinBox, QVBoxLayout
 
 from calibgui.app.calibrating.calibration import shorten_names
+from calibgui.app.outputs.previews import Grey, transform_image
 from calibgui.app.outputs.resampling import Undistortion
 from calibgui.dataset import Result, ViewStatus
-from calibgui.engine.images import (
-    FieldOfView,
-    Image,
-    Projection,
-    describe_hidden_angles,
-    make_ideal_image,
-    rectify_image,
-)
-from calibgui.gui.panels.answer.cube_cross import unfold_cube
+from calibgui.engine.images import FieldOfView, Projection
 from calibgui.gui.panels.latest import Latest
 from calibgui.gui.panels.panel import Panel
-from calibgui.gui.panels.parts.divided_images import DividedImages, Grey
+from calibgui.gui.panels.parts.divided_images import DividedImages
 from calibgui.gui.panels.services import Services
 from calibgui.gui.widgets.elided import elide_name
 from calibgui.gui.widgets.narrow_combo import NarrowCombo
 from calibgui.gui.widgets.reserved_label import ReservedLabel
-from calibgui.report.coverage import find_shown_extent, measure_natural_scale
 
 RECTIFIED = "rectified"
 """Stands beside the projections for an image rectified to the board."""
@@ -211,40 +200,3 @@ class UndistortPanel(Panel):
 
     def _save(self, views: tuple[int, ...]) -> None:
         self.save_wanted.emit(views, self.choice)
-
-
-def transform_image(
-    result: Result, k: int, choice: Undistortion | None, read: Callable[[str], Image]
-) -> tuple[Grey | None, Grey, str]:
-    """The image of calibrated view k, what becomes of it, and which angle of the lens is lost.
-
-    A rectified image stands alone, and loses what is not the board. The faces of a cube are
-    unfolded into one picture.
-
-    Raises:
-        CalibrationError: if the image cannot be read, or not be changed so.
-    """
-    grey = read(result.used[k].image).grey
-    camera = result.calibration.camera
-    if choice is None:
-        pose, extent = result.calibration.poses[k], find_shown_extent(result)
-        rectified = rectify_image(grey, camera, pose, extent, measure_natural_scale(result))
-        return None, cast(Grey, rectified.image), ""
-    ideals = choice.choose_cameras(camera)
-    made = {
-        face: cast(Grey, make_ideal_image(grey, camera, ideal).image)
-        for face, ideal in ideals.items()
-    }
-    after = made[""] if "" in made else unfold_cube(made)
-    return _pad_to_aspect(grey, after), after, describe_hidden_angles(camera, ideals)
-
-
-def _pad_to_aspect(image: Grey, other: Grey) -> Grey:
-    """Return the image with black around it, its sides in the ratio of another's."""
-    (height, width), (rows, columns) = image.shape, other.shape
-    wide, high = (
-        max(width, round(height * columns / rows)),
-        max(height, round(width * rows / columns)),
-    )
-    left, top = (wide - width) // 2, (high - height) // 2
-    return np.pad(image, ((top, high - height - top), (left, wide - width - left)))

@@ -32,11 +32,7 @@ class HistogramPlot(Plot):
         self._extent = (0.0, 1.0), (0.0, 1.0)
 
     def show_histogram(
-        self,
-        histogram: Histogram,
-        name: str,
-        unit: str,
-        extent: tuple[float, float] | None = None,
+        self, histogram: Histogram, name: str, unit: str, extent: tuple[float, float] | None = None
     ) -> None:
         """Show the density of a quantity.
 

@@ -94,11 +94,6 @@ class PosesPanel(Panel):
             else self.tr(
                 "{0} views, {1:.0f} to {2:.0f} mm away{3}, tilted by {4:.0f}° to {5:.0f}°"
             ).format(
-                len(tilt),
-                distance.min(),
-                distance.max(),
-                self._condition,
-                tilt.min(),
-                tilt.max(),
+                len(tilt), distance.min(), distance.max(), self._condition, tilt.min(), tilt.max()
             )
         )

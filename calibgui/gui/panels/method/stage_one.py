@@ -71,9 +71,9 @@ class StageOnePanel(Panel):
             lambda _, points: self._pick(round(points[0].pos().x()) - 1)
         )
         self._current = self.aspects.plot(pen=None, symbol="o", symbolSize=13, symbolBrush=None)
-        plots = Split(560, (self.equation, 1), (self.aspects, 1))
+        plots = Split(400, (self.equation, 1), (self.aspects, 1))
         layout = QVBoxLayout(self.body)
-        layout.addWidget(Split(900, (self.table, 1), (plots, 1)))
+        layout.addWidget(Split(640, (self.table, 1), (plots, 1)))
 
     def _refresh(self, result: Result) -> None:
         self._rows = tuple(result.calibration.stage_one)

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from pytestqt.qtbot import QtBot
 
+from calibgui.app.outputs.previews import undistort_alike
 from calibgui.dataset import Result
 from calibgui.engine.assessment.changes.comparison import compare_cameras
 from calibgui.engine.camera.camera import Camera
@@ -16,7 +17,7 @@ from calibgui.engine.images.reading import Image
 from calibgui.engine.images.rendering import render_view
 from calibgui.engine.numbers import format_two_digits
 from calibgui.gui.jobs.jobs import Jobs
-from calibgui.gui.panels.answer.compare import ComparePanel, undistort_alike
+from calibgui.gui.panels.answer.compare import ComparePanel
 from calibgui.gui.panels.services import Services
 from calibgui.report.comparison import compare_parameters
 from tests.engine import scenes

@@ -12,6 +12,7 @@ from PySide6.QtCore import QPoint, Qt
 from PySide6.QtGui import QImage
 from pytestqt.qtbot import QtBot
 
+from calibgui.app.outputs.previews import unfold_cube
 from calibgui.app.outputs.resampling import Undistortion
 from calibgui.dataset import Result
 from calibgui.engine.arrays import Array
@@ -25,7 +26,6 @@ from calibgui.engine.images.undistortion import (
     undistort_image,
 )
 from calibgui.gui.jobs.jobs import Jobs
-from calibgui.gui.panels.answer.cube_cross import unfold_cube
 from calibgui.gui.panels.answer.undistort import RECTIFIED, STATED_ANGLE, UndistortPanel
 from calibgui.gui.panels.services import Services
 from calibgui.report.coverage import find_shown_extent, measure_natural_scale

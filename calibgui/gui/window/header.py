@@ -1,0 +1,145 @@
+"""The bar above everything: what is worked on, the modes, and what is done most."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import QEvent, Qt
+from PySide6.QtGui import QColor, QPainter, QPaintEvent, QResizeEvent
+from PySide6.QtWidgets import QGridLayout, QHBoxLayout, QLabel, QSizePolicy, QWidget
+
+from calibgui.app.projects.project import Project
+from calibgui.engine.assessment import Grade
+from calibgui.gui.session.session import Session
+from calibgui.gui.verdict.grade_icon import GradeIcon
+from calibgui.gui.widgets import theme
+from calibgui.gui.widgets.buttons import Button, Kind
+from calibgui.gui.widgets.elided import ElidedLabel
+from calibgui.gui.widgets.pattern_texts import list_pattern_texts
+from calibgui.gui.window.mode_bar import ModeBar
+
+_HEIGHT = 44
+"""Of each row, device-independent px."""
+_LEAST = 180
+"""Room for the project's name, with which the modes stand beside it, device-independent px."""
+
+
+class Header(QWidget):
+    """Names the project, with what is in it; the modes get a row of their own in a narrow window.
+
+    Args:
+        session: whose project is named.
+    """
+
+    def __init__(self, session: Session) -> None:
+        super().__init__()
+        self._session = session
+        self.name, self.summary = QLabel(), ElidedLabel()
+        self.modes = ModeBar()
+        self.setup = Button(self.tr("Set-up"))
+        self.setup.setCheckable(True)
+        self.setup.setToolTip(self.tr("The board, the lens, and how to calibrate"))
+        self.export = Button(self.tr("Export…"), Kind.MAIN)
+        self.export.setToolTip(self.tr("Write the camera for another program (Ctrl+E)"))
+        self.grade = Button()
+        self.grade.setToolTip(self.tr("Show the verdict, or hide it again"))
+        self.grade.setCheckable(True)
+        self.grade.hide()
+        self.icon = GradeIcon()
+        self.icon.hide()
+        about = QWidget()
+        about.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
+        row = QHBoxLayout(about)
+        row.setContentsMargins(0, 0, 0, 0)
+        row.setSpacing(theme.SPACING)
+        row.addWidget(self.name)
+        row.addWidget(self.summary, 1)
+        buttons = QWidget()
+        ends = QHBoxLayout(buttons)
+        ends.setContentsMargins(0, 0, 0, 0)
+        ends.setSpacing(theme.SPACING)
+        ends.addStretch(1)
+        for widget in (self.icon, self.grade, self.setup, self.export):
+            ends.addWidget(widget)
+        self._buttons = buttons
+        self._grid = QGridLayout(self)
+        self._grid.setContentsMargins(theme.MARGIN, 0, theme.MARGIN - 2, 0)
+        self._grid.setHorizontalSpacing(theme.MARGIN)
+        self._grid.setVerticalSpacing(0)
+        self._grid.addWidget(about, 0, 0)
+        self._grid.addWidget(buttons, 0, 2)
+        self._grid.setColumnStretch(0, 2)
+        self._grid.setColumnStretch(2, 1)
+        self._is_folded: bool | None = None
+        self._fold(folded=False)
+        self._restyle()
+        session.changed.connect(lambda _, after: self._show(after))
+        self._show(session.project)
+
+    def show_grade(self, grade: Grade | None, text: str) -> None:
+        """Tell the verdict, for the case that the inspector is out of sight."""
+        self.icon.show_grade(grade)
+        self.grade.setText(text)
+
+    def stand_in_for_inspector(self, hidden: bool) -> None:
+        """Show the verdict here while the inspector is out of sight."""
+        is_open = bool(self._session.project.views)
+        self.icon.setVisible(hidden and is_open)
+        self.grade.setVisible(is_open and (hidden or self.grade.isChecked()))
+        self.grade.setChecked(not hidden)
+
+    def show_modes(self, shown: bool) -> None:
+        """Show what there is to choose, or nothing where there are no photographs."""
+        for widget in (self.modes, self.setup, self.export):
+            widget.setVisible(shown)
+
+    def _show(self, project: Project) -> None:
+        path = self._session.document.path
+        name = path.stem if path is not None else self.tr("Untitled")
+        metrics = self.name.fontMetrics()
+        self.name.setText(metrics.elidedText(name, Qt.TextElideMode.ElideMiddle, 200))
+        self.name.setToolTip("" if path is None else str(path))
+        self.summary.setText(self._describe(project))
+        self.summary.setToolTip(self.summary.text())
+
+    def _describe(self, project: Project) -> str:
+        """Say how many photographs there are, and of what."""
+        count, usable = len(project.views), sum(view.usable for view in project.views)
+        if not count:
+            return ""
+        parts = [
+            self.tr("{0} photographs").format(count)
+            if usable in (0, count)
+            else self.tr("{0} of {1} photographs usable").format(usable, count)
+        ]
+        if (board := project.board) is not None and usable:
+            kind = list_pattern_texts()[project.pattern.kind].name
+            length = f"{project.square / project.unit.mm:g} {project.unit}"
+            parts.append(f"{kind} {board.rows} × {board.cols}, {length}")
+        return " · ".join(parts)
+
+    def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name
+        super().resizeEvent(event)
+        needed = self.modes.sizeHint().width() + self._buttons.sizeHint().width()
+        self._fold(folded=needed + _LEAST > event.size().width())
+
+    def _fold(self, *, folded: bool) -> None:
+        """Put the modes below the rest, or into its middle."""
+        if folded is not self._is_folded:
+            self._is_folded = folded
+            self._grid.addWidget(self.modes, *((1, 0, 1, 3) if folded else (0, 1)))
+            self._grid.setRowMinimumHeight(0, _HEIGHT)
+            self._grid.setRowMinimumHeight(1, _HEIGHT if folded else 0)
+            self.setFixedHeight((2 if folded else 1) * _HEIGHT)
+
+    def changeEvent(self, event: QEvent) -> None:  # noqa: N802 - Qt's name
+        super().changeEvent(event)
+        if event.type() == QEvent.Type.PaletteChange and hasattr(self, "summary"):
+            self._restyle()
+
+    def _restyle(self) -> None:
+        self.name.setFont(theme.make_font(bold=True))
+        theme.set_text_colour(self.summary, theme.current().muted)
+
+    def paintEvent(self, event: QPaintEvent) -> None:  # noqa: N802, ARG002 - Qt's name
+        painter, colours = QPainter(self), theme.current()
+        painter.fillRect(self.rect(), QColor(colours.base))
+        painter.fillRect(0, self.height() - 1, self.width(), 1, QColor(colours.line))

@@ -1,0 +1,62 @@
+"""The set-up: the board, the lens, and what is for experts, each to be folded."""
+
+from __future__ import annotations
+
+from PySide6.QtWidgets import QVBoxLayout, QWidget
+
+from calibgui.gui.settings.board_panel import BoardPanel
+from calibgui.gui.settings.settings_panel import SettingsPanel
+from calibgui.gui.widgets import theme
+from calibgui.gui.widgets.buttons import Button, Kind
+from calibgui.gui.widgets.scrolling import make_scrollable
+from calibgui.gui.widgets.sheet import Sheet
+
+_WIDTH = 440
+"""Device-independent px."""
+
+
+class SetupSheet(Sheet):
+    """Lies over the right of the desk.
+
+    Args:
+        desk: that it lies over.
+        board, settings: what is set up.
+    """
+
+    def __init__(self, desk: QWidget, board: BoardPanel, settings: SettingsPanel) -> None:
+        super().__init__(desk, _WIDTH, fills=True)
+        inside = QWidget()
+        column = QVBoxLayout(inside)
+        column.setContentsMargins(theme.MARGIN, theme.SPACING, theme.MARGIN, theme.MARGIN)
+        column.setSpacing(theme.SPACING // 2)
+        self.folds: list[Button] = []
+        for title, tip, part, is_open in (
+            (self.tr("Board"), self.tr("What is photographed"), board, True),
+            (self.tr("Lens"), self.tr("Which model describes the lens"), settings.lens, True),
+            (self.tr("For experts"), self.tr("How to calibrate"), settings.experts, False),
+        ):
+            self.folds.append(_make_fold(title, tip, part, is_open))
+            column.addWidget(self.folds[-1])
+            column.addWidget(part)
+        column.addStretch(1)
+        layout = QVBoxLayout(self)
+        layout.setContentsMargins(1, 0, 0, 0)
+        layout.addWidget(make_scrollable(inside))
+
+
+def _make_fold(title: str, tip: str, part: QWidget, is_open: bool) -> Button:
+    """Return the heading of a part, which shows and hides it."""
+    fold = Button(kind=Kind.LINK)
+    fold.setToolTip(tip)
+    fold.setAccessibleName(title)
+    fold.setFont(theme.make_font(bold=True))
+    fold.setCheckable(True)
+
+    def show(is_open: bool) -> None:
+        fold.setText(f"{'▾▸'[not is_open]}  {title}")
+        part.setVisible(is_open)
+
+    fold.setChecked(is_open)
+    show(is_open)
+    fold.toggled.connect(show)
+    return fold
