@@ -22,9 +22,14 @@ def describe_tool(found: HandEye) -> str:
     robot = round(100 * tool.robot_share)
     shift, turn = 2 * tool.sigma_mm, np.degrees(2 * tool.sigma_rad)
     return (
-        f"tool ± {shift:.2g} mm, ± {turn:.2g} degrees (k = 2); "
+        f"tool ± {_format_mm(shift)} mm, ± {turn:.2g} degrees (k = 2); "
         f"robot {robot} %, camera {100 - robot} %"
     )
+
+
+def _format_mm(length: float) -> str:
+    """Format a length with two digits, and with all those before the point."""
+    return f"{length:.0f}" if length >= 10 else f"{length:.2g}"
 
 
 def tabulate_hand_eye(hand_eye_set: HandEyeSet) -> str:
@@ -42,7 +47,7 @@ def tabulate_hand_eye(hand_eye_set: HandEyeSet) -> str:
     ]
     errors = [["image", "robot off by, mm", "degrees"]]
     for name, (turn, shift) in zip(found.names, _measure_errors(found), strict=True):
-        errors.append([shorten_name(name), f"{shift:.2g}", f"{np.degrees(turn):.2g}"])
+        errors.append([shorten_name(name), _format_mm(shift), f"{np.degrees(turn):.2g}"])
     parts = [
         describe_tool(found),
         align_columns(rows, left=(0, 1)),
@@ -68,11 +73,13 @@ def list_hand_eye_remarks(hand_eye_set: HandEyeSet) -> list[str]:
     found = hand_eye_set.found
     turn, shift = found.robot_sigmas.tolist()
     next_best = found.next_scatter
-    beyond = f", and by {next_best:.2g} mm in any other way" if np.isfinite(next_best) else ""
+    beyond = (
+        f", and by {_format_mm(next_best)} mm in any other way" if np.isfinite(next_best) else ""
+    )
     remarks = [
         f"The robot's poses are {found.reading}. Read so, the board scatters by "
-        f"{found.scatter:.2g} mm{beyond}.",
-        f"A pose of the robot is off by {shift:.2g} mm along each axis and by "
+        f"{_format_mm(found.scatter)} mm{beyond}.",
+        f"A pose of the robot is off by {_format_mm(shift)} mm along each axis and by "
         f"{np.degrees(turn):.2g} degrees about each, one standard deviation. The corners are off "
         f"by {found.rms:.2g} px.",
     ]
@@ -128,7 +135,7 @@ def _name_outliers(found: HandEye) -> list[str]:
     errors = _measure_errors(found)
     ratio = (errors / np.maximum(np.median(errors, axis=0), 1e-12)).max(axis=1)
     named = [
-        f"{shorten_name(name)} ({shift:.2g} mm, {np.degrees(turn):.2g} degrees)"
+        f"{shorten_name(name)} ({_format_mm(shift)} mm, {np.degrees(turn):.2g} degrees)"
         for name, (turn, shift), much in zip(found.names, errors, ratio, strict=True)
         if much > _STANDS_OUT and shift > 0
     ]

@@ -105,9 +105,9 @@ def choose_reading(
         for m, other in others
         if m < _CLEARLY * merit + _LEAST_SCATTER_MM
     ]
-    next_best = min((m for m, _ in others), default=np.inf)
+    next_best = min((other.start.scatter for _, other in others), default=np.inf)
     _check_lengths(choice, boards, points)
-    return choice._replace(next_best=float(next_best), rivals=tuple(rivals))
+    return choice._replace(next_best=next_best, rivals=tuple(rivals))
 
 
 def _try(
