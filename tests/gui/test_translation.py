@@ -180,6 +180,7 @@ def test_no_text_of_the_window_is_left_in_english(
     undistort = analysis.show_panel(UndistortPanel)
     assert isinstance(undistort, UndistortPanel)
     told = {
+        export.note.text(),
         undistort.lost.text(),
         window.verdict.reason.text(),
     }  # by the engine, as the sentences of the summary are
