@@ -3,12 +3,20 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
 
 from calibgui.app.calibrating.calibration import calibrate_views, recall_lens_choice, shorten_names
-from calibgui.app.calibrating.settings import DEFAULT_MODEL, Settings, check_settings, get_own_model
+from calibgui.app.calibrating.settings import (
+    DEFAULT_MODEL,
+    MODEL_CHOICES,
+    Settings,
+    check_settings,
+    get_own_model,
+    list_parameters,
+)
 from calibgui.app.photographs.detection import find_views
 from calibgui.app.system.resources import find_resource, find_sample_square
 from calibgui.dataset import CornerSet, View, ViewStatus
@@ -25,6 +33,7 @@ from calibgui.engine.errors import CalibrationError, Cancelled
 from calibgui.engine.features.corners import Corners
 from calibgui.engine.geometry.rotations import rotation_from_vector
 from calibgui.report.tables import list_unused_views
+from tests.app import examples
 from tests.engine import scenes
 from tests.photographs import BOARD, CAMERA, draw_poses
 
@@ -394,3 +403,15 @@ def test_splined_models_of_any_numbers_can_be_named() -> None:
     for wrong in ("lucchese-pixels", "none", "splined-stereographic-2x2-100"):
         with pytest.raises(CalibrationError):
             check_settings(Settings(model=wrong))
+
+
+@pytest.mark.parametrize("model", [name for name in MODEL_CHOICES if "splined" not in name])
+def test_a_camera_that_is_held_whole_is_sent_to_pose(model: str, tmp_path: Path) -> None:
+    """Whatever the lens model: nothing is left to calibrate, and no traceback says so."""
+    project = examples.calibrated(tmp_path)
+    held = dict.fromkeys(list_parameters(model), None) | {"fx": 200.0, "fy": 204.0}
+    held |= {"cx": 97.0, "cy": 76.0}
+    corner_set = CornerSet(examples.CAMERA.size, project.views, project.board)
+    with pytest.raises(CalibrationError, match="leaves nothing to calibrate") as caught:
+        calibrate_views(corner_set, Settings(model=model, fixed=held))
+    assert "calibgui pose" in caught.value.hint

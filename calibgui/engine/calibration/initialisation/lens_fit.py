@@ -41,9 +41,12 @@ def fit_lens(rays: Array, uv: Array, start: Array, lens: Lens, free: IntArray) -
         free: indices of the parameters that may change.
 
     Returns:
-        (P,) parameters. They are the start's if its lens images less than half of the rays.
+        (P,) parameters. They are the start's if none may change, or if its lens images less than
+        half of the rays.
     """
     free = free[[i < 4 or lens.names[i - 4] not in lens.asymmetric for i in free.tolist()]]
+    if not len(free):
+        return start
     weight = np.full(len(free), _PULL**2 * len(uv))
     weight[free < 4] = 0.0
     params, damping = start.copy(), 1e-4
