@@ -38,8 +38,8 @@ from calibgui.report.rendering import render_html, render_pdf
 
 SUFFIXES = (".html", ".pdf")
 """Suffixes of the files that `write_report` writes."""
-_JPEG_QUALITY = 70
-"""Quality of the small pictures: each takes some 5 kB."""
+_LONG_SIDE_PX, _JPEG_QUALITY = 220, 70
+"""Size of the small pictures, 200 dpi in print, and their quality: each takes some 6 kB."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -131,7 +131,9 @@ def _describe_file(image: str, folder: Path) -> PhotographFile:
     except CalibrationError:
         return PhotographFile()
     jpeg = io.BytesIO()
-    Image.fromarray(thumbnail.grey).save(jpeg, "JPEG", quality=_JPEG_QUALITY)
+    picture = Image.fromarray(thumbnail.grey)
+    picture.thumbnail((_LONG_SIDE_PX, _LONG_SIDE_PX))
+    picture.save(jpeg, "JPEG", quality=_JPEG_QUALITY)
     return PhotographFile(
         digest=thumbnail.digest,
         jpeg=base64.b64encode(jpeg.getvalue()).decode(),

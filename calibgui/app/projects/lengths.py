@@ -60,10 +60,7 @@ def scale_result(result: Result, square: float, square_sigma: float = 0.0) -> Re
     it has them, or if it would be another with them, as other lengths were stated."""
     board = result.board
     if board is not None and board.square == square and board.square_sigma != square_sigma:
-        stated = replace(result, board=replace(board, square_sigma=square_sigma))
-        if (verdict := recall_verdict(result)) is not None:
-            keep_verdict(stated, verdict)
-        return stated
+        return replace(result, board=replace(board, square_sigma=square_sigma))
     if (
         board is None
         or board.square == square
