@@ -29,6 +29,7 @@ from calibgui.formats.camera_refit import write_in_models
 from calibgui.formats.corner_table import CornerText
 from calibgui.formats.exporter import Exporter, ExportReport
 from calibgui.formats.importer import CameraText, ImportedCamera, Importer
+from calibgui.formats.mat_file import NotMatError, read_mat_variables
 from calibgui.formats.matlab_text import find_assignments, parse_matrix, remove_comments
 
 _SIGMAS = 3.0
@@ -38,9 +39,6 @@ _WANTED = re.compile(
     r"fc|cc|alpha_c|kc|nx|ny|[xX]_\d+|active_images|calib_name|format_image|image_numbers"
 )
 """Names of the variables of a .mat that are read."""
-_MAX_NUMBERS = 1 << 23
-"""Largest number of numbers of a .mat that is read: compressed ones may hold a thousand times
-what their size lets one think."""
 _HEADER_LENGTH = 116
 """Number of bytes of the text with which a .mat begins."""
 
@@ -129,31 +127,27 @@ def unpack_mat(content: bytes) -> str:
     """
     if content.startswith(b"MATLAB 7.3"):
         raise ValueError("it is in MATLAB's format 7.3; save it with -v7")
-    file: Any = io.BytesIO(content)
     try:
-        shapes = {name: shape for name, shape, _ in scipy.io.whosmat(file)}
-        wanted = [name for name in shapes if _WANTED.fullmatch(name)]
-        if sum(float(np.prod(shapes[name], dtype=float)) for name in wanted) > _MAX_NUMBERS:
-            raise ValueError("it holds too many numbers")
-        file.seek(0)
-        values = scipy.io.loadmat(file, variable_names=wanted)
-    except ValueError:
-        raise
-    except Exception as error:  # a parser sees the content alone: whatever it raises is that's
-        raise ValueError("it is damaged") from error
-    return "\n".join(_format_variable(name, values[name]) for name in wanted if name in values)
+        variables = dict(read_mat_variables(content))
+    except NotMatError as error:
+        raise ValueError(str(error)) from error
+    return "\n".join(
+        _format_variable(name, value)
+        for name, value in variables.items()
+        if _WANTED.fullmatch(name)
+    )
 
 
-def _format_variable(name: str, value: Any) -> str:
+def _format_variable(name: str, value: Array | str) -> str:
     """Return the assignment of a text or a matrix of numbers; a comment for anything else, as NaN
     in place of the corners of a photograph that is left out."""
-    if isinstance(value, np.ndarray) and value.dtype.kind == "U" and value.size == 1:
-        return f"{name} = '{value.item()}';"
-    if not (isinstance(value, np.ndarray) and value.dtype.kind in "iuf" and value.ndim == 2):
+    if isinstance(value, str):
+        return f"{name} = '{value}';"
+    if value.ndim != 2:
         return f"% {name} is no matrix of numbers"
     if not np.isfinite(value).all():
         return f"% {name} is not known"
-    rows = " ; ".join(" ".join(map(repr, row)) for row in value.astype(float).tolist())
+    rows = " ; ".join(" ".join(map(repr, row)) for row in value.tolist())
     return f"{name} = [ {rows} ];"
 
 

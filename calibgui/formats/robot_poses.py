@@ -32,7 +32,7 @@ from calibgui.engine.errors import CalibrationError
 from calibgui.engine.files import describe_read_error, read_regular
 from calibgui.formats.gate import parse_number, read_text
 from calibgui.formats.json_document import parse_json
-from calibgui.formats.mat_file import NotMatError, read_mat_arrays
+from calibgui.formats.mat_file import NotMatError, read_mat_variables
 from calibgui.formats.node import Node
 
 _MAX_SIZE = 16 << 20
@@ -214,7 +214,7 @@ def _read_mat(path: str | os.PathLike[str]) -> RobotPoseTable:
     """Read a MAT file."""
     file = os.fspath(path)
     try:
-        arrays = read_mat_arrays(read_regular(path, _MAX_SIZE))
+        variables = read_mat_variables(read_regular(path, _MAX_SIZE))
     except OSError as error:
         raise describe_read_error(path, error) from error
     except NotMatError as error:
@@ -222,6 +222,7 @@ def _read_mat(path: str | os.PathLike[str]) -> RobotPoseTable:
             f"{file} is not a MAT file that is read here: {error}.",
             "Save it in MATLAB with the option -v7, or write the poses as CSV.",
         ) from error
+    arrays = [value for _, value in variables if not isinstance(value, str)]
     return _make_table(file, [pose for array in arrays for pose in _list_poses(array)], [])
 
 
