@@ -9,14 +9,15 @@ import pytest
 
 from calibgui.cli.main import main
 from calibgui.engine import opencv
-from calibgui.engine.boards import KINDS
+from calibgui.engine.boards import KINDS, list_circles
 from calibgui.engine.detection.find_corners import find_corners
 from calibgui.engine.images import read_image
+from tests.scenes.circle_lists import list_rows_by_turns
 
 Capture = pytest.CaptureFixture[str]
 
 
-@pytest.mark.parametrize("target", KINDS)
+@pytest.mark.parametrize("target", [kind for kind in KINDS if kind != "listed-circles"])
 def test_what_is_printed_is_found(target: str, tmp_path: Path) -> None:
     size = {"aprilgrid": "8x8", "asymmetric-circles": "7x4"}.get(target, "6x9")
     file = tmp_path / "board.png"
@@ -26,6 +27,19 @@ def test_what_is_printed_is_found(target: str, tmp_path: Path) -> None:
         pixels = opencv.halve_image(pixels)
     found = find_corners(pixels, pattern=KINDS[target])
     assert "x".join(map(str, found.shape)) == size
+
+
+def test_listed_circles_are_printed_and_found(tmp_path: Path) -> None:
+    places = list_rows_by_turns(7, 9, 20.0)
+    layout, file = tmp_path / "list.csv", tmp_path / "board.png"
+    layout.write_text("x,y\n" + "\n".join(f"{x},{y}" for x, y in places))
+    assert main(["print", "--layout", str(layout), "-q", "-o", str(file)]) == 0
+    pixels = read_image(file).pixels
+    for _ in range(2):
+        pixels = opencv.halve_image(pixels)
+    assert len(find_corners(pixels, pattern=list_circles(places)[0])) == len(places)
+    with pytest.raises(SystemExit):
+        main(["print", "-o", str(tmp_path / "none.png")])
 
 
 def test_the_square_is_as_large_as_the_paper_allows(tmp_path: Path, capsys: Capture) -> None:
