@@ -151,7 +151,7 @@ class BeforeAndAfter(Sheet):
             (self.tr("Error, {0} [px]").format(name), a, b)
             for name, a, b in (
                 (self.tr("centre"), before.error.centre, after.error.centre),
-                (self.tr("covered part"), before.error.covered, after.error.covered),
+                (self.tr("among corners"), before.error.covered, after.error.covered),
                 (self.tr("edge"), before.error.edge, after.error.edge),
                 (self.tr("worst"), before.error.worst, after.error.worst),
             )

@@ -11,6 +11,7 @@ from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QColor, QPainter, QPaintEvent
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QVBoxLayout, QWidget
 
+from calibgui.app.calibrating.settings import DEFAULT_MODEL
 from calibgui.dataset import Result, ViewStatus
 from calibgui.gui.session.session import Session
 from calibgui.gui.widgets import theme
@@ -82,9 +83,8 @@ class DoneList(QWidget):
 
     def _list_entries(self, result: Result) -> list[Entry]:
         """List what was done for a result, the last step first."""
-        why, panel = self.tr("why"), self.panel_wanted.emit
-        evidence = self.tr("Show what speaks for it")
-        entries = []
+        why, evidence = self.tr("why"), self.tr("Show what speaks for it")
+        panel, entries = self.panel_wanted.emit, list[Entry]()
         can_undo = self._session.document.undo_label == self.tr("Make camera better")
         for said in reversed(result.improvements):
             if can_undo:
@@ -95,8 +95,11 @@ class DoneList(QWidget):
                 entries.append(Entry(said, why, evidence, partial(panel, "ResidualsPanel")))
         settings = result.calibration.settings
         if settings.model_reason is not None:
-            text = self.tr("Lens: {0}, chosen among all").format(
-                get_short_lens_title(result.calibration.camera.model)
+            model = result.calibration.camera.model
+            text = (
+                self.tr("Lens: the paper's model; no other predicts better")
+                if model == DEFAULT_MODEL
+                else self.tr("Lens: {0}, which predicts best").format(get_short_lens_title(model))
             )
             run = partial(panel, "LensModelsPanel")
             entries.append(Entry(text, why, settings.model_reason, run))

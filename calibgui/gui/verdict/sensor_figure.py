@@ -182,7 +182,7 @@ def _colour(error: Array) -> QImage:
     root = np.sqrt(np.where(np.isfinite(error), error, np.nan))
     low, high = float(np.nanmin(root, initial=np.inf)), float(np.nanmax(root, initial=0.0))
     share = np.nan_to_num((root - low) / (high - low) if high > low else 0.0 * root)
-    stops = np.array([QColor(stop).getRgb()[:3] for stop in theme.ERROR_STOPS], dtype=float)
+    stops = np.array([(c.red(), c.green(), c.blue()) for c in map(QColor, theme.ERROR_STOPS)])
     places = np.linspace(0.0, 1.0, len(stops))
     rgb = np.stack([np.interp(share, places, stops[:, k]) for k in range(3)], axis=-1)
     pixels = np.ascontiguousarray(rgb.round().astype(np.uint8))

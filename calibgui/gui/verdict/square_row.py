@@ -29,6 +29,7 @@ class SquareRow(QWidget):
         self.counted = ReservedLabel(1)
         self.square = QDoubleSpinBox(decimals=3, minimum=0.001, maximum=100_000.0)
         self.square.setFixedWidth(120)
+        self.square.setAccessibleName(self._name_side(session.project.pattern))
         self.square.setToolTip(
             self.tr(
                 "Only lengths depend on it, no pixel does. Until it is confirmed, every length "

@@ -47,7 +47,7 @@ def describe_pixel_error(error: PixelError) -> str:
     """Describe the error of a pixel over the image, px."""
     if not np.isfinite(error.worst):
         return translate("VerdictTexts", "Error: unknown")
-    text = translate("VerdictTexts", "Error: centre {0}, covered {1}, edge {2}, worst {3} px")
+    text = translate("VerdictTexts", "Error: centre {0}, among corners {1}, edge {2}, worst {3} px")
     figures = error.centre, error.covered, error.edge, error.worst
     return text.format(*map(format_pixels, figures))
 

@@ -98,7 +98,6 @@ class VerdictBar(QWidget):
         self.button.clicked.connect(self._do_first)
         self.unfold = Button()
         self.unfold.setCheckable(True)
-        self.unfold.toggled.connect(lambda shown: self.findings.setVisible(shown))
         self.square = SquareRow(session)
         self.square.reserve(_LINES_OF_QUESTION)
         self.findings = FindingsList(desk)
@@ -106,6 +105,7 @@ class VerdictBar(QWidget):
         self.findings.proof_wanted.connect(self._show_proof)
         self.findings.glass_wanted.connect(self._state_glass)
         self.findings.closed.connect(lambda: self.unfold.setChecked(False))
+        self.unfold.toggled.connect(self.findings.setVisible)
         self.comparison: QWidget | None = None
         self._lay_out()
         self.fit_height(_LOW)
@@ -121,9 +121,9 @@ class VerdictBar(QWidget):
         top.setSpacing(theme.SPACING)
         top.addWidget(self.icon)
         top.addWidget(self.headline, 1)
-        self.actions = QWidget()
+        self.action_row = QWidget()
         """What can be done about the verdict; it stands where the inspector has room."""
-        buttons = QHBoxLayout(self.actions)
+        buttons = QHBoxLayout(self.action_row)
         buttons.setContentsMargins(0, 0, 0, 0)
         buttons.setSpacing(theme.SPACING)
         buttons.addWidget(self.button)
@@ -298,7 +298,7 @@ class VerdictBar(QWidget):
             tip = self.tr("Say what it brings to state that the board is of glass")
         self.unfold.setText(text)
         self.unfold.setToolTip(tip)
-        self.actions.setVisible(not (self.button.isHidden() and self.unfold.isHidden()))
+        self.action_row.setVisible(not (self.button.isHidden() and self.unfold.isHidden()))
 
     @property
     def _offered_glass(self) -> Mapping[str, float]:

@@ -34,8 +34,8 @@ class Body(QWidget):
         desk, strip, inspector: the parts.
     """
 
-    hidden_changed = Signal(bool)
-    """The inspector, and the verdict with it, is out of sight now, or is not any more."""
+    inspector_moved = Signal(bool, bool)
+    """Whether the inspector is a sheet or hidden now, and whether it is in sight."""
 
     def __init__(self, desk: QWidget, strip: QWidget, inspector: Inspector) -> None:
         super().__init__()
@@ -49,7 +49,6 @@ class Body(QWidget):
         """Show the desk by itself while there are no photographs, and all parts otherwise."""
         self._is_empty, self._is_alone = empty, False
         self._arrange()
-        self.hidden_changed.emit(not self.is_inspector_shown)
 
     def leave_desk_alone(self) -> None:
         """Hide the strip and the inspector, or show them again."""
@@ -102,12 +101,11 @@ class Body(QWidget):
             rest.setBottom(top - 1)
         self._desk.setGeometry(rest)
         self._strip.setVisible(has_strip)
-        was_shown = not self._inspector.isHidden()
         self._inspector.setVisible(shown)
         if shown:
             self._inspector.raise_()
-        if was_shown is not shown:
-            self.hidden_changed.emit(not shown)
+        is_sheet = self.place is Place.SHEET or self._is_alone
+        self.inspector_moved.emit(is_sheet and not self._is_empty, shown)
 
     def _place_inspector(self, rest: QRect, *, is_row: bool) -> QRect:
         """Give the inspector its rectangle; return what it leaves to the others."""

@@ -79,12 +79,11 @@ class Header(QWidget):
         self.icon.show_grade(grade)
         self.grade.setText(text)
 
-    def stand_in_for_inspector(self, hidden: bool) -> None:
-        """Show the verdict here while the inspector is out of sight."""
-        is_open = bool(self._session.project.views)
-        self.icon.setVisible(hidden and is_open)
-        self.grade.setVisible(is_open and (hidden or self.grade.isChecked()))
-        self.grade.setChecked(not hidden)
+    def stand_in_for_inspector(self, needed: bool, open_: bool) -> None:
+        """Show the verdict here where the inspector is a sheet, which the button opens."""
+        self.icon.setVisible(needed)
+        self.grade.setVisible(needed)
+        self.grade.setChecked(open_)
 
     def show_modes(self, shown: bool) -> None:
         """Show what there is to choose, or nothing where there are no photographs."""

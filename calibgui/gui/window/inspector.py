@@ -62,7 +62,7 @@ class Inspector(QWidget):
         self._lists.setSpacing(theme.MARGIN)
         first = QVBoxLayout()
         first.setSpacing(theme.SPACING)
-        first.addWidget(verdict.actions)
+        first.addWidget(verdict.action_row)
         first.addWidget(self.done)
         self._lists.addLayout(first)
         self._lists.addWidget(self.camera, 1)

@@ -192,7 +192,7 @@ class MainWindow(QMainWindow):
         header.grade.clicked.connect(self.body.show_inspector)
         self.verdict.shown.connect(header.show_grade)
         header.show_grade(None, self.verdict.headline.text())
-        self.body.hidden_changed.connect(header.stand_in_for_inspector)
+        self.body.inspector_moved.connect(header.stand_in_for_inspector)
         inspector.done.panel_wanted.connect(self._show_panel_named)
         inspector.done.image_wanted.connect(self._show_photograph)
         camera = inspector.camera

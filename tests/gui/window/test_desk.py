@@ -216,7 +216,7 @@ def test_the_inspector_stands_where_there_is_room(
     resize(full, qtbot, *size)
     qtbot.waitUntil(lambda: full.verdict.verdict is not None)
     body, inspector, header = full.body, full.inspector, full.header
-    assert body.place is place
+    assert body.place is place and header.grade.isVisible() is (place is Place.SHEET)
     assert inspector.isVisible() is (place is not Place.SHEET)
     if place is Place.ROW:
         assert inspector.width() == body.width()

@@ -14,8 +14,8 @@ from pytestqt.qtbot import QtBot
 
 from calibgui.dataset import Result
 from calibgui.engine.calibration.initialisation.single_view_pose import evaluate_cosines_equation
-from calibgui.gui.panels.analysis import PANEL_WIDTH
 from calibgui.gui.panels.method.stage_one import StageOnePanel
+from calibgui.gui.panels.mode_page import PANEL_WIDTH
 from tests.gui.panels.conftest import Shown, click
 
 
