@@ -14,7 +14,7 @@ from calibgui.engine.boards.circle_grid import Circles
 from calibgui.engine.boards.pattern import Symmetry
 from calibgui.engine.camera.camera import Camera
 from calibgui.engine.camera.distortion import project_points
-from calibgui.engine.detection.circles import ellipse_fit, find_circles
+from calibgui.engine.detection.circles import ellipse_fit, measurement
 from calibgui.engine.detection.circles.circle_map import fit_circle_map
 from calibgui.engine.detection.circles.continuation import find_continuation
 from calibgui.engine.detection.circles.ellipse_fit import EllipseFit
@@ -500,7 +500,7 @@ def test_a_circle_drawn_aside_says_so_and_no_other_does() -> None:
     uv = 40 * xy + 0.01 * np.random.default_rng(2).standard_normal(xy.shape)
     uv[20] += [0.3, -0.3]
     covariance = np.tile(1e-4 * np.eye(2), (48, 1, 1))
-    sigma = np.sqrt(find_circles._widen_covariances(xy, uv, covariance)[:, 0, 0])
+    sigma = np.sqrt(measurement._widen_covariances(xy, uv, covariance)[:, 0, 0])
     assert 0.2 < sigma[20] < 0.6
     assert np.delete(sigma, 20).max() < 0.015
 
