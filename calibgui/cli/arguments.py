@@ -133,7 +133,7 @@ def parse_square(text: str) -> tuple[float, float]:
     )
     if match is None or (match["k"] and not match["sigma"]) or match["count"] == "0":
         raise argparse.ArgumentTypeError(
-            f"{text!r} is no side of a square, as 30, 30+-0.02 or, of 10 squares, 300+-0.05/10"
+            f"{text!r} is not a length above 0, as 30, 30+-0.02 or, of 10 squares, 300+-0.05/10"
         )
     count = int(match["count"] or 1)
     square = parse_length(match["length"]) / count
