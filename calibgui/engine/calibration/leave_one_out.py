@@ -64,13 +64,9 @@ class LeftOut:
     """(K,) RMS length of every view's residuals under the camera without it, px."""
     lengths: Array
     """(n,) lengths of all corners' residuals so, px, one view after the other."""
-    moves: Array
-    """(K, P) what is added to the camera's parameters where the view is left out."""
-    influence: Array
-    """(K,) square of that move in units of the camera's covariance for noise of 1 whitened px."""
 
     def __post_init__(self) -> None:
-        freeze(self, "by_view", "lengths", "moves", "influence")
+        freeze(self, "by_view", "lengths")
 
     @property
     def held_out(self) -> float:
@@ -101,23 +97,19 @@ def leave_views_out(calibration: Calibration, views: Sequence[Observation]) -> L
     information = sum((A.T @ A for A, *_ in parts), start=np.zeros((P + len(stiffness),) * 2))
     information[P:, P:] += stiffness
     root = _find_root(information)
-    of_camera = np.linalg.pinv(root[:P] @ root[:P].T, hermitian=True)
-    moves, influence = np.zeros((len(parts), len(state.params))), np.empty(len(parts))
     lengths = []
     for k, (A, e, whitening) in enumerate(parts):
         try:
-            q, move = _leave_out(A @ root, e)
+            q = _leave_out(A @ root, e)
         except np.linalg.LinAlgError:
             raise DegenerateError(
                 f"Without view {k + 1} the others do not determine the camera.",
                 "Add views with the board tilted in different directions.",
             ) from None
-        d = root[:P] @ move
-        moves[k, free], influence[k] = d, d @ of_camera @ d
         raw = np.linalg.solve(whitening, q.reshape(-1, 2, 1))[..., 0]
         lengths.append(np.linalg.norm(raw, axis=1))
     by_view = np.array([np.sqrt(np.mean(each**2)) for each in lengths])
-    return LeftOut(by_view, np.concatenate(lengths), moves, influence)
+    return LeftOut(by_view, np.concatenate(lengths))
 
 
 def _find_root(information: Array) -> Array:
@@ -128,8 +120,8 @@ def _find_root(information: Array) -> Array:
     return unit[:, None] * vectors[:, known] / np.sqrt(values[known])
 
 
-def _leave_out(AL: Array, e: Array) -> tuple[Array, Array]:
-    """Find q (2n,) and L^-1 d (R,) of a view from A' L (2n, R) and e' (2n,).
+def _leave_out(AL: Array, e: Array) -> Array:
+    """Find q (2n,) of a view from A' L (2n, R) and e' (2n,).
 
     Of the equal systems with A' L on either side it solves the smaller one. Raises LinAlgError if
     the other views hold next to nothing of a direction.
@@ -139,10 +131,8 @@ def _leave_out(AL: Array, e: Array) -> tuple[Array, Array]:
     np.linalg.cholesky((1 - _MIN_LEFT) * np.eye(len(product)) - product)
     rest = np.eye(len(product)) - product
     if is_tall:
-        move = np.asarray(np.linalg.solve(rest, AL.T @ e), np.float64)
-        return np.asarray(e + AL @ move), move
-    q = np.asarray(np.linalg.solve(rest, e), np.float64)
-    return q, np.asarray(AL.T @ q)
+        return np.asarray(e + AL @ np.linalg.solve(rest, AL.T @ e), np.float64)
+    return np.asarray(np.linalg.solve(rest, e), np.float64)
 
 
 def _describe_board(

@@ -29,16 +29,16 @@ def make_views(count: int) -> list[Observation]:
 
 
 @pytest.mark.parametrize(
-    ("model", "shape", "tolerance", "sigmas"),
+    ("model", "shape", "tolerance"),
     [
-        ("lucchese", "nominal", 2e-3, 0.1),
-        ("kannala-brandt", "nominal", 2e-3, 0.1),
-        ("lucchese", "affine", 2e-3, 0.1),
-        ("lucchese", "free", 2e-2, 0.5),  # its variances are learnt anew without a view
+        ("lucchese", "nominal", 2e-3),
+        ("kannala-brandt", "nominal", 2e-3),
+        ("lucchese", "affine", 2e-3),
+        ("lucchese", "free", 2e-2),  # its variances are learnt anew without a view
     ],
 )
 def test_it_says_what_calibrations_without_a_view_say(
-    model: str, shape: str, tolerance: float, sigmas: float
+    model: str, shape: str, tolerance: float
 ) -> None:
     views = make_views(9)
     calibration = calibrate(views, SIZE, model=model, board_shape=shape)
@@ -46,30 +46,7 @@ def test_it_says_what_calibrations_without_a_view_say(
     refits = cross_validate(views, SIZE, len(views), calibration, model=model, board_shape=shape)
     np.testing.assert_allclose(left_out.by_view, refits.by_view, rtol=tolerance)
     np.testing.assert_allclose(left_out.held_out, refits.held_out, rtol=tolerance)
-    moves = [fold.camera.params - calibration.camera.params for fold in refits.folds]
-    error = np.abs(left_out.moves - moves) / np.maximum(calibration.sigma, 1e-12)
-    assert error[:, calibration.sigma > 0].max() < sigmas
     assert len(left_out.lengths) == sum(len(view.uv) for view in views)
-
-
-def test_held_parameters_do_not_move() -> None:
-    views = make_views(6)
-    calibration = calibrate(views, SIZE, fix={"k3": 0.0, "cx": None})
-    moves = leave_views_out(calibration, views).moves
-    is_held = np.isin(calibration.camera.names, calibration.fixed)
-    assert not moves[:, is_held].any()
-    assert moves[:, ~is_held].all()
-
-
-def test_a_view_that_does_not_belong_has_the_most_influence() -> None:
-    views = make_views(9)
-    w, h = SIZE
-    turned = views[4]._replace(uv=np.array([w - 1, h - 1]) - views[4].uv)
-    shifted = views[4]._replace(uv=views[4].uv * 1.03)
-    for odd in (shifted, turned):
-        odd_views = [*views[:4], odd, *views[5:]]
-        influence = leave_views_out(calibrate(odd_views, SIZE), odd_views).influence
-        assert int(np.argmax(influence)) == 4
 
 
 def test_a_view_without_which_nothing_is_determined_is_named() -> None:

@@ -30,11 +30,12 @@ import numpy as np
 
 from calibgui.engine.assessment.action import Action, ActionKind
 from calibgui.engine.assessment.causes.case import Case, prepare_case
+from calibgui.engine.assessment.causes.input_errors import measure_displacement
 from calibgui.engine.assessment.causes.mixed_views import DISTORTION, Split
+from calibgui.engine.assessment.causes.odd_views import Strangers, Turned, find_turn
 from calibgui.engine.assessment.causes.rolled_images import find_roll
 from calibgui.engine.assessment.causes.scaled_images import find_scaling
 from calibgui.engine.assessment.causes.sheared_images import find_shear
-from calibgui.engine.assessment.causes.turned_views import find_turn
 from calibgui.engine.assessment.finding import (
     MAX_LISTED,
     MIN_HARM_PX,
@@ -50,6 +51,7 @@ from calibgui.engine.assessment.residuals.residual_causes import (
     list_tests,
 )
 from calibgui.engine.assessment.residuals.residual_checks import NoiseCheck
+from calibgui.engine.assessment.residuals.residual_statistics import summarise_residuals
 from calibgui.engine.boards.shape import BoardShapeModel
 from calibgui.engine.calibration.calibrate import calibrate
 from calibgui.engine.calibration.problem import recover_image_arguments
@@ -227,28 +229,16 @@ def _order_by_probability(checks: Iterable[NoiseCheck]) -> list[NoiseCheck]:
 
 def _describe_two_kinds(case: Case, split: Split) -> Finding:
     """Describe views of two kinds; one kind may be stored upside down or mirrored."""
+    turned = find_turn(case, split.is_odd)
+    if turned is not None:
+        return describe_turned_views(case, turned)
     odd = np.flatnonzero(split.is_odd).tolist()
     views = tuple(case.numbers[k] for k in odd)
     left = case.rms * float(np.sqrt(1 - split.share))
     harm = case.measure_harm(split.share)
-    listed = list_names([case.names[k] for k in odd])
-    turn = find_turn(case, split.is_odd, left)
-    if turn is not None:
-        return Finding(
-            Cause.MIXED_VIEWS,
-            f"{listed} {'are' if len(odd) > 1 else 'is'} {turn.how} against the others, stored by "
-            "a program that turned what the camera wrote.",
-            f"Turned back they leave {turn.rms:.2g} px of {case.rms:.2g} px RMS; "
-            f"{describe_harm(harm)}.",
-            f"{turn.remedy}, or take the files as the camera wrote them. If they are of another "
-            "camera, calibrate it by itself.",
-            harm,
-            views,
-            Action(ActionKind.LEAVE_OUT_VIEWS, views),
-        )
     return Finding(
         Cause.MIXED_VIEWS,
-        f"The photographs are of two kinds: {listed} "
+        f"The photographs are of two kinds: {list_names([case.names[k] for k in odd])} "
         f"{'disagree' if len(odd) > 1 else 'disagrees'} with the others about the {split.what}.",
         f"If each kind had its own, {left:.2g} px would be left of {case.rms:.2g} px RMS; "
         f"{describe_harm(harm)}.",
@@ -256,6 +246,50 @@ def _describe_two_kinds(case: Case, split: Split) -> Finding:
         harm,
         views,
         Action(ActionKind.LEAVE_OUT_VIEWS, views),
+    )
+
+
+def describe_turned_views(case: Case, turned: Turned) -> Finding:
+    """Describe photographs that are stored upside down or mirrored against the others."""
+    views = tuple(case.numbers[k] for k in turned.views)
+    left = summarise_residuals(turned.calibration.residuals).rms
+    harm = measure_displacement(case.calibration.camera, turned.calibration.camera, case.views)
+    return Finding(
+        Cause.MIXED_VIEWS,
+        f"{list_names([case.names[k] for k in turned.views])} "
+        f"{'are' if len(views) > 1 else 'is'} {turned.how} against the others, stored by a program "
+        "that turned what the camera wrote.",
+        f"Turned back they leave {left:.2g} px of {case.rms:.2g} px RMS; {describe_harm(harm)}.",
+        f"{turned.remedy}, or take the files as the camera wrote them. If they are of another "
+        "camera, calibrate it by itself.",
+        harm,
+        views,
+        Action(ActionKind.LEAVE_OUT_VIEWS, views),
+    )
+
+
+def describe_strangers(case: Case, found: Strangers) -> Finding | None:
+    """Describe photographs that do not belong to the others, and what they disagree about, if that
+    parts them from all others; None if they do no harm."""
+    split = case.split
+    if split is not None and tuple(np.flatnonzero(split.is_odd).tolist()) == found.views:
+        return _describe_two_kinds(case, split)
+    others = [view for k, view in enumerate(case.views) if k not in found.views]
+    harm = measure_displacement(case.calibration.camera, found.others.camera, others)
+    if harm < MIN_HARM_PX:
+        return None
+    names = list_names([case.names[k] for k in found.views])
+    left, is_one = summarise_residuals(found.others.residuals).rms, len(found.views) == 1
+    return Finding(
+        Cause.MIXED_VIEWS,
+        f"{names} {'does' if is_one else 'do'} not belong to the others.",
+        f"Without {'it' if is_one else 'them'} {left:.2g} px are left of {case.rms:.2g} px RMS; "
+        f"{describe_harm(harm)}.",
+        f"Look whether {'it is' if is_one else 'they are'} of another camera, zoom, focus or board,"
+        " or cropped or edited, and leave them out.",
+        harm,
+        found.views,
+        Action(ActionKind.LEAVE_OUT_VIEWS, found.views),
     )
 
 

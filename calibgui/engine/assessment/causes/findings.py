@@ -6,8 +6,8 @@ without those behind it, and what one explains is taken out before the next is a
 
 1. **What is given** (``input_errors.py``): corners of another frame or image size, values that are
    held and wrong, two pictures in one photograph (``two_pictures.py``), photographs that are turned
-   against the others (``turned_views.py``), corners that are not where the others say. The latter
-   are left out, and all that follows is asked of what is left.
+   against the others or do not belong to them (``odd_views.py``), corners that are not where the
+   others say. The latter are left out, and all that follows is asked of what is left.
 2. **Number of views.** Two or three views show nothing but that they are too few, if pixels are
    poorly known. Nor do views so much alike that the noise alone leaves pixels poorly known. Where
    pixels are known well among corners, these cover too small a part of the image.
@@ -28,6 +28,8 @@ from calibgui.engine.assessment.causes.case import Case, prepare_case
 from calibgui.engine.assessment.causes.cause_choice import (
     MIN_SHARE_OF_KINDS,
     MIN_SHARE_OF_RIVAL,
+    describe_strangers,
+    describe_turned_views,
     explain_most,
     find_systematic_cause,
     list_names,
@@ -38,7 +40,7 @@ from calibgui.engine.assessment.causes.input_errors import (
     find_wrong_values,
     screen_misplaced_corners,
 )
-from calibgui.engine.assessment.causes.turned_views import TurnedViews, find_turned_views
+from calibgui.engine.assessment.causes.odd_views import Strangers, find_odd_views
 from calibgui.engine.assessment.causes.two_pictures import TwoPictures, find_two_pictures
 from calibgui.engine.assessment.finding import (
     MIN_VIEWS_TO_JUDGE,
@@ -122,19 +124,25 @@ def _find(
     if pictures is not None:
         yield _describe_two_pictures(case, pictures)
         return
-    turned = find_turned_views(case)
-    if turned is not None and not _are_of_two_kinds(case, turned.views):
-        yield _describe_turned_views(case, turned)
+    odd = find_odd_views(case)
+    if odd.turned is not None and not _are_of_two_kinds(case, odd.turned.views):
+        yield describe_turned_views(case, odd.turned)
         return
     screening = screen_misplaced_corners(calibration, views)
-    if screening is not None:
-        left = _leave_out(screening, views, names, check)
-        if not _misses_views(case, left):
-            misplaced = describe_misplaced_corners(calibration, screening, views, names)
-            if misplaced is not None:
-                yield misplaced
-            case = left  # large errors of a few corners leave coefficients open, too
-            open_coefficients = _find_open_coefficients(case)
+    left = None if screening is None else _leave_out(screening, views, names, check)
+    if left is not None and _misses_views(case, left):
+        left = None
+    if left is None and odd.strangers is not None and _are_strangers(case, odd.strangers):
+        strangers = describe_strangers(case, odd.strangers)
+        if strangers is not None:
+            yield strangers
+            return
+    if screening is not None and left is not None:
+        misplaced = describe_misplaced_corners(calibration, screening, views, names)
+        if misplaced is not None:
+            yield misplaced
+        case = left  # large errors of a few corners leave coefficients open, too
+        open_coefficients = _find_open_coefficients(case)
     found = few = _find_lack_of_views(case)
     if few is None or not (len(case.views) < MIN_VIEWS_TO_JUDGE or _is_noise_enough(case)):
         found = find_systematic_cause(case) or few
@@ -177,31 +185,19 @@ def _describe_two_pictures(case: Case, found: TwoPictures) -> Finding:
     )
 
 
-def _are_of_two_kinds(case: Case, turned: tuple[int, ...]) -> bool:
+def _are_of_two_kinds(case: Case, odd: tuple[int, ...]) -> bool:
     """Return whether the views certainly are of two kinds, other than some views and the rest."""
-    return case.split is not None and tuple(np.flatnonzero(case.split.is_odd).tolist()) != turned
+    return case.split is not None and tuple(np.flatnonzero(case.split.is_odd).tolist()) != odd
 
 
-def _describe_turned_views(case: Case, found: TurnedViews) -> Finding:
-    """Describe photographs that are upside down against all others."""
-    names = list_names([case.names[k] for k in found.views])
-    is_one = len(found.views) == 1
-    part = len(found.views) / len(case.views)
-    harm = case.measure_harm(min(part * (found.before**2 - found.after**2) / case.rms**2, 1.0))
-    return Finding(
-        Cause.MIXED_VIEWS,
-        f"{names} {'is' if is_one else 'are'} upside down against the others, stored by a program "
-        "that turned what the camera wrote.",
-        f"The others predict {'it' if is_one else 'the worst of them'} with {found.before:.2g} px "
-        f"as {'it is' if is_one else 'they are'}, and with {found.after:.2g} px turned back; "
-        f"{describe_harm(harm)}.",
-        f"Turn {'it' if is_one else 'them'} by 180 degrees, or take the files as the camera wrote "
-        f"them. If "
-        f"{'it is' if is_one else 'they are'} of another camera, calibrate that by itself.",
-        harm,
-        found.views,
-        Action(ActionKind.LEAVE_OUT_VIEWS, found.views),
-    )
+def _are_strangers(case: Case, found: Strangers) -> bool:
+    """Return whether views do not belong to the others, and are not of a kind with some of them,
+    or those that a cause of all makes the model miss most."""
+    if _are_of_two_kinds(case, found.views):
+        return False
+    rest = [k for k in range(len(case.views)) if k not in found.views]
+    views, names = [case.views[k] for k in rest], [case.names[k] for k in rest]
+    return not _is_cause_of_all(case, prepare_case(found.others, views, names, case.check))
 
 
 def _leave_out(
@@ -225,10 +221,15 @@ def _misses_views(case: Case, left: Case) -> bool:
     without them it explains nothing. Two kinds of views explain most, and nothing is left of them
     where one kind is left out.
     """
-    if case.rival.share > MIN_SHARE_OF_RIVAL:
-        return True
     split = case.split
-    if split is not None and split.share > MIN_SHARE_OF_KINDS:
+    is_of_two_kinds = split is not None and split.share > MIN_SHARE_OF_KINDS
+    return is_of_two_kinds or _is_cause_of_all(case, left)
+
+
+def _is_cause_of_all(case: Case, left: Case) -> bool:
+    """Return whether what some views or corners miss is due to a cause that all share: a lens that
+    another model follows better, or one that the case without them shows, too."""
+    if case.rival.share > MIN_SHARE_OF_RIVAL:
         return True
     before, after = (explain_most(each) * each.rms**2 for each in (case, left))
     return after > _MIN_PART_LEFT * before

@@ -122,7 +122,7 @@ def find_wrong_values(calibration: Calibration, views: Sequence[Observation]) ->
         free = calibrate(views, camera.size, **settings)
     except CalibrationError:  # that is why it is held
         return None
-    harm = _measure_harm(camera, free.camera, views)
+    harm = measure_displacement(camera, free.camera, views)
     if harm < MIN_HARM_PX:
         return None
     wrong, values = [], []
@@ -163,8 +163,8 @@ def _recover_nominal_settings(calibration: Calibration) -> dict[str, Any]:
     return settings
 
 
-def _measure_harm(wrong: Camera, right: Camera, views: Sequence[Observation]) -> float:
-    """Measure how far wrong values or corners move a camera's pixels, px rms.
+def measure_displacement(wrong: Camera, right: Camera, views: Sequence[Observation]) -> float:
+    """Measure how far wrong values, corners or views move a camera's pixels, px rms.
 
     It is the image's size where the two cameras have nothing in common.
 
@@ -254,7 +254,7 @@ def describe_misplaced_corners(
         summarise_residuals(c.residuals).rms for c in (calibration, screening.calibration)
     )
     kept = screening.select_kept(views)
-    harm = _measure_harm(calibration.camera, screening.calibration.camera, kept)
+    harm = measure_displacement(calibration.camera, screening.calibration.camera, kept)
     if harm < MIN_HARM_PX:
         return None
     chosen = tuple(r.view for r in worst)

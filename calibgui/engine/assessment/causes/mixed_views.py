@@ -51,8 +51,9 @@ _MAX_FALSE_ALARM_RATE = 1e-3
 """Probability under noise that any way to part the views explains as much."""
 _MAX_STEPS = 50
 """Number of times that views change their kind, at most."""
-_MAX_SEEDS = 64
-"""Number of views that the search begins with, at most: its time is their number times all."""
+MAX_SEEDS = 64
+"""Number of views that a search among all begins with, at most: its time is their number times all.
+"""
 _SPREAD_OF_PART = 0.86
 """Excess of the part that two kinds explain by chance, times the root of the number of views."""
 _MIN_PART_OF_CAMERA = 0.85
@@ -135,10 +136,10 @@ def split_views(products: ViewProducts) -> Split:
 def _choose_seeds(products: ViewProducts) -> list[int]:
     """Choose the views that the search begins with: of many those that differ most."""
     K = len(products.b)
-    if K <= _MAX_SEEDS:
+    if K <= MAX_SEEDS:
         return list(range(K))
     gains = [float(b @ _solve(N, b)) for N, b in zip(products.N, products.b, strict=True)]
-    return np.argsort(gains)[-_MAX_SEEDS:].tolist()
+    return np.argsort(gains)[-MAX_SEEDS:].tolist()
 
 
 def _seek_split(products: ViewProducts, seed: int) -> tuple[float, BoolArray]:

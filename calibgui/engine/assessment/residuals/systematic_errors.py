@@ -109,7 +109,7 @@ def take_open_steps(fit: LinearisedFit) -> OpenSteps:
 
 def _take_step(products: ViewProducts, columns: slice) -> CauseFit:
     """Take a step to some of the columns."""
-    T, rank = _compute_reductions(products.N[:, columns, columns], products.b[:, columns])
+    T, rank = compute_reductions(products.N[:, columns, columns], products.b[:, columns])
     return CauseFit(products.cost, 0).lower(float(T.sum()), int(rank.sum()))
 
 
@@ -228,34 +228,44 @@ def judge_together(products: ViewProducts) -> Explanation:
     left = N - by_camera[:, :-1]
     is_told = np.diag(left) > MIN_EIGENVALUE * np.diag(N)  # others have columns like it already
     left, b = left[np.ix_(is_told, is_told)], (b - by_camera[:, -1])[is_told]
-    T, rank = _compute_reductions(left[None], b[None])
+    T, rank = compute_reductions(left[None], b[None])
     return judge_explanation(float(T[0]), int(rank[0]), products.cost, products.freedom)
 
 
 def _multiply_own_columns(fit: LinearisedFit, columns: Columns) -> ViewProducts:
     """Multiply columns that each view has of its own, and the camera's, without the view's pose."""
-    parts, cost, P = [], 0.0, len(fit.free)
+    G, P = multiply_columns(fit, columns), len(fit.free)
+    cost = float(sum(np.sum(fit.linearise(v).residual ** 2) for v in slice_views(len(G))))
+    return ViewProducts(
+        G[:, P:-1, P:-1], G[:, P:-1, -1], G[:, :P, :P], G[:, :P, P:-1], G[:, :P, -1], cost,
+        fit.degrees_of_freedom,
+    )  # fmt: skip
+
+
+def multiply_columns(fit: LinearisedFit, columns: Columns) -> Array:
+    """Multiply the P columns of the camera, m others and the residuals with each other.
+
+    Returns:
+        (K, P + m + 1, P + m + 1) products of what the views' poses leave of them.
+    """
+    parts = []
     for views in slice_views(len(fit.state.R)):
         linear = fit.linearise(views)
         k = len(linear.residual)
         X = columns(fit, linear, views)
         stacked = (linear.by_params[..., fit.free], X, linear.residual[..., None])
-        X = np.concatenate(stacked, axis=-1).reshape(k, -1, P + X.shape[-1] + 1)
+        whole = np.concatenate(stacked, axis=-1)
+        whole = whole.reshape(k, -1, whole.shape[-1])
         # Columns that no corner depends on would be divided by 0.
         Jp = linear.by_pose.reshape(k, -1, 6)
         Jp = Jp / np.maximum(np.linalg.norm(Jp, axis=1, keepdims=True), 1e-12)
         Q = np.linalg.qr(Jp)[0]
-        left = X - Q @ (np.swapaxes(Q, 1, 2) @ X)
-        parts.append(np.swapaxes(left[..., :-1], 1, 2) @ left)
-        cost += float(np.sum(linear.residual**2))
-    G = np.concatenate(parts)
-    return ViewProducts(
-        G[:, P:, P:-1], G[:, P:, -1], G[:, :P, :P], G[:, :P, P:-1], G[:, :P, -1], cost,
-        fit.degrees_of_freedom,
-    )  # fmt: skip
+        left = whole - Q @ (np.swapaxes(Q, 1, 2) @ whole)
+        parts.append(np.swapaxes(left, 1, 2) @ left)
+    return np.concatenate(parts)
 
 
-def _compute_reductions(N: Array, b: Array) -> tuple[Array, IntArray]:
+def compute_reductions(N: Array, b: Array) -> tuple[Array, IntArray]:
     """Return b^T N^+ b (K,) and the ranks (K,) of K matrices N (m, m)."""
     # Columns may depend on no corner at all.
     unit = 1 / np.sqrt(np.maximum(np.diagonal(N, axis1=1, axis2=2), 1e-24))
