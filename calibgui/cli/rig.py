@@ -84,7 +84,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
         "--offsets",
         action="store_true",
         help="estimate by how much each camera is later than the first one, from a board that "
-        "moves: of videos, or photographs in quick succession",
+        "moves: of videos, or photographs in quick succession, whose --times must be known",
     )
     parser.add_argument(
         "--times",
@@ -130,6 +130,12 @@ def run(options: argparse.Namespace, console: Console) -> None:
     pairing, times = _pair(options, console, output)
     if options.times:
         times = read_times(options.times, {camera.name for camera in pairing.cameras})
+    if options.offsets and len(times) < len(pairing.cameras):
+        raise CalibrationError(
+            "Offsets in time cannot be told in seconds: it is not known when the photographs were "
+            "taken.",
+            "Give their times with --times FILE.",
+        )
     console.print_text(describe_pairing(pairing) + "\n")
     known = _read_known(options, pairing, console)
     if output:

@@ -55,7 +55,12 @@ def read_seen_points(
     points = tuple(dict.fromkeys(row["point"] for _, row in rows))
     pixels: dict[int, Array] = {}
     for line, row in rows:
-        c, k = result.find_camera(row["camera"]), points.index(row["point"])
+        if row["camera"] not in result.rig.names:
+            raise CalibrationError(
+                f"{path}, line {line}: the rig has no camera {row['camera']!r}.",
+                f"Its cameras are {', '.join(result.rig.names)}.",
+            )
+        c, k = result.rig.names.index(row["camera"]), points.index(row["point"])
         seen = pixels.setdefault(c, np.full((len(points), 2), np.nan))
         if np.isfinite(seen[k]).any():
             raise CalibrationError(

@@ -184,13 +184,15 @@ def describe_turned(result: RigResult) -> list[str]:
 
 def tabulate_cameras(rig: Rig) -> str:
     """Tabulate the cameras, each with its focal length, centre and residuals."""
-    rows = [["camera", "lens", "fx, px", "cx, px", "cy, px", "rms, px"]]
+    rows = [["camera", "fx, px", "cx, px", "cy, px", "rms, px"]]
+    lenses = []
     for c, camera in enumerate(rig.cameras):
         sigma = rig.camera_sigma(c)
         values = (format_with_sigma(camera.params[i], sigma[i]) for i in (0, 2, 3))
-        title = find_model(camera.model).short_title
-        rows.append([rig.names[c], title, *values, f"{rig.camera_rms(c):.3f}"])
-    return align_columns(rows, left=(0, 1))
+        rows.append([rig.names[c], *values, f"{rig.camera_rms(c):.3f}"])
+        lenses.append(f"{rig.names[c]} {find_model(camera.model).short_title}")
+    lens = fill_lines(f"Lens models: {', '.join(lenses)}.", "  ", "    ")
+    return f"{align_columns(rows, left=(0,))}\n{lens}"
 
 
 def tabulate_poses(result: RigResult) -> str:

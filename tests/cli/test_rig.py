@@ -222,3 +222,5 @@ def test_offsets_are_asked_of_photographs_in_succession(
     times.write_text("camera,number,time_s\nleft,1,0\n")
     assert calibrate(folder, "--offsets", "--times", str(times), "-q") == 1
     assert "has no times of right" in capsys.readouterr().err
+    assert calibrate(folder, "--offsets", "-q") == 1
+    assert "--times FILE" in capsys.readouterr().err

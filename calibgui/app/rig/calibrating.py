@@ -12,7 +12,7 @@ from calibgui.app.calibrating.settings import Settings
 from calibgui.app.photographs.detection import Detection
 from calibgui.dataset import CornerSet, RigPairing, RigResult, View
 from calibgui.engine.boards import Board
-from calibgui.engine.calibration import Observation, Report
+from calibgui.engine.calibration import Observation
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.rig import Rig, RigCamera, calibrate_rig
 from calibgui.formats import ImportedCamera
@@ -53,7 +53,6 @@ def calibrate_photographs(
     hold: bool = False,
     times: Mapping[str, Mapping[int, float]] | None = None,
     estimate_offsets: bool = False,
-    report: Report | None = None,
     tell: Callable[[str], None] = lambda _: None,
 ) -> RigResult:
     """Calibrate a rig.
@@ -67,7 +66,6 @@ def calibrate_photographs(
         hold: True to hold all cameras as each alone is.
         times: time of each photograph, s, by the names of cameras and the numbers of instants.
         estimate_offsets: True to estimate by how much the clock of each camera is late.
-        report: a function that takes each iteration of the joint solve; it returns False to stop.
         tell: a function that is told which camera is calibrated.
 
     Raises:
@@ -90,7 +88,7 @@ def calibrate_photographs(
             images[c, instant] = named[instant]
             observations[c, instant] = view
     sets = list(corner_sets.values())
-    rig = calibrate_rig(cameras, report, estimate_offsets)
+    rig = calibrate_rig(cameras, estimate_offsets=estimate_offsets)
     return RigResult(
         rig,
         pairing.instants,

@@ -181,7 +181,8 @@ def measure_disagreement(
 
 def _compare_with_others(R: Array) -> tuple[Array, Array]:
     """Return Rk (K, P, P) and (1 - Rk)^-1 without what view k alone determines."""
-    if np.trace(R, axis1=1, axis2=2).max() < 1 - _MIN_SHARE_OF_OTHERS:  # nor is an eigenvalue more
+    norm = np.sqrt(np.sum(R**2, axis=(1, 2)))  # no eigenvalue is more
+    if norm.max() < 1 - _MIN_SHARE_OF_OTHERS:
         roots = invert_roots(np.eye(R.shape[1]) - R)
         return R, np.swapaxes(roots, 1, 2) @ roots
     shares, axes = np.linalg.eigh(R)

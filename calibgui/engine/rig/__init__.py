@@ -17,7 +17,6 @@ if TYPE_CHECKING:
     from calibgui.engine.rig.point_uncertainty import (
         PointUncertainty as PointUncertainty,
         estimate_point_uncertainty as estimate_point_uncertainty,
-        see_points as see_points,
     )
     from calibgui.engine.rig.records import (
         Layout as Layout,
@@ -44,7 +43,7 @@ load_on_demand(
     __name__,
     {
         "calibrate_rig": ["calibrate_rig"],
-        "point_uncertainty": ["PointUncertainty", "estimate_point_uncertainty", "see_points"],
+        "point_uncertainty": ["PointUncertainty", "estimate_point_uncertainty"],
         "records": [
             "Layout",
             "LeftOutView",

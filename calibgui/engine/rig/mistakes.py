@@ -87,11 +87,11 @@ def find_mistakes(
     for a, b in find_tree(count_shared(alone)):
         pair = _Pair(a, b, (alone[a], alone[b]), turns, agreement, instants)
         both = [(cameras[c], alone[c]) for c in (a, b)]
-        shifted = pair.find_shift()
-        moved = None if shifted else pair.find_move()
+        between = relations[b].after(relations[a].invert())
+        shifted = pair.find_shift(between)
+        moved = None if shifted else pair.find_move(between)
         named = [shifted or moved] if shifted or moved else []
         if not named:
-            between = relations[b].after(relations[a].invert())
             named = [*pair.find_exchange(between, both), *pair.find_scale(between)]
         for mistake in filter(None, named):
             found.append(mistake)
@@ -137,14 +137,14 @@ class _Pair:
         there = self.second.select(in_b)
         return self.first.select(in_a), [there.turn(turn) for turn in self.turns]
 
-    def find_shift(self) -> RigMistake | None:
+    def find_shift(self, relation: Relation) -> RigMistake | None:
         """Find by how many instants the pairing is shifted, if it is."""
         costs = {}
         for shift in sorted(range(-_MAX_SHIFT, _MAX_SHIFT + 1), key=abs):
             a, turned = self.match(shift)
             if len(a.instant) < _MIN_PART:
                 continue
-            relation = find_relation(a, turned)
+            relation = find_relation(a, turned) if shift else relation
             costs[shift] = float(np.median(choose_turns(relation, a, turned)[1]))
             if shift == 0 and costs[0] < _MIN_IMPROVEMENT * USUAL_COST * self.agreement.noise:
                 return None  # as it is, the photographs go together
@@ -155,29 +155,20 @@ class _Pair:
             return None
         return RigMistake(Mistake.SHIFTED, self.b, self.a, (), float(best))
 
-    def find_move(self) -> RigMistake | None:
+    def find_move(self, start: Relation) -> RigMistake | None:
         """Find from which instant on the second camera stands otherwise, if it does."""
         a, turned = self.match()
         count = len(a.instant)
         if count < 2 * _MIN_PART:
             return None
-        start = find_relation(a, turned)
         b = apply_turns(turned, choose_turns(start, a, turned)[0])
-        best = None
-        for cut in range(_MIN_PART, count - _MIN_PART + 1):
-            parts = [np.arange(cut), np.arange(cut, count)]
-            left = 0.0
-            for part in parts:
-                left += _fit(start, a.select(part), b.select(part))[1]
-            if best is None or left < best[0]:
-                best = left, cut
-        assert best is not None
-        left, cut = best
-        whole = _fit(start, a, b)[1]
+        cuts = np.arange(_MIN_PART, count - _MIN_PART + 1)
+        left_at, whole = _fit_both_parts(start, a, b, cuts)
+        best = int(np.argmin(left_at))
+        left, cut = float(left_at[best]), int(cuts[best])
         freedom = 6 * count - 12
         ratio = (whole - left) / 6 / max(left / freedom, self.agreement.noise)
-        tried = count - 2 * _MIN_PART + 1
-        if not scipy.special.fdtrc(6, freedom, ratio) * tried < _SIGNIFICANCE:
+        if not scipy.special.fdtrc(6, freedom, ratio) * len(cuts) < _SIGNIFICANCE:
             return None
         before, after = (
             find_relation(a.select(part), [each.select(part) for each in turned])
@@ -233,6 +224,8 @@ class _Pair:
         a, turned = self.match()
         chosen, costs = choose_turns(relation, a, turned)
         b = apply_turns(turned, chosen)
+        strange = np.flatnonzero(~self._agree(costs)).astype(np.int64)
+        a, b = a.select(strange), b.select(strange)
         # Least squares of T_b - Q T_a = s S over each instant's place.
         along = b.T - a.T @ relation.R.T
         scale = along @ relation.T / max(float(relation.T @ relation.T), 1e-300)
@@ -242,7 +235,7 @@ class _Pair:
                 for s, one in zip(scale.tolist(), np.arange(len(scale))[:, None], strict=True)
             ]
         )
-        wrong = ~self._agree(costs) & self._agree(scaled) & (np.abs(scale - 1) > _MIN_SCALE)
+        wrong = self._agree(scaled) & (np.abs(scale - 1) > _MIN_SCALE)
         if wrong.sum() < 2 or np.ptp(scale[wrong]) > 0.1 * np.abs(scale[wrong]).max():
             return []
         return self._name(Mistake.OTHER_SCALE, a, wrong, float(np.median(scale[wrong])))
@@ -258,24 +251,50 @@ class _Pair:
         return [RigMistake(kind, self.b, self.a, numbers, value)] if numbers else []
 
 
-def _fit(
-    start: Relation, a: ViewPoses, b: ViewPoses, more: Array | None = None
-) -> tuple[Array, float]:
-    """Fit a local change (6,) of a relation to instants; return it and the cost that is left.
+def _fit(start: Relation, a: ViewPoses, b: ViewPoses, more: Array) -> tuple[Array, float]:
+    """Fit a local change (6,) of a relation and n more unknowns to instants.
 
     Args:
         start, a, b: the relation, and the views of both cameras.
-        more: (K, 6, n) change of e with further unknowns; None without any.
+        more: (K, 6, n) change of e with the further unknowns.
+
+    Returns:
+        The unknowns (6 + n,), and the cost that is left.
     """
+    A, g, whole = _sum_by_instant(start, a, b, more)
+    step = np.linalg.solve(A.sum(axis=0), g.sum(axis=0))
+    return step, float(whole.sum() - step @ g.sum(axis=0))
+
+
+def _fit_both_parts(
+    start: Relation, a: ViewPoses, b: ViewPoses, cuts: IntArray
+) -> tuple[Array, float]:
+    """Fit a change of a relation to the instants before each cut, and one to those after it; return
+    the costs (n,) that are left of both parts, and that of one change for all."""
+    sums = [np.cumsum(part, axis=0) for part in _sum_by_instant(start, a, b)]
+    before = [part[cuts - 1] for part in sums]
+    after = [part[-1] - earlier for part, earlier in zip(sums, before, strict=True)]
+    left = sum(w - _measure_gain(A, g) for A, g, w in (before, after))
+    A, g, w = (part[-1:] for part in sums)
+    return np.asarray(left), float((w - _measure_gain(A, g))[0])
+
+
+def _measure_gain(A: Array, g: Array) -> Array:
+    """Return by how much the least squares of normal equations (n, 6, 6), (n, 6) save cost."""
+    return np.asarray(np.sum(g * np.linalg.solve(A, g[..., None])[..., 0], axis=1))
+
+
+def _sum_by_instant(
+    start: Relation, a: ViewPoses, b: ViewPoses, more: Array | None = None
+) -> tuple[Array, Array, Array]:
+    """Return each instant's normal equations (K, m, m) and (K, m), and its cost (K,) as it is."""
     e, covariance = measure_differences(start, a, b)
     C = differentiate_differences(start, a)
     if more is not None:
         C = np.concatenate([C, more], axis=2)
     weighted = np.swapaxes(np.linalg.solve(covariance, C), 1, 2)
-    A, g = (weighted @ C).sum(axis=0), (weighted @ e[..., None]).sum(axis=0)[:, 0]
-    step = np.linalg.solve(A, g)
-    whole = float(np.sum(e * np.linalg.solve(covariance, e[..., None])[..., 0]))
-    return np.asarray(step), whole - float(step @ g)
+    cost = np.sum(e * np.linalg.solve(covariance, e[..., None])[..., 0], axis=1)
+    return weighted @ C, (weighted @ e[..., None])[..., 0], np.asarray(cost)
 
 
 def _are_consistent(

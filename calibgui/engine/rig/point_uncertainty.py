@@ -54,7 +54,7 @@ def estimate_point_uncertainty(
     ahead = aim / usual
     wanted = np.array(distances if len(distances) else [0.5 * usual, usual, 2 * usual, 4 * usual])
     points = start + wanted[:, None] * ahead
-    pixels = {c: see_points(rig, c, points) for c in range(len(rig.cameras))}
+    pixels = {c: _see_points(rig, c, points) for c in range(len(rig.cameras))}
     found = triangulate_points(rig, pixels, sigma)
     seen = np.isfinite(found.residuals).all(axis=2).sum(axis=0)
     across = np.eye(3) - np.outer(ahead, ahead)
@@ -73,7 +73,7 @@ def estimate_point_uncertainty(
     return estimates
 
 
-def see_points(rig: Rig, c: int, points: Array) -> Array:
+def _see_points(rig: Rig, c: int, points: Array) -> Array:
     """Return the pixels (n, 2) of points (n, 3) in camera `c`; NaN outside of its image."""
     camera, pose = rig.cameras[c], rig.poses[c]
     X = points @ rotation_from_vector(pose.rvec).T + pose.tvec

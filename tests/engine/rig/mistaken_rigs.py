@@ -117,5 +117,4 @@ MISTAKES: dict[str, tuple[Callable[[RigScene, np.random.Generator], list[Views]]
 def make_mistaken(name: str, seed: int) -> list[RigCamera]:
     """Cameras with a mistake, each calibrated alone."""
     rng = np.random.default_rng(1000 + seed)
-    cameras = calibrate_alone(MISTAKES[name][0](make_scene(seed), rng))
-    return [replace(camera) for camera in cameras]
+    return calibrate_alone(MISTAKES[name][0](make_scene(seed), rng))

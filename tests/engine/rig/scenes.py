@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from calibgui.engine.arrays import Array, Size
+from calibgui.engine.arrays import Size
 from calibgui.engine.boards.board import Board
 from calibgui.engine.calibration.observations import Observation
 from calibgui.engine.camera.camera import Camera
@@ -152,8 +152,3 @@ def measure_pose_error(found: Sequence[Pose], true: Sequence[Pose]) -> tuple[flo
     ]
     moves = [np.linalg.norm(f.tvec - t.tvec) for f, t in zip(found, true, strict=True)]
     return float(max(turns)), float(max(moves))
-
-
-def list_views(cameras: Sequence[RigCamera]) -> Mapping[str, Array]:
-    """The numbers of the instants that each camera sees."""
-    return {camera.name: np.array(sorted(camera.views)) for camera in cameras}
