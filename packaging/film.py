@@ -3,8 +3,8 @@
     python packaging/film.py [FILE]
 
 Photographs of a board whose squares are 0.5 % too high are dropped onto the window, which searches
-them and calibrates; the button beside the verdict estimates the board's shape, and what that has
-done is kept. What is shown is what the window shows, with a drawn cursor; waiting is shortened.
+them and calibrates; the verdict's button mends what is wrong, and what that has done is kept, until
+nothing is. What is shown is what the window shows, with a drawn cursor; waiting is shortened.
 """
 
 from __future__ import annotations
@@ -148,17 +148,18 @@ def act(window: MainWindow, film: Film, folder: Path) -> None:
         film.shoot(500)
     session.select(strip.model().index(4, 0).data(Role.PATH))
     film.film_until(lambda: window.page.shown_path == session.image)
-    film.click(bar.button)
-    film.film_until(
-        lambda: (
-            isinstance(bar.comparison, BeforeAndAfter)
-            and bar.comparison.isVisible()
-            and not session.jobs.running
+    while bar.verdict is not None and bar.verdict.findings and bar.verdict.findings[0].action:
+        film.click(bar.button)
+        film.film_until(
+            lambda: (
+                isinstance(bar.comparison, BeforeAndAfter)
+                and bar.comparison.isVisible()
+                and not session.jobs.running
+            )
         )
-    )
-    film.shoot(2 * _STOP_MS)
-    assert isinstance(bar.comparison, BeforeAndAfter)
-    film.click(bar.comparison.keep)
+        film.shoot(2 * _STOP_MS)
+        assert isinstance(bar.comparison, BeforeAndAfter)
+        film.click(bar.comparison.keep)
     film.click(bar.square.confirm)
     wait(lambda: not session.jobs.running)
     pause(0.5)  # panels are drawn anew a moment later; until then a picture shows them black

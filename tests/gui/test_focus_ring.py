@@ -14,6 +14,7 @@ from calibgui.gui.panels.evidence.poses import PosesPanel
 from calibgui.gui.panels.method.distortion import DistortionPanel
 from calibgui.gui.panels.method.lens_models import LensModelsPanel
 from calibgui.gui.panels.method.stage_one import StageOnePanel
+from calibgui.gui.panels.panel import Panel
 from calibgui.gui.widgets.focus_ring import FocusRing
 from calibgui.gui.window.main_window import MainWindow
 
@@ -43,7 +44,15 @@ def test_wherever_tab_goes_the_focus_is_seen(full: MainWindow, qtbot: QtBot) -> 
     for kind in (UncertaintyPanel, PosesPanel, StageOnePanel, LensModelsPanel, DistortionPanel):
         full.need_analysis().show_panel(kind)
         qtbot.waitUntil(lambda: not full.session.jobs.running, timeout=60_000)
-        QApplication.processEvents()
+        analysis = full.need_analysis()
+        qtbot.waitUntil(
+            lambda analysis=analysis: (
+                not analysis._waiting
+                and all(panel.updatesEnabled() for panel in analysis.findChildren(Panel))
+                and not full.session.jobs.running
+            ),
+            timeout=60_000,
+        )
         full.images.list.setFocus(Qt.FocusReason.TabFocusReason)
         for _ in range(40):
             widget = QApplication.focusWidget()

@@ -206,7 +206,7 @@ def test_the_users_language_is_loaded(
     QLocale.setDefault(QLocale("it_IT"))
     app._translate(qapp)
     try:
-        assert qapp.translate("MainWindow", "Inspector") == OPEN + "Inspector" + CLOSE
+        assert qapp.translate("MainWindow", "C&alibrate") == OPEN + "C&alibrate" + CLOSE
     finally:
         QLocale.setDefault(before)
         for translator in qapp.findChildren(QTranslator):

@@ -14,7 +14,7 @@ from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.elided import ElidedLabel
 from calibgui.gui.widgets.scrolling import make_calm
 
-PANEL_WIDTH = 400
+PANEL_WIDTH = 412
 """Least width of a card, device-independent px; cards of a row stand below each other in less."""
 _GAP, _HEAD = 12, 32
 """Between cards and around them, and the height of a card's heading, device-independent px."""

@@ -132,7 +132,7 @@ def _list_rows(result: Result) -> list[tuple[str, str, str]]:
 def _format_html(rows: list[tuple[str, str, str]]) -> str:
     """Format rows as a table whose columns of numbers end alike."""
     muted = theme.current().muted
-    lines = "".join(
+    lines = " ".join(
         f'<tr><td width="20%" style="color:{muted}; {_PAD}">{escape(name)}</td>'
         f'<td align="right" style="{_PAD}">{escape(value)}</td>'
         f'<td align="right" width="36%" style="color:{muted}; {_PAD}">{escape(sigma)}</td></tr>'

@@ -27,7 +27,7 @@ from calibgui.gui.widgets.lengths import describe_condition
 
 _INSET = 12
 """From the picture's edge to its texts, device-independent px."""
-_SHADOW = QColor(0, 0, 0, 110)
+_SHADOW = QColor(0, 0, 0, 170)
 
 
 class SensorFigure(QWidget):

@@ -52,9 +52,9 @@ def describe_pixel_error(error: PixelError) -> str:
     return text.format(*map(format_pixels, figures))
 
 
-def format_pixels(error: float) -> str:
+def format_pixels(px: float) -> str:
     """Format an error, px: below 0.01 px its second digit tells nobody anything."""
-    return format_two_digits(error) if error >= _FINEST else f"{error:.3f}"
+    return format_two_digits(px) if px >= _FINEST else f"{px:.3f}".replace("0.000", "<0.001")
 
 
 def describe_figures(verdict: Verdict, result: Result) -> list[str]:
