@@ -41,7 +41,7 @@ def test_it_stands_below_the_name_of_the_image(full: MainWindow) -> None:
     pixels = np.full(CAMERA.size[::-1], 90, np.uint8)
     page._image = Image(pixels, page._session.image)
     page.canvas.hovered.emit(80.0, 70.0)
-    first, second = page.caption.text().split("\n")
+    _, first, second = page.caption.text().split("\n")
     assert "u 80.00" in first and second.startswith("ray ") and "board X" in second
     page.canvas.hovered.emit(np.nan, np.nan)
     assert "\n" not in page.caption.text()
