@@ -14,6 +14,7 @@ from PySide6.QtCore import QPoint, Qt
 from pytestqt.qtbot import QtBot
 
 from calibgui.app.calibrating.settings import DEFAULT_SETTINGS
+from calibgui.app.photographs import other_board
 from calibgui.app.photographs.board_recognition import find_other_pattern
 from calibgui.app.photographs.detection import Detection, find_views
 from calibgui.app.photographs.other_board import OtherBoard
@@ -33,7 +34,6 @@ from calibgui.engine.camera.distortion import project_points
 from calibgui.engine.errors import CalibrationError, Cancelled
 from calibgui.engine.images.reading import read_image, write_image
 from calibgui.engine.images.rendering import render_view
-from calibgui.gui.window import offers
 from calibgui.gui.window.main_window import MainWindow
 from tests import photographs as tests_photographs
 from tests.app import examples
@@ -183,7 +183,7 @@ def test_marks_are_looked_for_on_the_first_board_that_is_found(
         may_end.wait(20)
         return Detection(found, (200, 150))
 
-    monkeypatch.setattr(offers, "recognise_pattern", lambda views: looks.append(len(views)))
+    monkeypatch.setattr(other_board, "recognise_pattern", lambda views: looks.append(len(views)))
     monkeypatch.setattr("calibgui.gui.session.detector.find_views", search)
     window.session.edit("Add", lambda p: add_images(p, [view.image for view in found]))
     window.detector.search()
@@ -202,7 +202,7 @@ def test_boards_are_looked_at_for_marks_once(
     def look(views: Sequence[View]) -> None:
         looks.append(len(views))
 
-    monkeypatch.setattr(offers, "recognise_pattern", look)
+    monkeypatch.setattr(other_board, "recognise_pattern", look)
     found = examples.views(tmp_path)
     window.session.begin(Document(Project(views=tuple(found), size=(320, 240))))
     for _ in range(3):
@@ -253,7 +253,7 @@ def test_the_look_for_another_board_ends_with_its_question(
         ended.set()
         raise Cancelled
 
-    monkeypatch.setattr(offers, "find_other_pattern", look)
+    monkeypatch.setattr(other_board, "find_other_pattern", look)
     blank = [View(str(tmp_path / "blank.png"), ViewStatus.NO_BOARD, "No board.")]
     window.session.edit("Add", lambda project: replace(project, views=tuple(blank)))
     window.detector.finished.emit(True)
@@ -281,8 +281,8 @@ def test_a_failure_waits_for_the_look_that_may_explain_it(
         may_end.wait(10)
         return found
 
-    monkeypatch.setattr(offers, "find_other_pattern", look)
-    monkeypatch.setattr(offers, "find_mirrored_pattern", lambda *_: None)
+    monkeypatch.setattr(other_board, "find_other_pattern", look)
+    monkeypatch.setattr(other_board, "find_mirrored_pattern", lambda *_: None)
     blank = [View(str(tmp_path / "blank.png"), ViewStatus.NO_BOARD, "No board.")]
     window.session.edit(
         "Add", lambda project: replace(project, views=tuple(blank), pattern=AprilGrid())
@@ -361,4 +361,4 @@ def test_grids_of_circles_that_are_cut_are_refused_as_by_the_command_line(
     qtbot.waitUntil(lambda: session.result is not None, timeout=60_000)
     qtbot.waitUntil(lambda: not session.jobs.running, timeout=60_000)
     assert not window.page.reason.isVisible()
-    assert "Circles, 4 × 4;" in window.verdict.square.counted.text()
+    assert "Circles, 4 × 4." in window.verdict.square.counted.text()
