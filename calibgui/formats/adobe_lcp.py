@@ -11,8 +11,8 @@ Cannot hold: other lens models and skew (they are refitted), standard deviations
 from __future__ import annotations
 
 import math
+from html import escape
 from pathlib import Path
-from xml.sax.saxutils import quoteattr
 
 from calibgui.dataset import UNKNOWN_HARDWARE, Hardware, Result
 from calibgui.engine.camera import Camera
@@ -91,7 +91,7 @@ def format_profile(camera: Camera, note: str, hardware: Hardware = UNKNOWN_HARDW
 
 def _list_attributes(values: dict[str, str], indent: int) -> str:
     start = "\n" + " " * indent
-    return "".join(f"{start}stCamera:{key}={quoteattr(value)}" for key, value in values.items())
+    return "".join(f'{start}stCamera:{key}="{escape(value)}"' for key, value in values.items())
 
 
 EXPORTER = Exporter(
