@@ -14,7 +14,16 @@ import numpy as np
 import numpy.typing as npt
 
 from calibgui.app.system.workers import map_in_processes
-from calibgui.engine import boards, calibration, camera, detection, geometry, images, kernels
+from calibgui.engine import (
+    boards,
+    calibration,
+    camera,
+    detection,
+    geometry,
+    images,
+    kernels,
+    uncertainty,
+)
 
 _SQUARE_PX = 20
 """Side of the squares of the drawn board, px."""
@@ -78,7 +87,8 @@ def prepare_every_finder(depth: npt.DTypeLike = np.uint8) -> None:
 
 
 def prepare_solver() -> None:
-    """Calibrate from views of a small board with each kind of lens and shape that has kernels."""
+    """Calibrate from views of a small board with each kind of lens and shape that has kernels, and
+    ask how certain that is."""
     board = boards.Board(6, 7, 30.0)
     xy, middle = board.points(), np.array([90.0, 75.0])
     truth = camera.Camera((640, 480), np.array([650.0, 650.0, 320.0, 240.0, 0.2, *[0.0] * 5]))
@@ -89,10 +99,12 @@ def prepare_solver() -> None:
         pose = geometry.Pose(tilt, np.array([*-middle, 400.0 + 10 * turn]))
         uv = camera.project_points(xy, truth, pose) + random.normal(0, 0.05, (len(xy), 2))
         views.append((uv, xy))
+    observed = [calibration.make_observation(*view) for view in views]
     pixels = np.moveaxis(np.mgrid[200:440:6, 120:360:6], 0, -1)  # where there are corners
     for model in ("lucchese", "splined-stereographic-8x6-90"):
-        found = calibration.calibrate(views, truth.size, model=model).camera
-        camera.pixels_from_rays(camera.rays_from_pixels(pixels, found), found)
+        found = calibration.calibrate(views, truth.size, model=model)
+        camera.pixels_from_rays(camera.rays_from_pixels(pixels, found.camera), found.camera)
+        uncertainty.estimate_projection_uncertainty(found, observed)
     for shape in (boards.BoardShapeModel.BOW, boards.BoardShapeModel.FREE):
         calibration.calibrate(views, truth.size, board_shape=shape)
 
@@ -130,7 +142,7 @@ _PREPARATIONS = {
 }
 """Functions that prepare detectors which need other kernels than that of checkerboards, by the kind
 of their boards."""
-_ALL_PREPARATIONS: tuple[Callable[[], None], ...] = (
+ALL_PREPARATIONS: tuple[Callable[[], None], ...] = (
     prepare_finder,
     prepare_solver,
     prepare_circle_finder,
@@ -159,9 +171,9 @@ def compile_kernels(
     Raises:
         Cancelled: if `stop` was set.
     """
-    for done, _ in enumerate(map_in_processes(_compile, _ALL_PREPARATIONS, stop, count=2), 1):
+    for done, _ in enumerate(map_in_processes(_compile, ALL_PREPARATIONS, stop, count=2), 1):
         if progress is not None:
-            progress(done, len(_ALL_PREPARATIONS))
+            progress(done, len(ALL_PREPARATIONS))
 
 
 def _compile(prepare: Callable[[], None]) -> None:

@@ -72,6 +72,24 @@ for depth in (np.uint8, np.uint16):
         print(len(prepared), *sorted(list_kernels() - prepared))
 """
 
+UNUSED = """
+from importlib import import_module
+from pkgutil import iter_modules
+from calibgui.app.system.kernel_preparation import ALL_PREPARATIONS
+from calibgui.engine import kernels
+from calibgui.engine.kernels.compilation import KernelCache
+
+with kernels.compile_missing():
+    for prepare in ALL_PREPARATIONS:
+        prepare()
+for each in iter_modules(kernels.__path__):
+    module = import_module(f"{kernels.__name__}.{each.name}")
+    for name, kernel in vars(module).items():
+        is_kernel = isinstance(getattr(kernel, "_cache", None), KernelCache)
+        if is_kernel and kernel.__module__ == module.__name__ and not kernel.signatures:
+            print(each.name, name)
+"""
+
 
 def test_a_photograph_needs_no_kernel_that_is_not_prepared() -> None:
     pytest.importorskip("numba", reason="numba is not installed")
@@ -85,6 +103,16 @@ def test_a_photograph_needs_no_kernel_that_is_not_prepared() -> None:
         count, *missing = line.split(maxsplit=1)
         assert int(count) > 0
         assert not missing
+
+
+@pytest.mark.slow
+def test_what_is_prepared_calls_every_kernel() -> None:
+    """A kernel that is not called is not compiled, and its module never counts as kept."""
+    pytest.importorskip("numba", reason="numba is not installed")
+    root = Path(__file__).parents[3]
+    command = [sys.executable, "-c", UNUSED]
+    done = subprocess.run(command, cwd=root, capture_output=True, text=True, check=True)
+    assert not done.stdout
 
 
 @pytest.mark.slow
