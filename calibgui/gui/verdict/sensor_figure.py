@@ -128,10 +128,10 @@ class SensorFigure(QWidget):
         condition = "" if self._result is None else describe_condition(self._result).strip()
         for k, text in enumerate(filter(None, (scene, condition))):
             texts.append(_Text.align(QPointF(right, _INSET + line * (k + 0.8)), text, small, 1.0))
-        if self._fit:
-            fit = self._fit.split(",")[0]
-            now = self.tr("Now: {0}").format(fit) if self._is_dimmed else fit
-            texts.append(_Text.align(QPointF(_INSET, bottom - 2), now, small, 0.0))
+        fit = self.tr("Now: {0}").format(self._fit) if self._is_dimmed else self._fit
+        lines = fit.split(", ", 1) if fit else []
+        for k, text in enumerate(reversed(lines)):
+            texts.append(_Text.align(QPointF(_INSET, bottom - 2 - k * line), text, small, 0.0))
         return texts
 
 
