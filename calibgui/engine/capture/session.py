@@ -66,6 +66,7 @@ _MIN_MATCH = 0.7
 a third of the board's size, which a tilt of 25 degrees or more survives."""
 _VALIDATION_EVERY = 5
 """Of so many pictures one is put aside."""
+_WHOLE_BOARD = "Hold the whole board in the picture."
 _LOSS = ViewDesign.compute_worst
 """What the next view is to lower: that of the worst pixel, which the capture ends by."""
 
@@ -149,7 +150,7 @@ class CaptureSession:
         self._check_size(grey)
         self._follow(grey, frame.time)
         if self._corners is None:
-            return self._state("Hold the whole board in the picture.")
+            return self._state(_WHOLE_BOARD)
         pose = self._locate(self._corners)
         match, instruction = self._guide(pose)
         if not self._is_still:
@@ -189,6 +190,9 @@ class CaptureSession:
             corners = self._find(grey)
         except NoBoardError as error:
             self._advice = error.message
+            return None
+        if corners.relative:  # which part of the board it is cannot be told
+            self._advice = _WHOLE_BOARD
             return None
         if self._is_blurred(corners):
             self._advice = "It is blurred here: hold it still, and check the focus."

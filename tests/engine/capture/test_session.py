@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -104,6 +106,12 @@ def test_a_blurred_picture_is_refused(session: CaptureSession, film: Film) -> No
     assert session.take(film.take(FIRST, blur=2.0)) is None
     state = session.examine(film.take(FIRST, blur=2.0))
     assert "blurred" in state.instruction
+
+
+def test_a_part_whose_place_on_the_board_is_open_is_not_taken(film: Film) -> None:
+    session = CaptureSession(lambda image: replace(_find(image), relative=True), 20.0, 0.1)
+    assert session.examine(film.take(FIRST)).instruction == "Hold the whole board in the picture."
+    assert not session.pictures
 
 
 def test_no_board_is_said(session: CaptureSession) -> None:
