@@ -98,10 +98,9 @@ def add_scale_option(parser: argparse.ArgumentParser, need: str) -> None:
         type=parse_square,
         action=_StoreSquare,
         metavar="MM",
-        help="side of a square, or distance of circles, mm, or with a unit as 0.025m, perhaps with "
-        "one standard deviation as 30+-0.02, which all squares share and every length then has; "
-        "or as a certificate says it of the length of N squares: 300+-0.05/10, or "
-        f"'300+-0.05 (k=2)/10' where the uncertainty is expanded; {need}",
+        help="side of a square, or distance of circles, mm, or with a unit as 0.025m; with one "
+        "standard deviation as 30+-0.02, or as a certificate states 10 squares: '300+-0.05 "
+        f"(k=2)/10'; {need}",
     )
 
 

@@ -162,8 +162,8 @@ def add_settings_options(parser: argparse.ArgumentParser, is_automatic: bool = F
     group.add_argument(
         "--weigh-views",
         action="store_true",
-        help="weigh every view by the noise that is found in it, so that poor views spoil less; "
-        "best with an estimated board shape",
+        help="weigh every view by the noise that is found in it; best with an estimated board "
+        "shape",
     )
     group.add_argument(
         "--board-shape",

@@ -13,8 +13,8 @@ def add_limits_option(parser: argparse.ArgumentParser, others: str = "") -> None
     parser.add_argument(
         "--limits",
         metavar="NAME|FILE",
-        help="what has to be kept: a preset (hobby-robot, photogrammetry, metrology, or one of "
-        "your own) or a TOML file with largest_edge_error_px, fewest_views, least_coverage (0 to "
-        f"1), or largest_length_sigma_mm, length_mm and distance_mm{others}; the exit code is 3 if "
-        "a limit is broken",
+        help="what has to be kept, or the exit code is 3: a preset (hobby-robot, photogrammetry, "
+        "metrology, or one of your own) or a TOML file with largest_edge_error_px, fewest_views, "
+        "least_coverage (0 to 1), or largest_length_sigma_mm, length_mm and distance_mm"
+        f"{others}",
     )

@@ -35,6 +35,7 @@ _PACKAGES = (
     "pillow",
     "PyYAML",
     "matplotlib",
+    "jinja2",
     "numba",
     "threadpoolctl",
     "platformdirs",
@@ -48,6 +49,7 @@ _PACKAGES = (
     "aiohttp",
     "pillow-heif",
     "rawpy",
+    "typst",
 )
 """Packages whose versions --version --json names: what pyproject.toml lists for users."""
 _ALONE = ("-h", "--help", "--version")

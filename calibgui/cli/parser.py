@@ -76,9 +76,15 @@ class Parser(argparse.ArgumentParser):
             help="show this help message and exit; with all, that on every option",
         )
 
+    def format_help(self) -> str:
+        """Format the help on all options; of many the usage names those alone that are needed."""
+        if len(self._list_options()) >= _MANY:
+            self.usage = self._format_short_usage().partition(" (")[0].removeprefix("usage: ")
+        return super().format_help()
+
     def format_short_help(self) -> str:
         """Format the help on the options that are used most; on all of them if they are few."""
-        options = [each for each in self._actions if each.option_strings and each.dest != "help"]
+        options = self._list_options()
         if len(options) < _MANY:
             return self.format_help()
         rank = {name: k for k, name in enumerate(_FIRST)}
@@ -97,6 +103,10 @@ class Parser(argparse.ArgumentParser):
         more = len(options) - len(required) - len(listed)
         formatter.add_text(f"{self.prog} --help all describes {more} more.")
         return formatter.format_help()
+
+    def _list_options(self) -> list[argparse.Action]:
+        """List the options but for --help."""
+        return [each for each in self._actions if each.option_strings and each.dest != "help"]
 
     def parse_args(self, args: Any = None, namespace: Any = None) -> Any:
         """Return the parsed arguments, or end the program and suggest what was probably meant."""

@@ -35,7 +35,8 @@ def test_the_wheel_holds_the_program_and_nothing_else(built: Path) -> None:
         metadata = message_from_string(
             wheel.read(f"calibgui-{__version__}.dist-info/METADATA").decode()
         )
-    sources = {path.relative_to(ROOT).as_posix() for path in (ROOT / "calibgui").rglob("*.py")}
+    files = [*(ROOT / "calibgui").rglob("*.py"), *(ROOT / "calibgui").rglob("templates/*")]
+    sources = {path.relative_to(ROOT).as_posix() for path in files}
     folders = [path for path in (ROOT / "resources").iterdir() if path.name != "images"]
     files = [path for folder in folders for path in folder.rglob("*") if path.is_file()]
     resources = {f"calibgui/{path.relative_to(ROOT).as_posix()}" for path in files}

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 from types import MappingProxyType
-from typing import Any
+from typing import Any, NoReturn
 
 import numpy as np
 import pytest
@@ -22,11 +22,13 @@ from calibgui.app.projects.project_file import read_project, write_project
 from calibgui.dataset import CornerSet, View, ViewStatus, judging
 from calibgui.engine.assessment import Cause, Grade
 from calibgui.engine.boards import AprilGrid, Circles, Pattern
+from calibgui.engine.errors import Cancelled
 from calibgui.engine.numbers import format_two_digits
 from calibgui.gui.dialogs.export_dialog import ExportDialog
 from calibgui.gui.panels.answer.result import ResultPanel
 from calibgui.gui.panels.evidence.coverage import CoveragePanel
 from calibgui.gui.panels.evidence.residuals import ResidualsPanel
+from calibgui.gui.verdict import verdict_bar
 from calibgui.gui.verdict.before_after import BeforeAndAfter
 from calibgui.gui.verdict.texts import describe_fit
 from calibgui.gui.verdict.verdict_bar import VerdictBar
@@ -70,11 +72,18 @@ def open_project(window: MainWindow, qtbot: QtBot) -> Open:
 
 
 def test_a_verdict_that_a_search_for_a_better_camera_found_reaches_the_panels(
-    window: MainWindow, qtbot: QtBot, plain: Project
+    window: MainWindow, qtbot: QtBot, plain: Project, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """The search judges the shown result itself, and ends where there is nothing to mend."""
+
+    def end(*_: object) -> NoReturn:
+        raise Cancelled
+
+    with monkeypatch.context() as meanwhile:  # what the bar begins by itself comes to nothing
+        meanwhile.setattr(verdict_bar, "judge_result", end)
+        window.session.begin(Document(plain))
+        qtbot.waitUntil(lambda: not window.session.jobs.running)
     window.verdict.show_running(True)
-    window.session.begin(Document(plain))
     words = window.need_analysis().show_panel(ResultPanel).words
     qtbot.waitUntil(lambda: "is being found out" in words.toPlainText())
     result = window.session.result
