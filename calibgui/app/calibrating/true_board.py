@@ -1,4 +1,4 @@
-"""What it would be worth to state that the board is flat and printed true.
+"""The gain of stating that the board is flat and printed true is measured beside a calibration.
 
 Few views cannot show how far a board deviates from its drawing. They are taken to deviate as
 ordinary boards do, and every ± counts that; of a board of glass, most of some ± is then in vain.

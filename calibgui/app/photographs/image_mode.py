@@ -1,4 +1,4 @@
-"""How a camera's images became those of another size, by the numbers alone.
+"""The mode by which a camera's images became those of another size is told by the numbers alone.
 
 Images of the same aspect count as the whole sensor, scaled; images as wide or as high as the
 camera's as their middle. What else is smaller in both directions may be the middle at the camera's

@@ -1,4 +1,4 @@
-"""How long the squares of a project's board are: stated, and confirmed.
+"""The length of the squares of a project's board is stated here, and confirmed.
 
 No pixel depends on it, so that the results of the same board are scaled and not made anew, with
 their verdicts and with what was said of them.
