@@ -82,14 +82,13 @@ def test_a_verdict_that_a_search_for_a_better_camera_found_reaches_the_panels(
     with monkeypatch.context() as meanwhile:  # what the bar begins by itself comes to nothing
         meanwhile.setattr(verdict_bar, "judge_result", end)
         window.session.begin(Document(plain))
-        qtbot.waitUntil(lambda: not window.session.jobs.running)
-    window.verdict.show_running(True)
-    words = window.need_analysis().show_panel(ResultPanel).words
-    qtbot.waitUntil(lambda: "is being found out" in words.toPlainText())
-    result = window.session.result
-    assert result is not None
-    assert window.verdict.verdict is None
-    judging.judge_result(result)
+        words = window.need_analysis().show_panel(ResultPanel).words
+        qtbot.waitUntil(lambda: "is being found out" in words.toPlainText())
+        window.verdict.show_running(True)
+        result = window.session.result
+        assert result is not None
+        assert window.verdict.verdict is None
+        judging.judge_result(result)
     window.verdict.show_running(False)
     qtbot.waitUntil(lambda: "is being found out" not in words.toPlainText(), timeout=30_000)
     assert f"{len(result.used)} views" in words.toPlainText()
