@@ -160,19 +160,16 @@ def decode_video(path: str) -> tuple[int, Iterator[GreyImage]]:
     Frames are RGB (h, w, 3) of 8 bits, turned as the file says; there are none if it cannot be
     decoded. Only what is known for a container of frames should be given: FFmpeg follows lists.
     """
-    capture = cv2.VideoCapture(path, cv2.CAP_FFMPEG)
+    stream = open_stream(path, is_live=False)
 
     def decode() -> Iterator[GreyImage]:
         try:
-            while True:
-                is_read, frame = capture.read()
-                if not is_read:
-                    return
-                yield np.asarray(cv2.cvtColor(frame, cv2.COLOR_BGR2RGB))
+            while (frame := stream.read()) is not None:
+                yield frame
         finally:
-            capture.release()
+            stream.close()
 
-    return max(0, int(capture.get(cv2.CAP_PROP_FRAME_COUNT))), decode()
+    return stream.count, decode()
 
 
 def read_frame_rate(path: str) -> float:
@@ -200,6 +197,11 @@ class Stream:
     def time(self) -> float:
         """Time of the last frame from the first one on, s, as the stream states it."""
         return float(self._capture.get(cv2.CAP_PROP_POS_MSEC)) / 1000
+
+    @property
+    def count(self) -> int:
+        """Number of frames that it says it has; 0 if it does not."""
+        return max(0, int(self._capture.get(cv2.CAP_PROP_FRAME_COUNT)))
 
     def read(self) -> GreyImage | None:
         """Return the next frame, RGB (h, w, 3) of 8 bits; None if there is none."""

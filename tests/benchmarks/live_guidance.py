@@ -24,7 +24,7 @@ from calibgui.engine.arrays import Array, GreyImage
 from calibgui.engine.boards.board import Board
 from calibgui.engine.camera.camera import Camera
 from calibgui.engine.camera.distortion import project_points
-from calibgui.engine.camera.projection import rays_from_pixels
+from calibgui.engine.camera.projection import pixels_from_rays, rays_from_pixels
 from calibgui.engine.capture.frame_sources import Frame
 from calibgui.engine.capture.session import CaptureSession
 from calibgui.engine.detection.find_corners import find_corners
@@ -173,16 +173,9 @@ def _is_honest(session: CaptureSession, camera: Camera) -> bool:
     good = np.isfinite(seen).all(-1) & np.isfinite(true).all(-1)
     U, _, Vt = np.linalg.svd(seen[good].T @ true[good])
     turned = true[good] @ (U @ np.diag([1, 1, np.linalg.det(U @ Vt)]) @ Vt).T
-    moved = project_points_of_rays(turned, calibration.camera) - uv[good]
+    moved = pixels_from_rays(turned, calibration.camera) - uv[good]
     ratio = np.linalg.norm(moved, axis=-1) / found.worst_direction[good]
     return bool(np.mean(ratio < 2.45) > 0.9)
-
-
-def project_points_of_rays(rays: Array, camera: Camera) -> Array:
-    """Return the pixels of rays."""
-    from calibgui.engine.camera.projection import pixels_from_rays
-
-    return pixels_from_rays(rays, camera)
 
 
 HANDS: dict[str, tuple[float | None, bool]] = {

@@ -11,6 +11,7 @@ from calibgui.engine.arrays import GreyImage
 from calibgui.engine.boards.board import Board
 from calibgui.engine.camera.camera import Camera
 from calibgui.engine.camera.distortion import project_points
+from calibgui.engine.camera.projection import rays_from_pixels
 from calibgui.engine.capture.board_tracking import track_corners
 from calibgui.engine.capture.frame_sources import Frame
 from calibgui.engine.capture.session import CaptureSession
@@ -78,15 +79,11 @@ def test_a_hand_that_follows_ends_the_capture(session: CaptureSession, film: Fil
     found = estimate_projection_uncertainty(session.calibration, session.views)
     assert found.worst == session.worst <= 0.08
     uv = np.array([[20.0, 20.0], [160.0, 120.0], [300.0, 220.0]])
-    rays = np.linalg.norm(_look(session.calibration.camera, uv) - _look(CAMERA, uv), axis=1)
+    rays = np.linalg.norm(
+        rays_from_pixels(uv, session.calibration.camera) - rays_from_pixels(uv, CAMERA), axis=1
+    )
     assert rays.max() * 300 < 4 * session.worst, (rays.max() * 300, len(taken))
     assert 0 < session.measure_unseen_error() < 0.3
-
-
-def _look(camera: Camera, uv: np.ndarray) -> np.ndarray:
-    from calibgui.engine.camera.projection import rays_from_pixels
-
-    return rays_from_pixels(uv, camera)
 
 
 def test_the_same_pose_is_taken_once(session: CaptureSession, film: Film) -> None:
