@@ -42,7 +42,7 @@ LEFT = Qt.MouseButton.LeftButton
 
 
 def calibrated(project: Project) -> Project:
-    """The project with its first result."""
+    """The project with its first result, which no other test shares or has judged."""
     assert project.size is not None
     corner_set = CornerSet(project.size, project.views, project.board)
     result = calibrate_views(corner_set, project.settings)
@@ -81,7 +81,7 @@ def test_a_verdict_that_a_search_for_a_better_camera_found_reaches_the_panels(
 
     with monkeypatch.context() as meanwhile:  # what the bar begins by itself comes to nothing
         meanwhile.setattr(verdict_bar, "judge_result", end)
-        window.session.begin(Document(plain))
+        window.session.begin(Document(calibrated(plain)))
         words = window.need_analysis().show_panel(ResultPanel).words
         qtbot.waitUntil(lambda: "is being found out" in words.toPlainText())
         window.verdict.show_running(True)
