@@ -25,6 +25,7 @@ from calibgui.gui.panels.latest import Latest
 from calibgui.gui.session.session import Session
 from calibgui.gui.verdict.findings_list import FindingsList
 from calibgui.gui.verdict.grade_icon import GradeIcon, get_colour
+from calibgui.gui.verdict.limits_row import LimitsRow
 from calibgui.gui.verdict.remedy_runner import CarriedOut, RemedyRunner
 from calibgui.gui.verdict.sensor_figure import SensorFigure
 from calibgui.gui.verdict.square_row import SquareRow
@@ -91,6 +92,7 @@ class VerdictBar(QWidget):
         # It must not push aside what stands beside the verdict below the strip.
         self.headline.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
         self.reason = ReservedLabel(_LINES)
+        self.limits = LimitsRow(session)
         self.figures = SensorFigure()
         self._fit = ""
         """The words on the residuals, which are made once for each calibration."""
@@ -136,6 +138,7 @@ class VerdictBar(QWidget):
         column.addWidget(self.reason)
         column.addWidget(self.square)
         column.addWidget(self.figures)
+        column.addWidget(self.limits)
         self.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Fixed)
 
     def show_running(self, running: bool) -> None:

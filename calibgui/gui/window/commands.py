@@ -44,20 +44,24 @@ class Commands(QObject):
         self,
         calibrate: Callable[[], object],
         stop: Callable[[], object],
+        check: Callable[[], object],
         leave: Callable[[], object],
         leave_alone: Callable[[], object],
         list_pages: Callable[[], Sequence[Page]],
         find_action: Callable[[], object],
+        take_tour: Callable[[], object],
     ) -> Sequence[Menu]:
         """Return the menus from left to right.
 
         Args:
             calibrate: starts a calibration.
             stop: ends the work that the progress bar tells of.
+            check: asks for photographs that check the shown result.
             leave: closes the window.
             leave_alone: leaves the desk alone in the window, or not.
             list_pages: returns what the window can show now.
             find_action: opens the palette of all actions.
+            take_tour: points at one part of the window after another.
         """
         return (
             self._describe_file(leave),
@@ -73,9 +77,9 @@ class Commands(QObject):
                     *self._page.tools,
                 ),
             ),
-            self._describe_calibration(calibrate, stop),
+            self._describe_calibration(calibrate, stop, check),
             self._describe_view(leave_alone, list_pages),
-            self._describe_help(find_action),
+            self._describe_help(find_action, take_tour),
         )
 
     def _describe_file(self, leave: Callable[[], object]) -> Menu:
@@ -220,7 +224,10 @@ class Commands(QObject):
         show_dialog(HelpDialog(self._parent))
 
     def _describe_calibration(
-        self, calibrate: Callable[[], object], stop: Callable[[], object]
+        self,
+        calibrate: Callable[[], object],
+        stop: Callable[[], object],
+        check: Callable[[], object],
     ) -> Menu:
         session, files = self._session, self._files
         return Menu(
@@ -253,6 +260,13 @@ class Commands(QObject):
                     shortcut=Key.Print,
                     tip=self.tr("Write what is known as PDF or a web page, or a certificate"),
                     run=files.report,
+                    is_enabled=lambda: session.result is not None,
+                    why_disabled=self.tr("Nothing is calibrated yet: press Calibrate first."),
+                ),
+                Command(
+                    text=self.tr("Chec&k with new photographs…"),
+                    tip=self.tr("Whether the camera is still good; the project stays as it is"),
+                    run=check,
                     is_enabled=lambda: session.result is not None,
                     why_disabled=self.tr("Nothing is calibrated yet: press Calibrate first."),
                 ),
@@ -314,7 +328,9 @@ class Commands(QObject):
         tip = self.tr("What the window can show stands here")
         return self._describe_nothing(tip, self.tr("There are no images yet: add some first."))
 
-    def _describe_help(self, find_action: Callable[[], object]) -> Menu:
+    def _describe_help(
+        self, find_action: Callable[[], object], take_tour: Callable[[], object]
+    ) -> Menu:
         return Menu(
             self.tr("&Help"),
             (
@@ -323,6 +339,11 @@ class Commands(QObject):
                     shortcut=Key.HelpContents,
                     tip=self.tr("The workflow on one page"),
                     run=self._help,
+                ),
+                Command(
+                    text=self.tr("Take the &tour"),
+                    tip=self.tr("Two minutes from one part of the window to the next"),
+                    run=take_tour,
                 ),
                 Command(
                     text=self.tr("&Find an action…"),
