@@ -284,8 +284,8 @@ def _write_files(
         messages.append(f"Wrote {options.save_board_shape}.")
     elif options.save_board_shape:
         messages.append(
-            f"{options.save_board_shape} is not written: nothing shows that the board is not as it "
-            "was drawn. --board-shape free estimates its shape all the same."
+            f"{options.save_board_shape} is not written: nothing shows that the board is not flat "
+            "and printed true. --board-shape free estimates its shape all the same."
         )
     if options.export_all is not None:
         messages.append(export_to_folder(result, options))

@@ -403,10 +403,15 @@ def _map_errors(result: Result) -> Array | None:
 
 
 def _describe_reason(verdict: Verdict, result: Result) -> str:
-    """Say why a result has its grade."""
+    """Say what to do next about a result, if no button does it, and why it has its grade."""
     if (diagnosis := result.calibration.diagnosis) is not None:
         return f"{diagnosis.message} {describe_lost_images(result) or diagnosis.hint}"
-    return describe_reason(verdict, result)
+    reason = describe_reason(verdict, result)
+    for finding in verdict.findings[:1]:
+        has_button = finding.action is not None and finding.action.change is not None
+        if reason == finding.message and not has_button:
+            return f"{finding.remedy} {reason}"
+    return reason
 
 
 def _choose_proof(cause: Cause) -> str:

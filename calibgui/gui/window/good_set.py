@@ -21,7 +21,7 @@ from calibgui.app.photographs.image_store import read_thumbnail
 from calibgui.app.system.resources import find_resource
 from calibgui.gui.jobs.jobs import PICTURE, Jobs
 from calibgui.gui.widgets import theme
-from calibgui.gui.widgets.picture import make_qimage
+from calibgui.gui.widgets.picture import make_qimage, shrink_picture
 from calibgui.gui.widgets.wrapped_label import WrappedLabel
 
 _SHOT = QSize(112, 84)
@@ -162,18 +162,6 @@ def _read_shot(name: str) -> QImage:
     """Read a photograph of the sample; in a worker. Raises CalibrationError if it is missing."""
     file = find_resource("sample") / f"{name}.png"
     return make_qimage(read_thumbnail(str(file)).grey)
-
-
-def shrink_picture(picture: QImage, size: QSize, ratio: float) -> QPixmap:
-    """Return a picture as large as fits a size, device-independent px, for a screen."""
-    small = picture.scaled(
-        size * ratio,
-        Qt.AspectRatioMode.KeepAspectRatio,
-        Qt.TransformationMode.SmoothTransformation,
-    )
-    pixmap = QPixmap.fromImage(small)
-    pixmap.setDevicePixelRatio(ratio)
-    return pixmap
 
 
 def make_heading(text: str) -> QLabel:

@@ -24,13 +24,12 @@ from calibgui.gui.jobs.jobs import Jobs
 from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.focus_ring import FocusRing
 from calibgui.gui.widgets.icons import Icon, draw_icon
-from calibgui.gui.widgets.picture import make_qimage
+from calibgui.gui.widgets.picture import make_qimage, shrink_picture
 from calibgui.gui.window.good_set import (
     DropPlace,
     GoodSet,
     leave_as_it_is,
     make_heading,
-    shrink_picture,
 )
 
 _SHOWN = 6
