@@ -196,6 +196,7 @@ class MainWindow(QMainWindow):
         header, inspector = self.header, self.inspector
         header.modes.chosen.connect(self.show_mode)
         header.setup.toggled.connect(self.setup.setVisible)
+        header.setup.toggled.connect(self.verdict.square.stand_aside)
         self.setup.closed.connect(lambda: header.setup.setChecked(False))
         header.report.clicked.connect(self.files.report)
         header.export.clicked.connect(self.files.export)

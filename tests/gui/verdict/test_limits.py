@@ -49,6 +49,18 @@ def test_a_preset_gives_pass_or_fail_with_the_reason(full: MainWindow, qtbot: Qt
     assert row.isHidden()
 
 
+def test_a_length_has_one_field_in_sight(full: MainWindow) -> None:
+    full.session.edit("", lambda p: replace(p, lengths_confirmed=False))
+    row = full.verdict.square
+    assert row.square.isVisible()
+    place = full.verdict.figures.y()
+    full.show_setup()
+    assert not row.square.isVisible() and full.board.square.isVisible()
+    assert full.verdict.figures.y() == place, "nothing moves"
+    full.header.setup.setChecked(False)
+    assert row.square.isVisible()
+
+
 def test_a_file_of_limits_is_taken_and_a_bad_one_refused(
     full: MainWindow, qtbot: QtBot, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
