@@ -84,7 +84,7 @@ class Inspector(QWidget):
         foot.setContentsMargins(0, 0, 0, 0)
         foot.addWidget(progress, 1)
         foot.addWidget(calibrate)
-        self._hint = _make_hint(self)
+        self._hint = self._make_hint()
         self._grid = QGridLayout(self)
         self._grid.setContentsMargins(theme.MARGIN, 12, theme.MARGIN, 12)
         self._grid.setHorizontalSpacing(theme.MARGIN)
@@ -117,6 +117,24 @@ class Inspector(QWidget):
             self._grid.setColumnStretch(column, column if is_row else 1 - column)
         self._grid.setColumnMinimumWidth(0, self.WIDTH - 2 * theme.MARGIN if is_row else 0)
 
+    def _make_hint(self) -> QLabel:
+        """Return what lies over the inspector while photographs are dragged over the window."""
+        hint = QLabel(
+            self.tr(
+                "Is the camera still good?\n\nDrop new photographs of the board here: they check "
+                "it and change nothing.\n\nDropped on the left they join the project."
+            ),
+            self,
+        )
+        hint.setWordWrap(True)
+        hint.setAlignment(Qt.AlignmentFlag.AlignCenter)
+        hint.setMargin(theme.MARGIN)
+        hint.setStyleSheet(
+            "background: palette(window); border: 2px dashed palette(highlight);border-radius: 8px;"
+        )
+        hint.hide()
+        return hint
+
     def invite(self, invited: bool) -> None:
         """Say that photographs can be dropped here, which only check the camera; or no longer."""
         self._hint.setVisible(invited)
@@ -145,22 +163,3 @@ class Inspector(QWidget):
         painter.fillRect(self.rect(), QColor(colours.base))
         edge = (self.width(), 1) if self._is_row else (1, self.height())
         painter.fillRect(0, 0, *edge, QColor(colours.line))
-
-
-def _make_hint(inspector: Inspector) -> QLabel:
-    """Return what lies over the inspector while photographs are dragged over the window."""
-    hint = QLabel(
-        inspector.tr(
-            "Is the camera still good?\n\nDrop new photographs of the board here: they check it "
-            "and change nothing.\n\nDropped on the left they join the project."
-        ),
-        inspector,
-    )
-    hint.setWordWrap(True)
-    hint.setAlignment(Qt.AlignmentFlag.AlignCenter)
-    hint.setMargin(theme.MARGIN)
-    hint.setStyleSheet(
-        "background: palette(window); border: 2px dashed palette(highlight); border-radius: 8px;"
-    )
-    hint.hide()
-    return hint
