@@ -1,9 +1,10 @@
 """Bring the window's translations up to date: collect its texts, and compile what is translated.
 
-    python packaging/translate.py
+    python packaging/translate.py [LANGUAGE]
 
-What is missing is translated in resources/translations/calibgui_<language>.ts, with Qt Linguist or
-an editor; run it again then. A text without a translation is shown in English.
+A language that is named is added. What is missing is translated in
+resources/translations/calibgui_<language>.ts, with Qt Linguist or an editor; run it again then. A
+text without a translation is shown in English.
 """
 
 from __future__ import annotations
@@ -49,7 +50,8 @@ def list_missing(file: Path) -> list[str]:
 
 def main() -> None:
     """Update all languages, and say what is missing."""
-    for file in sorted(FOLDER.glob("*.ts")):
+    added = {FOLDER / f"calibgui_{language}.ts" for language in sys.argv[1:]}
+    for file in sorted({*FOLDER.glob("*.ts"), *added}):
         update(file)
         missing = list_missing(file)
         print(f"{file.name}: {len(missing)} texts are not translated")

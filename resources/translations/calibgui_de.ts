@@ -3852,6 +3852,93 @@ Die Farben: wo die eigene Unsicherheit der Kalibrierung klein (dunkel) und groß
     </message>
 </context>
 <context>
+    <name>Sentences</name>
+    <message>
+        <source>The photographs show nothing wrong.</source>
+        <translation>An den Fotos ist nichts auszusetzen.</translation>
+    </message>
+    <message>
+        <source>The views do not determine the camera.</source>
+        <translation>Die Ansichten bestimmen die Kamera nicht.</translation>
+    </message>
+    <message>
+        <source>The calibration is not finished.</source>
+        <translation>Die Kalibrierung ist nicht fertig.</translation>
+    </message>
+    <message>
+        <source>Pixels are known too poorly.</source>
+        <translation>Pixel sind zu schlecht bekannt.</translation>
+    </message>
+    <message>
+        <source>One view cannot be checked.</source>
+        <translation>Eine Ansicht lässt sich nicht prüfen.</translation>
+    </message>
+    <message>
+        <source>{0} views are too few.</source>
+        <translation>{0} Ansichten sind zu wenige.</translation>
+    </message>
+    <message>
+        <source>{0} views are too few: take {1} or more, tilted in all directions.</source>
+        <translation>{0} Ansichten sind zu wenige: {1} oder mehr machen, in alle Richtungen geneigt.</translation>
+    </message>
+    <message>
+        <source>Nothing needs to be done: pixels among corners are known to {0} px or better.</source>
+        <translation>Nichts zu tun: Pixel zwischen Ecken sind auf {0} px oder besser bekannt.</translation>
+    </message>
+    <message>
+        <source>The photographs show nothing wrong, but pixels are known to {0} px where they are known worst among corners: add views.</source>
+        <translation>An den Fotos ist nichts auszusetzen, aber wo Pixel zwischen Ecken am schlechtesten bekannt sind, sind es {0} px: Ansichten hinzufügen.</translation>
+    </message>
+    <message>
+        <source>Nothing is wrong among corners, where pixels are known to {0} px; beyond them they are known to {1} px: bring corners closer to the image&apos;s edge.</source>
+        <translation>Zwischen Ecken stimmt alles, Pixel sind dort auf {0} px bekannt; jenseits auf {1} px: Ecken näher an den Bildrand bringen.</translation>
+    </message>
+    <message>
+        <source>Add views with the board tilted by {0} to {1} degrees in different directions and all over the image; six good ones are enough.</source>
+        <translation>Ansichten hinzufügen, das Brett um {0} bis {1} Grad in verschiedene Richtungen geneigt und über das ganze Bild verteilt; sechs gute genügen.</translation>
+    </message>
+    <message>
+        <source>The views are too few, or too much alike.</source>
+        <translation>Die Ansichten sind zu wenige oder einander zu ähnlich.</translation>
+    </message>
+    <message>
+        <source>Your board is not printed true.</source>
+        <translation>Ihr Brett ist nicht maßhaltig gedruckt.</translation>
+    </message>
+    <message>
+        <source>Your board is not flat.</source>
+        <translation>Ihr Brett ist nicht eben.</translation>
+    </message>
+    <message>
+        <source>Your board is not flat, or not printed true.</source>
+        <translation>Ihr Brett ist nicht eben oder nicht maßhaltig gedruckt.</translation>
+    </message>
+    <message>
+        <source>Your board is not flat ({0} mm): its shape was estimated; errors {1} times smaller.</source>
+        <translation>Ihr Brett ist nicht eben ({0} mm): seine Form wurde geschätzt; Fehler {1}-mal kleiner.</translation>
+    </message>
+    <message>
+        <source>Your board is not printed true ({0} mm): its shape was estimated; errors {1} times smaller.</source>
+        <translation>Ihr Brett ist nicht maßhaltig gedruckt ({0} mm): seine Form wurde geschätzt; Fehler {1}-mal kleiner.</translation>
+    </message>
+    <message>
+        <source>The lens model does not follow this lens.</source>
+        <translation>Das Linsenmodell folgt dieser Linse nicht.</translation>
+    </message>
+    <message>
+        <source>The focal length differs between the views.</source>
+        <translation>Die Brennweite ist in den Ansichten verschieden.</translation>
+    </message>
+    <message>
+        <source>Switch autofocus and stabilisation off, and do not touch zoom and focus.</source>
+        <translation>Autofokus und Stabilisierung ausschalten und Zoom und Fokus nicht anfassen.</translation>
+    </message>
+    <message>
+        <source>Some views show the corners less well than the others.</source>
+        <translation>Einige Ansichten zeigen die Ecken schlechter als die anderen.</translation>
+    </message>
+</context>
+<context>
     <name>SeriesDialog</name>
     <message>
         <source>Series of calibrations</source>
@@ -4629,6 +4716,10 @@ davon abweicht, das ebenso gut passt.</translation>
         <translation>Nach diesem Linsenmodell werden Punkte {0} auf {1} px in der Mitte abgebildet, {2} px im Median, {3} px schlimmstens (1σ). {4:.0f} % des Bildes sind auf {5:g} px oder besser bekannt{6}.</translation>
     </message>
     <message>
+        <source>{0:g} mm away</source>
+        <translation>in {0:g} mm Entfernung</translation>
+    </message>
+    <message>
         <source> The brightest colour is {0} px or more.</source>
         <translation> Die hellste Farbe ist {0} px oder mehr.</translation>
     </message>
@@ -4855,7 +4946,7 @@ gleicher Maßstab behält die Größe der Mitte; Bildwinkel zeigt einen Winkel I
     </message>
     <message>
         <source>CAN BE {0}× BETTER</source>
-        <translation>KANN {0}× BESSER SEIN</translation>
+        <translation>BIS {0}× BESSER</translation>
     </message>
     <message>
         <source>NOT USABLE</source>
@@ -4891,7 +4982,7 @@ gleicher Maßstab behält die Größe der Mitte; Bildwinkel zeigt einen Winkel I
     </message>
     <message>
         <source>Take the lens model that fits</source>
-        <translation>Passendes Linsenmodell nehmen</translation>
+        <translation>Passendes Modell nehmen</translation>
     </message>
     <message>
         <source>Leave these corners out</source>

@@ -3852,6 +3852,93 @@ Los colores: dónde es pequeña (oscuro) y grande la incertidumbre de la propia 
     </message>
 </context>
 <context>
+    <name>Sentences</name>
+    <message>
+        <source>The photographs show nothing wrong.</source>
+        <translation>Las fotos no muestran ningún fallo.</translation>
+    </message>
+    <message>
+        <source>The views do not determine the camera.</source>
+        <translation>Las vistas no determinan la cámara.</translation>
+    </message>
+    <message>
+        <source>The calibration is not finished.</source>
+        <translation>La calibración no está terminada.</translation>
+    </message>
+    <message>
+        <source>Pixels are known too poorly.</source>
+        <translation>Los píxeles se conocen demasiado mal.</translation>
+    </message>
+    <message>
+        <source>One view cannot be checked.</source>
+        <translation>Una sola vista no se puede comprobar.</translation>
+    </message>
+    <message>
+        <source>{0} views are too few.</source>
+        <translation>{0} vistas son muy pocas.</translation>
+    </message>
+    <message>
+        <source>{0} views are too few: take {1} or more, tilted in all directions.</source>
+        <translation>{0} vistas son muy pocas: haga {1} o más, inclinadas en todas direcciones.</translation>
+    </message>
+    <message>
+        <source>Nothing needs to be done: pixels among corners are known to {0} px or better.</source>
+        <translation>No hay nada que hacer: los píxeles entre esquinas se conocen a {0} px o mejor.</translation>
+    </message>
+    <message>
+        <source>The photographs show nothing wrong, but pixels are known to {0} px where they are known worst among corners: add views.</source>
+        <translation>Las fotos no muestran ningún fallo, pero donde peor se conocen los píxeles entre esquinas es a {0} px: añada vistas.</translation>
+    </message>
+    <message>
+        <source>Nothing is wrong among corners, where pixels are known to {0} px; beyond them they are known to {1} px: bring corners closer to the image&apos;s edge.</source>
+        <translation>Entre esquinas no falla nada, los píxeles se conocen a {0} px; más allá a {1} px: acerque esquinas al borde de la imagen.</translation>
+    </message>
+    <message>
+        <source>Add views with the board tilted by {0} to {1} degrees in different directions and all over the image; six good ones are enough.</source>
+        <translation>Añada vistas con el tablero inclinado de {0} a {1} grados en distintas direcciones y por toda la imagen; bastan seis buenas.</translation>
+    </message>
+    <message>
+        <source>The views are too few, or too much alike.</source>
+        <translation>Las vistas son muy pocas, o demasiado parecidas.</translation>
+    </message>
+    <message>
+        <source>Your board is not printed true.</source>
+        <translation>Su tablero no está impreso a medida.</translation>
+    </message>
+    <message>
+        <source>Your board is not flat.</source>
+        <translation>Su tablero no es plano.</translation>
+    </message>
+    <message>
+        <source>Your board is not flat, or not printed true.</source>
+        <translation>Su tablero no es plano, o no está impreso a medida.</translation>
+    </message>
+    <message>
+        <source>Your board is not flat ({0} mm): its shape was estimated; errors {1} times smaller.</source>
+        <translation>Su tablero no es plano ({0} mm): se estimó su forma; errores {1} veces menores.</translation>
+    </message>
+    <message>
+        <source>Your board is not printed true ({0} mm): its shape was estimated; errors {1} times smaller.</source>
+        <translation>Su tablero no está impreso a medida ({0} mm): se estimó su forma; errores {1} veces menores.</translation>
+    </message>
+    <message>
+        <source>The lens model does not follow this lens.</source>
+        <translation>El modelo de lente no sigue esta lente.</translation>
+    </message>
+    <message>
+        <source>The focal length differs between the views.</source>
+        <translation>La distancia focal difiere entre las vistas.</translation>
+    </message>
+    <message>
+        <source>Switch autofocus and stabilisation off, and do not touch zoom and focus.</source>
+        <translation>Desactive el autoenfoque y la estabilización, y no toque zoom ni enfoque.</translation>
+    </message>
+    <message>
+        <source>Some views show the corners less well than the others.</source>
+        <translation>Algunas vistas muestran las esquinas peor que las demás.</translation>
+    </message>
+</context>
+<context>
     <name>SeriesDialog</name>
     <message>
         <source>Series of calibrations</source>
@@ -4629,6 +4716,10 @@ que encaja igual de bien.</translation>
         <translation>Con este modelo de lente los puntos {0} se forman a {1} px en el centro, {2} px en la mediana, {3} px en el peor caso (1σ). El {4:.0f} % de la imagen se conoce a {5:g} px o mejor{6}.</translation>
     </message>
     <message>
+        <source>{0:g} mm away</source>
+        <translation>a {0:g} mm</translation>
+    </message>
+    <message>
         <source> The brightest colour is {0} px or more.</source>
         <translation> El color más claro es {0} px o más.</translation>
     </message>
@@ -4855,7 +4946,7 @@ misma escala conserva el tamaño del centro; campo de visión muestra el ángulo
     </message>
     <message>
         <source>CAN BE {0}× BETTER</source>
-        <translation>PUEDE SER {0}× MEJOR</translation>
+        <translation>MEJORABLE {0}×</translation>
     </message>
     <message>
         <source>NOT USABLE</source>
@@ -4891,7 +4982,7 @@ misma escala conserva el tamaño del centro; campo de visión muestra el ángulo
     </message>
     <message>
         <source>Take the lens model that fits</source>
-        <translation>Tomar el modelo de lente apto</translation>
+        <translation>Tomar el modelo apto</translation>
     </message>
     <message>
         <source>Leave these corners out</source>

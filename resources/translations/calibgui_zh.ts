@@ -2139,7 +2139,7 @@ Heavy tails mean bad corners; two humps, a board that is not flat or a wrong mod
     </message>
     <message>
         <source>&amp;Fit</source>
-        <translation>适合窗口(&amp;F)</translation>
+        <translation>适合(&amp;F)</translation>
     </message>
     <message>
         <source>Show the whole image</source>
@@ -3852,6 +3852,93 @@ The colours: where the calibration&apos;s own uncertainty is small (dark) and la
     </message>
 </context>
 <context>
+    <name>Sentences</name>
+    <message>
+        <source>The photographs show nothing wrong.</source>
+        <translation>照片没有显示任何问题。</translation>
+    </message>
+    <message>
+        <source>The views do not determine the camera.</source>
+        <translation>视图不能确定相机。</translation>
+    </message>
+    <message>
+        <source>The calibration is not finished.</source>
+        <translation>标定没有完成。</translation>
+    </message>
+    <message>
+        <source>Pixels are known too poorly.</source>
+        <translation>像素的精度太差。</translation>
+    </message>
+    <message>
+        <source>One view cannot be checked.</source>
+        <translation>只有一个视图无法检查。</translation>
+    </message>
+    <message>
+        <source>{0} views are too few.</source>
+        <translation>{0} 个视图太少。</translation>
+    </message>
+    <message>
+        <source>{0} views are too few: take {1} or more, tilted in all directions.</source>
+        <translation>{0} 个视图太少：请拍 {1} 个或更多，向各方向倾斜。</translation>
+    </message>
+    <message>
+        <source>Nothing needs to be done: pixels among corners are known to {0} px or better.</source>
+        <translation>无需任何操作：角点之间的像素已知到 {0} px 或更好。</translation>
+    </message>
+    <message>
+        <source>The photographs show nothing wrong, but pixels are known to {0} px where they are known worst among corners: add views.</source>
+        <translation>照片没有显示问题，但角点之间最差处的像素只知道到 {0} px：请添加视图。</translation>
+    </message>
+    <message>
+        <source>Nothing is wrong among corners, where pixels are known to {0} px; beyond them they are known to {1} px: bring corners closer to the image&apos;s edge.</source>
+        <translation>角点之间没有问题，像素已知到 {0} px；之外为 {1} px：请使角点更靠近图像边缘。</translation>
+    </message>
+    <message>
+        <source>Add views with the board tilted by {0} to {1} degrees in different directions and all over the image; six good ones are enough.</source>
+        <translation>添加标定板向不同方向倾斜 {0} 到 {1} 度且遍布图像的视图；六个好的就够。</translation>
+    </message>
+    <message>
+        <source>The views are too few, or too much alike.</source>
+        <translation>视图太少，或彼此太相似。</translation>
+    </message>
+    <message>
+        <source>Your board is not printed true.</source>
+        <translation>您的标定板印刷不准确。</translation>
+    </message>
+    <message>
+        <source>Your board is not flat.</source>
+        <translation>您的标定板不平。</translation>
+    </message>
+    <message>
+        <source>Your board is not flat, or not printed true.</source>
+        <translation>您的标定板不平，或印刷不准确。</translation>
+    </message>
+    <message>
+        <source>Your board is not flat ({0} mm): its shape was estimated; errors {1} times smaller.</source>
+        <translation>您的标定板不平 ({0} mm)：已估计其形状；误差减小到 1/{1}。</translation>
+    </message>
+    <message>
+        <source>Your board is not printed true ({0} mm): its shape was estimated; errors {1} times smaller.</source>
+        <translation>您的标定板印刷不准确 ({0} mm)：已估计其形状；误差减小到 1/{1}。</translation>
+    </message>
+    <message>
+        <source>The lens model does not follow this lens.</source>
+        <translation>镜头模型与此镜头不符。</translation>
+    </message>
+    <message>
+        <source>The focal length differs between the views.</source>
+        <translation>各视图的焦距不同。</translation>
+    </message>
+    <message>
+        <source>Switch autofocus and stabilisation off, and do not touch zoom and focus.</source>
+        <translation>请关闭自动对焦和防抖，不要动变焦和对焦。</translation>
+    </message>
+    <message>
+        <source>Some views show the corners less well than the others.</source>
+        <translation>一些视图中的角点不如其他视图清楚。</translation>
+    </message>
+</context>
+<context>
     <name>SeriesDialog</name>
     <message>
         <source>Series of calibrations</source>
@@ -4627,6 +4714,10 @@ goes apart from this one that fits as well.</source>
     <message>
         <source>By this lens model points {0} are imaged to {1} px at the centre, {2} px in the median, {3} px at worst (1σ). {4:.0f} % of the image is known to {5:g} px or better{6}.</source>
         <translation>按此镜头模型，{0}的点在中心成像到 {1} px，中位数 {2} px，最差 {3} px (1σ)。图像的 {4:.0f} % 已知到 {5:g} px 或更好{6}。</translation>
+    </message>
+    <message>
+        <source>{0:g} mm away</source>
+        <translation>{0:g} mm 远处</translation>
     </message>
     <message>
         <source> The brightest colour is {0} px or more.</source>

@@ -28,6 +28,7 @@ from calibgui.gui.verdict.grade_icon import GradeIcon, get_colour
 from calibgui.gui.verdict.limits_row import LimitsRow
 from calibgui.gui.verdict.remedy_runner import CarriedOut, RemedyRunner
 from calibgui.gui.verdict.sensor_figure import SensorFigure
+from calibgui.gui.verdict.sentences import translate_sentences
 from calibgui.gui.verdict.square_row import SquareRow
 from calibgui.gui.verdict.texts import describe_button, describe_fit, describe_grade
 from calibgui.gui.widgets import theme
@@ -253,7 +254,8 @@ class VerdictBar(QWidget):
         elif verdict is None:
             reason = self._describe_work()
         else:
-            reason = f"{self._age} {_describe_reason(verdict, result)}".lstrip()
+            said = translate_sentences(_describe_reason(verdict, result))
+            reason = f"{self._age} {said}".lstrip()
         self.reason.setText(reason)
         colours = theme.current()
         plain = colours.muted if self._is_dimmed else colours.text

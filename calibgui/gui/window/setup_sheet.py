@@ -12,7 +12,7 @@ from calibgui.gui.widgets.buttons import Button, Kind
 from calibgui.gui.widgets.scrolling import make_scrollable
 from calibgui.gui.widgets.sheet import Sheet
 
-_WIDTH = 440
+_WIDTH = 480
 """Device-independent px."""
 
 
