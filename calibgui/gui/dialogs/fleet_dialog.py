@@ -73,7 +73,6 @@ class FleetDialog(QDialog):
         )
         self.filter = QLineEdit(placeholderText=self.tr("Camera, serial number, reason…"))
         self.filter.setAccessibleName(self.tr("Filter"))
-        self.filter.setClearButtonEnabled(True)
         self.filter.setMinimumWidth(30 * self.fontMetrics().averageCharWidth())
         self.kind = QComboBox()
         self.kind.setAccessibleName(self.tr("Which cameras are shown"))
