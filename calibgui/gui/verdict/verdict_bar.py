@@ -30,10 +30,11 @@ from calibgui.gui.verdict.remedy_runner import CarriedOut, RemedyRunner
 from calibgui.gui.verdict.sensor_figure import SensorFigure
 from calibgui.gui.verdict.sentences import translate_sentences
 from calibgui.gui.verdict.square_row import SquareRow
-from calibgui.gui.verdict.texts import describe_button, describe_fit, describe_grade
+from calibgui.gui.verdict.texts import describe_button, describe_grade
 from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.buttons import Button, Kind
 from calibgui.gui.widgets.elided import elide_name
+from calibgui.gui.widgets.fit_text import describe_fit
 from calibgui.gui.widgets.lengths import state_condition
 from calibgui.gui.widgets.pattern_texts import list_pattern_texts
 from calibgui.gui.widgets.reserved_label import ReservedLabel

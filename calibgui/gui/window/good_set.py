@@ -57,13 +57,14 @@ class DropPlace(QWidget):
 
 def _draw_board(painter: QPainter, room: QRectF) -> None:
     """Draw a tilted board in a rectangle, with a mark at each of its corners."""
-    whole = QPolygonF(QRectF(-1, -1, _COLS + 2, _ROWS + 2))
     tilted = [(0.16, 0.04), (0.93, 0.0), (1.0, 0.97), (0.0, 0.86)]
     there = QPolygonF(
         [QPointF(room.x() + x * room.width(), room.y() + y * room.height()) for x, y in tilted]
     )
+    right, bottom = _COLS + 1, _ROWS + 1
+    whole = [QPointF(-1, -1), QPointF(right, -1), QPointF(right, bottom), QPointF(-1, bottom)]
     to_page = QTransform()
-    QTransform.quadToQuad(QPolygonF([whole[k] for k in range(4)]), there, to_page)
+    QTransform.quadToQuad(QPolygonF(whole), there, to_page)
     colours = theme.current()
     painter.setPen(QPen(QColor(colours.line), 1))
     painter.setBrush(QColor("#ffffff"))

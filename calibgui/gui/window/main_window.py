@@ -123,7 +123,7 @@ class MainWindow(QMainWindow):
     def _lay_out(self) -> None:
         self.pages.addWidget(self.welcome)
         self.pages.addWidget(self.page)
-        centre = QWidget()
+        centre = self._centre = QWidget()
         column = QVBoxLayout(centre)
         column.setContentsMargins(0, 0, 0, 0)
         column.setSpacing(0)
@@ -261,7 +261,7 @@ class MainWindow(QMainWindow):
             header.export,
             inspector.camera,
         )
-        self._tour = Tour(self.centralWidget(), parts)
+        self._tour = Tour(self._centre, parts)
 
     def _list_pages(self) -> list[Page]:
         """Return what the window can show now."""

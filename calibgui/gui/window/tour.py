@@ -47,6 +47,7 @@ class Tour(QFrame):
 
     def __init__(self, host: QWidget, parts: Parts) -> None:
         super().__init__(host)
+        self._host = host
         self.steps, self.place = self._list_steps(parts), 0
         self._ring = _Ring(host)
         self._title, self._words, self._count = QLabel(), WrappedLabel(), QLabel()
@@ -60,7 +61,7 @@ class Tour(QFrame):
         below.addWidget(self._count, 1)
         below.addWidget(self.leave_button)
         below.addWidget(self.next_button)
-        column = QVBoxLayout(self)
+        column = self._column = QVBoxLayout(self)
         column.setContentsMargins(theme.MARGIN, 12, theme.MARGIN, 12)
         column.setSpacing(theme.SPACING)
         column.addWidget(self._title)
@@ -155,12 +156,12 @@ class Tour(QFrame):
 
     def _fit(self) -> None:
         """Stand beside what is pointed at, wherever there is room."""
-        host, widget = self.parentWidget(), self.steps[self.place].widget
+        host, widget = self._host, self.steps[self.place].widget
         shown = widget.isVisibleTo(host)
         target = QRect(widget.mapTo(host, QPoint()), widget.size()) if shown else QRect()
         target &= host.rect()
         self._ring.show_around(target)
-        self.resize(_WIDTH, self.layout().heightForWidth(_WIDTH))
+        self.resize(_WIDTH, self._column.heightForWidth(_WIDTH))
         room = host.rect().adjusted(_GAP, _GAP, -_GAP, -_GAP)
         beside = (
             QPoint(target.left() - _WIDTH - _GAP, target.top()),

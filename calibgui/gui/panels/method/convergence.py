@@ -10,8 +10,8 @@ from calibgui.dataset import Result
 from calibgui.engine.calibration import Cost, Iteration, Status
 from calibgui.gui.panels.panel import Panel
 from calibgui.gui.panels.services import Services
-from calibgui.gui.verdict.texts import describe_fit
 from calibgui.gui.widgets import theme
+from calibgui.gui.widgets.fit_text import describe_fit
 from calibgui.gui.widgets.plots import Plot
 from calibgui.gui.widgets.reserved_label import ReservedLabel
 from calibgui.gui.widgets.tables import format_seconds
