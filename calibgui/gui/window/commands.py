@@ -48,6 +48,7 @@ class Commands(QObject):
         leave_alone: Callable[[], object],
         list_pages: Callable[[], Sequence[Page]],
         find_action: Callable[[], object],
+        photograph: Callable[[], object],
     ) -> Sequence[Menu]:
         """Return the menus from left to right.
 
@@ -58,9 +59,10 @@ class Commands(QObject):
             leave_alone: leaves the desk alone in the window, or not.
             list_pages: returns what the window can show now.
             find_action: opens the palette of all actions.
+            photograph: opens the page on which photographs are taken live.
         """
         return (
-            self._describe_file(leave),
+            self._describe_file(leave, photograph),
             self._describe_edit(),
             Menu(
                 self.tr("&Images"),
@@ -78,7 +80,7 @@ class Commands(QObject):
             self._describe_help(find_action),
         )
 
-    def _describe_file(self, leave: Callable[[], object]) -> Menu:
+    def _describe_file(self, leave: Callable[[], object], photograph: Callable[[], object]) -> Menu:
         files = self._files
         return Menu(
             self.tr("&File"),
@@ -131,6 +133,12 @@ class Commands(QObject):
                     shortcut="Ctrl+Shift+I",
                     tip=self.tr("Take all images of a folder"),
                     run=files.ask_for_folder,
+                ),
+                Command(
+                    text=self.tr("P&hotograph live…"),
+                    shortcut="Ctrl+L",
+                    tip=self.tr("Take photographs with a camera that says where to hold the board"),
+                    run=photograph,
                 ),
                 None,
                 Command(

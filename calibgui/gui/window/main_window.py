@@ -48,6 +48,7 @@ from calibgui.gui.window.setup_sheet import SetupSheet
 from calibgui.gui.window.welcome import Welcome
 
 if TYPE_CHECKING:
+    from calibgui.gui.live.live_page import LivePage
     from calibgui.gui.panels.analysis import Analysis
 
 
@@ -73,6 +74,7 @@ class MainWindow(QMainWindow):
         self.settings.setParent(self)
         self.settings.hide()
         self.analysis: Analysis | None = None
+        self.live: LivePage | None = None
         self._empty = True
         self._bugs: set[tuple[object, ...]] = set()
         """Bugs that were shown: what was raised, and where."""
@@ -145,6 +147,7 @@ class MainWindow(QMainWindow):
                 self.body.leave_desk_alone,
                 self._list_pages,
                 lambda: show_dialog(Palette(menus, self)),
+                self.photograph_live,
             ),
         )
         # Another result to be shown changes nothing here, unless the project has changed as well.
@@ -178,6 +181,7 @@ class MainWindow(QMainWindow):
         self.files.saver.opened.connect(self.images.thumbnails.look_for_changes)
         self.welcome.folder_wanted.connect(self.files.ask_for_folder)
         self.welcome.images_wanted.connect(self.files.ask_for_images)
+        self.welcome.camera_wanted.connect(self.photograph_live)
         self.welcome.sample_wanted.connect(self.files.open_sample)
         self.welcome.board_wanted.connect(self.files.print_board)
         self.welcome.recent_wanted.connect(lambda path: self.files.open_paths([str(path)]))
@@ -225,6 +229,26 @@ class MainWindow(QMainWindow):
         if image:
             self.session.select(image)
         self.show_mode(Mode.PHOTOGRAPHS)
+
+    def photograph_live(self) -> None:
+        """Show the page on which a camera takes the photographs, and nothing else."""
+        if self.live is None:
+            from calibgui.gui.live.live_page import LivePage
+
+            self.live = LivePage(self.session.jobs)
+            self.live.pictures_wanted.connect(self._take_pictures)
+            self.live.left.connect(lambda: self._show_parts(self._empty))
+            self.pages.addWidget(self.live)
+        if self.pages.currentWidget() is not self.live:
+            self.live.offer()
+        self.body.show_parts(empty=True)
+        self.header.show_modes(False)
+        self.pages.setCurrentWidget(self.live)
+
+    def _take_pictures(self, files: list[str]) -> None:
+        """Calibrate from pictures that were taken live."""
+        self._show_parts(self._empty)
+        self.files.open_paths(files)
 
     def show_setup(self) -> None:
         """Open the sheet of the set-up."""

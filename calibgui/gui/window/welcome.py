@@ -43,6 +43,7 @@ class Welcome(QScrollArea):
     folder_wanted = Signal()
     images_wanted = Signal()
     sample_wanted = Signal()
+    camera_wanted = Signal()
     board_wanted = Signal()
     recent_wanted = Signal(Path)
     """A recent project's file or folder of images is to be opened."""
@@ -71,6 +72,11 @@ class Welcome(QScrollArea):
                 self.tr("Corners are found and the camera is calibrated at once."),
                 self.folder_wanted,
             ),
+            self._link(
+                self.tr("&Photograph live"),
+                self.tr("With a camera: it says where to hold the board, and when it is enough."),
+                self.camera_wanted,
+            ),
             self._link(self.tr("&Add images"), self.tr("Choose single files."), self.images_wanted),
             self._link(
                 self.tr("Open the &sample"),
@@ -78,7 +84,7 @@ class Welcome(QScrollArea):
                 self.sample_wanted,
             ),
             self._link(
-                self.tr("&Print a board"),
+                self.tr("Prin&t a board"),
                 self.tr("A checkerboard, or one of the other kinds, in true size."),
                 self.board_wanted,
             ),
@@ -172,7 +178,7 @@ class Welcome(QScrollArea):
 
     def _restyle(self) -> None:
         """Draw the icons in the theme's colour."""
-        icons = Icon.FOLDER, Icon.PICTURE, Icon.BOARD, Icon.PRINTER
+        icons = Icon.FOLDER, Icon.CAMERA, Icon.PICTURE, Icon.BOARD, Icon.PRINTER
         for button, icon in zip(self.buttons, icons, strict=True):
             button.setIcon(draw_icon(icon))
 
