@@ -201,7 +201,8 @@ class LivePage(QWidget):
                     "Hold the whole board in the picture: its kind and size are found. The yellow "
                     "shape shows where it is wanted next. When it is still, sharp and worth it, "
                     "the picture is taken by itself; every fifth one is put aside to check the "
-                    "camera with."
+                    "camera with. No board at hand? Calibration › Print a board shows one on a "
+                    "screen."
                 )
             )
         )
