@@ -126,7 +126,8 @@ class CaptureSession:
         self._size: Size | None = None
         self.wanted: NextView | None = None
         """The view to take next; None before the first picture, and at the end."""
-        self._goal: Array | None = None
+        self.goal: Array | None = None
+        """(rows, cols, 2) px, where that view shows the corners; None if there is none."""
         self._before: GreyImage | None = None
         self._corners: Corners | None = None
         self._found_at = -np.inf
@@ -257,7 +258,7 @@ class CaptureSession:
     def _state(
         self, instruction: str, match: float = 0.0, taken: Picture | None = None
     ) -> CaptureState:
-        return CaptureState(self._corners, self.wanted, self._goal, match, instruction, taken)
+        return CaptureState(self._corners, self.wanted, self.goal, match, instruction, taken)
 
     def _check_size(self, grey: GreyImage) -> None:
         size = (grey.shape[1], grey.shape[0])
@@ -332,7 +333,7 @@ class CaptureSession:
         assert self._size is not None
         views = self.views
         self.calibration = _calibrate(views, self._size) if views else None
-        self.worst, self.wanted, self._goal = np.inf, None, None
+        self.worst, self.wanted, self.goal = np.inf, None, None
         if self.calibration is None:
             return
         if self.calibration.diagnosis is None:
@@ -344,7 +345,7 @@ class CaptureSession:
             (self.wanted,) = propose_views(self.calibration, views, 1, _LOSS)
             corners = self._board.points()
             goal = project_points(corners, self.calibration.camera, self.wanted.pose)
-            self._goal = goal.reshape(*self._board.grid_size, 2)
+            self.goal = goal.reshape(*self._board.grid_size, 2)
 
 
 def _calibrate(views: list[Observation], size: Size) -> Calibration | None:

@@ -20,7 +20,7 @@ from calibgui.engine.geometry.pose import Pose
 from calibgui.gui.live import live_page
 from calibgui.gui.live.live_page import LivePage
 from calibgui.gui.window.main_window import MainWindow
-from tests.scenes.hand import Film, shake
+from tests.scenes.hand import Film, follow, shake
 
 CAMERA = Camera((320, 240), [300, 300, 157, 122, -0.2, 0.05, 0, 0, 0], "brown-conrady")
 BOARD = Board(6, 8, 20.0)
@@ -57,8 +57,8 @@ class Hand:
             for _ in range(STILL):
                 yield pose
             session = None if self.page is None else self.page.session
-            if session is not None and session.wanted is not None:
-                pose = shake(session.wanted.pose, BOARD, self._rng, 10, 3)
+            if session is not None and session.goal is not None:
+                pose = shake(follow(session.goal, CAMERA, BOARD), BOARD, self._rng, 10, 3)
 
 
 class Page:
