@@ -41,7 +41,7 @@ from calibgui.formats.rig_files import RIG_EXPORTERS, find_rig_exporter
 from calibgui.formats.rig_json import encode_rig, write_rig
 from calibgui.formats.times_csv import read_times
 from calibgui.report.rig import describe_fit, describe_pairing, format_rig
-from calibgui.report.tables import format_bullet, list_unused_views
+from calibgui.report.tables import fill_lines, format_bullet, list_unused_views
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
@@ -136,7 +136,7 @@ def run(options: argparse.Namespace, console: Console) -> None:
             "taken.",
             "Give their times with --times FILE.",
         )
-    console.print_text(describe_pairing(pairing) + "\n")
+    console.print_text(fill_lines(describe_pairing(pairing), "", "  ") + "\n")
     known = _read_known(options, pairing, console)
     if output:
         read = [file for camera in pairing.cameras for file in camera.files.values()]

@@ -49,6 +49,7 @@ class Commands(QObject):
         list_pages: Callable[[], Sequence[Page]],
         find_action: Callable[[], object],
         photograph: Callable[[], object],
+        show_rig: Callable[[], object],
     ) -> Sequence[Menu]:
         """Return the menus from left to right.
 
@@ -60,9 +61,10 @@ class Commands(QObject):
             list_pages: returns what the window can show now.
             find_action: opens the palette of all actions.
             photograph: opens the page on which photographs are taken live.
+            show_rig: opens the page of several cameras.
         """
         return (
-            self._describe_file(leave, photograph),
+            self._describe_file(leave, photograph, show_rig),
             self._describe_edit(),
             Menu(
                 self.tr("&Images"),
@@ -80,7 +82,12 @@ class Commands(QObject):
             self._describe_help(find_action),
         )
 
-    def _describe_file(self, leave: Callable[[], object], photograph: Callable[[], object]) -> Menu:
+    def _describe_file(
+        self,
+        leave: Callable[[], object],
+        photograph: Callable[[], object],
+        show_rig: Callable[[], object],
+    ) -> Menu:
         files = self._files
         return Menu(
             self.tr("&File"),
@@ -139,6 +146,11 @@ class Commands(QObject):
                     shortcut="Ctrl+L",
                     tip=self.tr("Take photographs with a camera that says where to hold the board"),
                     run=photograph,
+                ),
+                Command(
+                    text=self.tr("Several &cameras…"),
+                    tip=self.tr("Calibrate cameras that stand fast to each other: a rig"),
+                    run=show_rig,
                 ),
                 None,
                 Command(

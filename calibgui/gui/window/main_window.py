@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import gc
+from collections.abc import Sequence
 from importlib import import_module
 from itertools import pairwise
+from pathlib import Path
 from traceback import extract_tb
 from typing import TYPE_CHECKING
 
@@ -18,6 +20,7 @@ from calibgui.dataset import Result
 from calibgui.engine.calibration import Cost
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.kernels import are_all_kept
+from calibgui.formats.origin import RIG, is_own
 from calibgui.gui.canvas.image_page import ImagePage
 from calibgui.gui.dialogs.files import Files
 from calibgui.gui.images.film_strip import FilmStrip
@@ -31,10 +34,12 @@ from calibgui.gui.session.session import Session
 from calibgui.gui.settings.board_panel import BoardPanel
 from calibgui.gui.settings.settings_panel import SettingsPanel
 from calibgui.gui.verdict.verdict_bar import VerdictBar
+from calibgui.gui.widgets import questions
 from calibgui.gui.widgets.actions import show_dialog
 from calibgui.gui.widgets.buttons import Button
 from calibgui.gui.widgets.kept_settings import keep, read_kept_bytes
 from calibgui.gui.widgets.overlay import Overlay
+from calibgui.gui.widgets.questions import Answer
 from calibgui.gui.window.banner import Banner
 from calibgui.gui.window.body import Body
 from calibgui.gui.window.commands import Commands
@@ -50,6 +55,7 @@ from calibgui.gui.window.welcome import Welcome
 if TYPE_CHECKING:
     from calibgui.gui.live.live_page import LivePage
     from calibgui.gui.panels.analysis import Analysis
+    from calibgui.gui.rig.rig_page import RigPage
 
 
 class MainWindow(QMainWindow):
@@ -75,6 +81,7 @@ class MainWindow(QMainWindow):
         self.settings.hide()
         self.analysis: Analysis | None = None
         self.live: LivePage | None = None
+        self.rig: RigPage | None = None
         self._empty = True
         self._bugs: set[tuple[object, ...]] = set()
         """Bugs that were shown: what was raised, and where."""
@@ -148,6 +155,7 @@ class MainWindow(QMainWindow):
                 self._list_pages,
                 lambda: show_dialog(Palette(menus, self)),
                 self.photograph_live,
+                self.show_rig,
             ),
         )
         # Another result to be shown changes nothing here, unless the project has changed as well.
@@ -237,13 +245,33 @@ class MainWindow(QMainWindow):
 
             self.live = LivePage(self.session.jobs)
             self.live.pictures_wanted.connect(self._take_pictures)
-            self.live.left.connect(lambda: self._show_parts(self._empty))
-            self.pages.addWidget(self.live)
+            self._add_page(self.live)
         if self.pages.currentWidget() is not self.live:
             self.live.offer()
+        self._show_page_alone(self.live)
+
+    def show_rig(self, names: Sequence[str] = ()) -> None:
+        """Show the page of several cameras, with these folders or this saved rig."""
+        if self.rig is None:
+            from calibgui.gui.rig.rig_page import RigPage
+
+            self.rig = RigPage(self.session.jobs)
+            self._add_page(self.rig)
+        self._show_page_alone(self.rig)
+        if len(names) == 1 and Path(names[0]).is_file():
+            self.rig.open_rig(Path(names[0]))
+        elif names:
+            self.rig.open_folders(names)
+
+    def _add_page(self, page: LivePage | RigPage) -> None:
+        """Add a page that takes the whole desk until it is left."""
+        page.left.connect(lambda: self._show_parts(self._empty))
+        self.pages.addWidget(page)
+
+    def _show_page_alone(self, page: QWidget) -> None:
         self.body.show_parts(empty=True)
         self.header.show_modes(False)
-        self.pages.setCurrentWidget(self.live)
+        self.pages.setCurrentWidget(page)
 
     def _take_pictures(self, files: list[str]) -> None:
         """Calibrate from pictures that were taken live."""
@@ -432,8 +460,32 @@ class MainWindow(QMainWindow):
 
     def dropEvent(self, event: QDropEvent) -> None:  # noqa: N802 - Qt's name
         urls = event.mimeData().urls()
-        self.files.open_paths([url.toLocalFile() for url in urls if url.isLocalFile()])
+        names = [url.toLocalFile() for url in urls if url.isLocalFile()]
+        if self._are_of_rig(names):
+            self.show_rig(names)
+        else:
+            self.files.open_paths(names)
         _accept_copy(event)
+
+    def _are_of_rig(self, names: Sequence[str]) -> bool:
+        """Return whether what was dropped is of several cameras; ask if folders may be."""
+        if self.rig is not None and self.pages.currentWidget() is self.rig:
+            return True
+        if len(names) == 1 and is_own(names[0], RIG):
+            return True
+        if len(names) < 2 or not all(Path(name).is_dir() for name in names):
+            return False
+        answer = questions.ask(
+            self,
+            self.tr("Several folders"),
+            self.tr(
+                "Are these the photographs of several cameras that stand fast to each other, a "
+                "folder for each? No: all are of one camera."
+            ),
+            Answer.Yes | Answer.No,
+            Answer.No,
+        )
+        return answer == Answer.Yes
 
     def changeEvent(self, event: QEvent) -> None:  # noqa: N802 - Qt's name
         super().changeEvent(event)
