@@ -82,7 +82,12 @@ class RigAnswer(QWidget):
             [
                 Column(self.tr("camera"), rig.names),
                 Column("fx", [c.params[0] for c in rig.cameras], with_decimals(2), unit="px"),
-                Column("±", [float(s[0]) for s in sigma], _POINT_DIGITS, unit="px"),
+                Column(
+                    "±",
+                    [float(s[0]) for s in sigma],
+                    _POINT_DIGITS,
+                    self.tr("Standard deviation of fx, px"),
+                ),
                 Column(
                     "RMS",
                     [rig.camera_rms(c) for c in range(len(rig.cameras))],
@@ -147,7 +152,7 @@ class RigAnswer(QWidget):
                     self.tr("Distance of the two cameras' centres, mm"),
                     unit="mm",
                 ),
-                Column("±", sigmas, _POINT_DIGITS, unit="mm"),
+                Column("±", sigmas, _POINT_DIGITS, self.tr("Standard deviation, mm")),
                 Column(
                     self.tr("turn"),
                     turns,
@@ -155,7 +160,7 @@ class RigAnswer(QWidget):
                     self.tr("Angle between the two cameras, degrees"),
                     unit="°",
                 ),
-                Column("± ", turn_sigmas, _POINT_DIGITS, unit="°"),
+                Column("± ", turn_sigmas, _POINT_DIGITS, self.tr("Standard deviation, degrees")),
             ]
         )
 

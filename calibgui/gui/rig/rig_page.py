@@ -90,6 +90,7 @@ class RigPage(QWidget):
         self._lay_out()
         self.matrix.instant_chosen.connect(self._look_at)
         self.matrix.itemSelectionChanged.connect(self._show_buttons)
+        self.scene.picked.connect(self._pick)
         self._show_start()
 
     def open_folders(self, names: Sequence[str]) -> None:
@@ -265,6 +266,8 @@ class RigPage(QWidget):
 
         self._start(self._photographs, self.photographs, read)
         if result is not None:
+            at = result.rig.instants
+            self.scene.select(at.index(instant) if instant in at else -1)
             second = camera or 1
             names = pairing.cameras[0].name, pairing.cameras[second].name
             if not set(names) <= set(files):
@@ -280,6 +283,12 @@ class RigPage(QWidget):
                 self.rectified,
                 lambda _: _rectify(result, second, both, list(names)),
             )
+
+    def _pick(self, place: int) -> None:
+        """Look at the instant of a board in space."""
+        if self.result is not None and self.pairing and place < len(self.result.rig.instants):
+            row = list(self.pairing.instants).index(self.result.rig.instants[place])
+            self.matrix.setCurrentCell(row, self._at[0])
 
     def _start(self, latest: Latest, view: InstantView, read: Callable[[Job], Shown]) -> None:
         """Read photographs beside the window, and show them."""

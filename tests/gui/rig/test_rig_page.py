@@ -131,6 +131,8 @@ def test_rows_of_a_rectified_pair_belong_together(
         assert colour.red() > 200
         assert colour.blue() < 100
     assert "if squares are 30 mm" in page.answer.condition.text()
+    page.scene.picked.emit(4)
+    assert page.matrix.currentRow() == 4
 
 
 def test_a_wrong_pairing_is_corrected_by_hand(
