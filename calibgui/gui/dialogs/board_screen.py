@@ -10,6 +10,7 @@ from PySide6.QtWidgets import QDoubleSpinBox, QHBoxLayout, QLabel, QWidget
 
 from calibgui.engine.boards import (
     Board,
+    PrintedDiscs,
     PrintedRectangles,
     PrintedSquaresAndDots,
 )
@@ -120,11 +121,10 @@ class BoardScreen(QWidget):
 
     def _list_discs(self, side: float) -> Iterator[tuple[QPointF, float, bool]]:
         ink = self._ink
-        if isinstance(ink, PrintedRectangles):
-            return
-        dark = ink.dark.tolist() if isinstance(ink, PrintedSquaresAndDots) else None
-        for k, (u, v) in enumerate((side * ink.centres).tolist()):
-            yield QPointF(u, v), side * ink.radius, dark is None or dark[k]
+        if isinstance(ink, PrintedDiscs | PrintedSquaresAndDots):
+            dark = ink.dark.tolist() if isinstance(ink, PrintedSquaresAndDots) else None
+            for k, (u, v) in enumerate((side * ink.centres).tolist()):
+                yield QPointF(u, v), side * ink.radius, dark is None or dark[k]
 
     def _paint_ruler(self, painter: QPainter) -> None:
         """Draw the line that is to be measured, with tenths of it."""

@@ -101,7 +101,7 @@ def _draw_thumbnail(picture: Picture) -> QIcon:
     kind = QImage.Format.Format_Grayscale8 if pixels.ndim == 2 else QImage.Format.Format_RGB888
     rows, cols = pixels.shape[:2]
     found = QImage(pixels.data, cols, rows, pixels.strides[0], kind)
-    whole = QPixmap(_FINEST * _THUMBNAIL)
+    whole = QPixmap(_THUMBNAIL * _FINEST)
     whole.fill(Qt.GlobalColor.transparent)
     fitted = QPixmap.fromImage(found).scaled(
         whole.size(),

@@ -119,8 +119,9 @@ class PairingMatrix(QTableWidget):
         shown = () if self._pairing is None else self._pairing.instants
         for row, instant in enumerate(shown):
             for camera, instants in chosen.items():
-                if instant in instants and camera < self.columnCount():
-                    self.item(row, camera).setSelected(True)
+                item = self.item(row, camera)
+                if instant in instants and item is not None:
+                    item.setSelected(True)
 
     def _tell(self, row: int, column: int, *_: int) -> None:
         if self._pairing is not None and row >= 0:

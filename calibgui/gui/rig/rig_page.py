@@ -6,6 +6,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
+from typing import cast
 
 from PySide6.QtCore import Signal
 from PySide6.QtGui import QColor, QPainter, QPaintEvent
@@ -518,7 +519,7 @@ def _rectify(result: RigResult, second: int, both: list[Path], names: list[str])
     """Rectify a pair of photographs."""
     pair = rectify_pair(*relate_cameras(result.rig, 0, second))
     images = [
-        rectify_stereo_image(read_colour(path), pair, which).image
+        cast(Pixels, rectify_stereo_image(read_colour(path), pair, which).image)
         for which, path in enumerate(both)
     ]
     return images, names, 1 if pair.is_upright else 2
