@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 from functools import partial
 from pathlib import Path
 
-from PySide6.QtCore import QObject
+from PySide6.QtCore import QObject, Qt
 from PySide6.QtGui import QKeySequence
 from PySide6.QtWidgets import QWidget
 
@@ -18,7 +18,7 @@ from calibgui.gui.images.film_strip import FilmStrip
 from calibgui.gui.panels.modes import Page
 from calibgui.gui.session.session import Session
 from calibgui.gui.widgets import theme
-from calibgui.gui.widgets.actions import COPY_PICTURE, COPY_TABLE, find_copier, show_dialog
+from calibgui.gui.widgets.actions import COPY_PICTURE, COPY_TABLE, find_copier
 from calibgui.gui.window.menus import Command, Menu
 
 Key = QKeySequence.StandardKey
@@ -213,11 +213,16 @@ class Commands(QObject):
         if (copier := find_copier(self._parent, name)) is not None:
             copier.trigger()
 
-    def _help(self) -> None:
-        """Show how it works."""
-        from calibgui.gui.dialogs.help_dialog import HelpDialog
+    def _show_manual(self) -> None:
+        """Show the manual beside the window, or bring it to the front."""
+        from calibgui.gui.dialogs.manual_dialog import ManualDialog
 
-        show_dialog(HelpDialog(self._parent))
+        manual = self._parent.findChild(ManualDialog)
+        if manual is None:
+            manual = ManualDialog(self._parent)
+            manual.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+            manual.show()
+        manual.activateWindow()
 
     def _describe_calibration(
         self, calibrate: Callable[[], object], stop: Callable[[], object]
@@ -319,10 +324,10 @@ class Commands(QObject):
             self.tr("&Help"),
             (
                 Command(
-                    text=self.tr("&How it works"),
+                    text=self.tr("&Manual"),
                     shortcut=Key.HelpContents,
-                    tip=self.tr("The workflow on one page"),
-                    run=self._help,
+                    tip=self.tr("How to photograph, what a message means, who reads which file"),
+                    run=self._show_manual,
                 ),
                 Command(
                     text=self.tr("&Find an action…"),
