@@ -28,8 +28,8 @@ from calibgui.app.calibrating.series import Scalar
 from calibgui.app.system.resources import find_resource
 from calibgui.cli.main import main as calibgui
 from calibgui.engine.boards import BoardShapeModel
-from calibgui.gui.dialogs.many_cameras import ManyCameras
 from calibgui.gui.dialogs.manual_dialog import ManualDialog
+from calibgui.gui.dialogs.many_cameras import ManyCameras
 from calibgui.gui.dialogs.series_dialog import SeriesDialog
 from calibgui.gui.panels.analysis import PANELS
 from calibgui.gui.panels.answer.undistort import RECTIFIED, UndistortPanel

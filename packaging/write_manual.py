@@ -36,8 +36,8 @@ def describe_formats(errors: Sequence[str]) -> str:
     for exporter, error in zip(EXPORTERS.values(), errors, strict=True):
         read = {None: "no", False: "yes", True: "several"}[several.get(exporter.title)]
         facts = [exporter.readers, exporter.keeps, exporter.loses]
-        rows.append([exporter.title, f"`--export {exporter.name}=`", read, *facts, error])
-    head = ["format", "written by", "camera read", "read by", "keeps", "loses", "error, px"]
+        rows.append([exporter.title, f"`{exporter.name}`", read, *facts, error])
+    head = ["format", "name", "read", "read by", "keeps", "loses", "error"]
     return _tabulate(head, rows)
 
 
@@ -52,7 +52,7 @@ def measure_errors() -> list[str]:
 
 def read_errors(text: str) -> list[str]:
     """Return the error of each format that stands in a chapter."""
-    return re.findall(r"^\|.* \| `--export .* \| (\S+) \|$", text, re.MULTILINE)
+    return re.findall(r"^\| .+ \| `[\w-]+` \| (?:yes|no|several) \| .* \| (\S+) \|$", text, re.MULTILINE)
 
 
 def describe_panels() -> str:

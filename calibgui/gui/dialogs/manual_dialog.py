@@ -45,18 +45,18 @@ class ManualDialog(QDialog):
         self.text = _ChapterText()
         self.text.setAccessibleName(self.tr("Chapter"))
         self.text.anchorClicked.connect(self._follow)
-        browse = QPushButton(self.tr("Open in the &browser"), autoDefault=False)
-        browse.setToolTip(self.tr("All chapters as one page, to search and to print"))
-        browse.clicked.connect(self._open_page)
+        self.browse = QPushButton(self.tr("Open in the &browser"), autoDefault=False)
+        self.browse.setToolTip(self.tr("All chapters as one page, to search and to print"))
+        self.browse.clicked.connect(self._open_page)
         buttons = add_close_button(self)
-        buttons.addButton(browse, QDialogButtonBox.ButtonRole.ActionRole)
+        buttons.addButton(self.browse, QDialogButtonBox.ButtonRole.ActionRole)
         columns = QHBoxLayout()
         columns.addWidget(self.chapters)
         columns.addWidget(self.text, 1)
         layout = QVBoxLayout(self)
         layout.addLayout(columns, 1)
         layout.addWidget(buttons)
-        self.resize(980, 640)
+        self.resize(1080, 680)
         self.chapters.currentRowChanged.connect(self._show_chapter)
         self.chapters.setCurrentRow(0)
 
@@ -67,8 +67,8 @@ class ManualDialog(QDialog):
 
     def _show_chapter(self, row: int) -> None:
         html = render_chapter(self._chapters[row], Path.as_uri)
-        # Without it Qt knows no borders of single cells.
-        table = '<table cellspacing="0" style="border-collapse: collapse">'
+        # Without these Qt knows no borders of single cells, and takes padding from the cells' words.
+        table = '<table cellspacing="0" cellpadding="4" style="border-collapse: collapse">'
         self.text.show_chapter(html.replace("<table>", table))
 
     def _follow(self, link: QUrl) -> None:
@@ -76,9 +76,10 @@ class ManualDialog(QDialog):
         if link.scheme():
             QDesktopServices.openUrl(link)
             return
-        names = [chapter.name for chapter in self._chapters]
-        self.chapters.setCurrentRow(names.index(link.fragment().partition(".")[0]))
-        self.text.scrollToAnchor(link.fragment())
+        chapter, _, heading = link.fragment().partition(".")
+        self.chapters.setCurrentRow([each.name for each in self._chapters].index(chapter))
+        if heading:
+            self.text.scrollToAnchor(link.fragment())
 
     def _open_page(self) -> None:
         path = find_state_folder() / "manual.html"
@@ -93,6 +94,8 @@ class _ChapterText(QTextBrowser):
         super().__init__()
         self._html = ""
         self.setOpenLinks(False)
+        # A bar that comes with a long chapter would change the width while that is laid out.
+        self.setVerticalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOn)
         self.document().setDocumentMargin(theme.MARGIN)
         FocusRing(self)
 
@@ -123,7 +126,7 @@ def _make_style() -> str:
     return f"""
         h2 {{ margin-top: 20px }} h3 {{ margin-top: 14px }}
         th {{ color: {colours.muted}; text-align: left }}
-        td, th {{ border-bottom: 1px solid {colours.line}; padding: 3px 14px 3px 0 }}
+        td, th {{ border-bottom: 1px solid {colours.line} }}
         pre {{ background-color: {colours.window}; white-space: pre-wrap }}
         a {{ color: {colours.accent} }}
     """
