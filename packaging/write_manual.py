@@ -52,7 +52,9 @@ def measure_errors() -> list[str]:
 
 def read_errors(text: str) -> list[str]:
     """Return the error of each format that stands in a chapter."""
-    return re.findall(r"^\| .+ \| `[\w-]+` \| (?:yes|no|several) \| .* \| (\S+) \|$", text, re.MULTILINE)
+    return re.findall(
+        r"^\| .+ \| `[\w-]+` \| (?:yes|no|several) \| .* \| (\S+) \|$", text, re.MULTILINE
+    )
 
 
 def describe_panels() -> str:

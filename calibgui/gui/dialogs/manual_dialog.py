@@ -67,7 +67,7 @@ class ManualDialog(QDialog):
 
     def _show_chapter(self, row: int) -> None:
         html = render_chapter(self._chapters[row], Path.as_uri)
-        # Without these Qt knows no borders of single cells, and takes padding from the cells' words.
+        # Without these Qt knows no borders of single cells, and padding takes room from words.
         table = '<table cellspacing="0" cellpadding="4" style="border-collapse: collapse">'
         self.text.show_chapter(html.replace("<table>", table))
 
