@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 from functools import partial
 from pathlib import Path
 
-from PySide6.QtCore import QObject, Qt
+from PySide6.QtCore import QObject
 from PySide6.QtGui import QKeySequence
 from PySide6.QtWidgets import QWidget
 
@@ -18,7 +18,7 @@ from calibgui.gui.images.film_strip import FilmStrip
 from calibgui.gui.panels.modes import Page
 from calibgui.gui.session.session import Session
 from calibgui.gui.widgets import theme
-from calibgui.gui.widgets.actions import COPY_PICTURE, COPY_TABLE, find_copier
+from calibgui.gui.widgets.actions import COPY_PICTURE, COPY_TABLE, find_copier, show_dialog
 from calibgui.gui.window.menus import Command, Menu
 
 Key = QKeySequence.StandardKey
@@ -220,8 +220,7 @@ class Commands(QObject):
         manual = self._parent.findChild(ManualDialog)
         if manual is None:
             manual = ManualDialog(self._parent)
-            manual.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
-            manual.show()
+            show_dialog(manual, is_modal=False)
         manual.activateWindow()
 
     def _describe_calibration(
