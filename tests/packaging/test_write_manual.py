@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -23,7 +24,9 @@ with pytest.MonkeyPatch.context() as patch:
         ("13-words", "terms", write_manual.describe_terms),
     ],
 )
-def test_a_chapter_says_what_the_code_says(chapter, name, describe) -> None:  # type: ignore[no-untyped-def]
+def test_a_chapter_says_what_the_code_says(
+    chapter: str, name: str, describe: Callable[[], str]
+) -> None:
     text = (CHAPTERS / f"{chapter}.md").read_text(encoding="utf-8")
     assert f"<!-- {name}: " in text
     assert write_manual.fill(text, {name: describe}) == text
