@@ -1,8 +1,8 @@
-"""Take the pictures of the window that the README shows, one of every panel, and of dialogs.
+"""Take pictures of the window, one of every panel and of dialogs, those of the manual among them.
 
-    python packaging/screenshots.py FOLDER [--size 1280x720] [--scheme light|dark]
+    python packaging/screenshots.py FOLDER [--size 1280x720] [--scheme light|dark] [--manual]
 
-The README's are result, residuals and marking, in resources/images as window-*.png.
+With --manual those that it shows are written to resources/manual/images as well.
 
 Run it under Xvfb (QT_QPA_PLATFORM=xcb) or without a display (offscreen); QT_SCALE_FACTOR=2
 doubles the resolution.
@@ -20,7 +20,7 @@ from functools import partial
 from pathlib import Path
 
 from PySide6.QtCore import QEventLoop, QPoint, QSettings, Qt, QTimer
-from PySide6.QtGui import QAction
+from PySide6.QtGui import QAction, QImage
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QTabWidget
 
@@ -28,6 +28,7 @@ from calibgui.app.calibrating.series import Scalar
 from calibgui.app.system.resources import find_resource
 from calibgui.cli.main import main as calibgui
 from calibgui.engine.boards import BoardShapeModel
+from calibgui.gui.dialogs.manual_dialog import ManualDialog
 from calibgui.gui.dialogs.many_cameras import ManyCameras
 from calibgui.gui.dialogs.series_dialog import SeriesDialog
 from calibgui.gui.panels.analysis import PANELS
@@ -41,6 +42,11 @@ from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.actions import show_dialog
 from calibgui.gui.window.main_window import MainWindow
 
+MANUAL = find_resource("manual") / "images"
+SHOWN = ("calibrated", "marking", "residuals", "distortion", "poses", "undistort")
+"""Pictures that the manual shows."""
+_QUALITY = 85
+"""Quality of the manual's pictures as WebP, of 100."""
 _PATIENCE = 600.0
 """Time after which the window is taken to hang, s."""
 _CAMERAS, _VIEWS = 6, 8
@@ -102,7 +108,7 @@ class Photographer:
         window.files.open_paths([str(find_resource("sample"))])
         wait(lambda: session.result is not None)
         session.select(session.project.views[2].image)
-        self.take("result")
+        self.take("calibrated")
         self.desk()
         for kind in PANELS:
             if kind is BoardShapePanel:
@@ -205,12 +211,17 @@ class Photographer:
             ("export", "&Export…"),
             ("print-board", "&Print a board…"),
             ("palette", "&Find an action…"),
-            ("help", "&How it works"),
         ):
             actions[text].trigger()
             wait(QApplication.activeModalWidget)
             self.take(name)
             self._close_dialog()
+        actions["&Manual"].trigger()
+        manual = self.window.findChild(ManualDialog)
+        assert manual is not None
+        pause(0.3)
+        manual.grab().save(str(self.folder / "manual.png"))
+        manual.close()
 
     def fleet(self, folder: Path) -> None:
         """Calibrate a fleet from sets of the sample's photographs, and show its table."""
@@ -262,10 +273,15 @@ def add_options(parser: argparse.ArgumentParser) -> argparse.ArgumentParser:
 
 def main() -> None:
     """Take all pictures."""
-    options = add_options(argparse.ArgumentParser(description=__doc__.splitlines()[0])).parse_args()
+    parser = add_options(argparse.ArgumentParser(description=__doc__.splitlines()[0]))
+    parser.add_argument("--manual", action="store_true")
+    options = parser.parse_args()
     options.folder.mkdir(parents=True, exist_ok=True)
     with open_window(*map(int, options.size.split("x")), options.scheme) as window:
         Photographer(window, options.folder).all()
+    for name in SHOWN if options.manual else ():
+        picture = QImage(str(options.folder / f"{name}.png"))
+        picture.save(str(MANUAL / f"{name}.webp"), quality=_QUALITY)
 
 
 if __name__ == "__main__":

@@ -233,11 +233,15 @@ class Commands(QObject):
         if (copier := find_copier(self._parent, name)) is not None:
             copier.trigger()
 
-    def _help(self) -> None:
-        """Show how it works."""
-        from calibgui.gui.dialogs.help_dialog import HelpDialog
+    def _show_manual(self) -> None:
+        """Show the manual beside the window, or bring it to the front."""
+        from calibgui.gui.dialogs.manual_dialog import ManualDialog
 
-        show_dialog(HelpDialog(self._parent))
+        manual = self._parent.findChild(ManualDialog)
+        if manual is None:
+            manual = ManualDialog(self._parent)
+            show_dialog(manual, is_modal=False)
+        manual.activateWindow()
 
     def _describe_calibration(
         self, calibrate: Callable[[], object], stop: Callable[[], object]
@@ -339,10 +343,10 @@ class Commands(QObject):
             self.tr("&Help"),
             (
                 Command(
-                    text=self.tr("&How it works"),
+                    text=self.tr("&Manual"),
                     shortcut=Key.HelpContents,
-                    tip=self.tr("The workflow on one page"),
-                    run=self._help,
+                    tip=self.tr("How to photograph, what a message means, who reads which file"),
+                    run=self._show_manual,
                 ),
                 Command(
                     text=self.tr("&Find an action…"),
