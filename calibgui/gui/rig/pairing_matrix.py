@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping
+from statistics import median
 
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QColor
@@ -14,7 +15,7 @@ from calibgui.gui.widgets import theme
 _WIDTH = 88
 """Least width of a column, device-independent px."""
 _STRONG, _WEAK = 150, 60
-"""Opacity of a cell whose residuals are the largest, and of one where the board was found."""
+"""Opacity of a cell with three times the usual residuals, and of one where the board was found."""
 
 
 class PairingMatrix(QTableWidget):
@@ -65,7 +66,7 @@ class PairingMatrix(QTableWidget):
         self.setHorizontalHeaderLabels([camera.name for camera in pairing.cameras])
         fits = {} if result is None else {(v.camera, v.instant): v for v in result.rig.views}
         out = set() if result is None else {(v.camera, v.instant) for v in result.rig.left_out}
-        worst = max((view.rms for view in fits.values()), default=0.0)
+        usual = median(view.rms for view in fits.values()) if fits else 0.0
         for c, camera in enumerate(pairing.cameras):
             views = corner_sets[camera.name].views if camera.name in corner_sets else ()
             found = {view.image: view for view in views}
@@ -85,8 +86,9 @@ class PairingMatrix(QTableWidget):
                     item.setText(self.tr("left out"))
                     item.setToolTip(self.tr("{0}: contradicts the others").format(file))
                 elif fit is not None:
-                    strength = _STRONG * fit.rms / worst if worst else 0.0
-                    self._mark(item, theme.current().warning, round(strength))
+                    excess = (fit.rms / usual - 1) / 2 if usual else 0.0
+                    strength = round(_STRONG * min(max(excess, 0.0), 1.0))
+                    self._mark(item, theme.current().warning, strength)
                     item.setText(self.tr("{0} px").format(f"{fit.rms:.2f}"))
                     item.setToolTip(
                         self.tr("{0}: {1} corners, {2} px rms; alone {3} px").format(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QLabel, QSizePolicy, QVBoxLayout, QWidget
 
 from calibgui.dataset import RigResult
@@ -9,6 +10,7 @@ from calibgui.engine.rig import estimate_point_uncertainty
 from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.tables import Column, Table, with_decimals, with_digits
 from calibgui.gui.widgets.wrapped_label import WrappedLabel
+from calibgui.report.numbers import format_with_sigma
 from calibgui.report.rig import (
     describe_disagreement,
     describe_fit,
@@ -47,6 +49,8 @@ class RigAnswer(QWidget):
             title.setFont(theme.make_font(theme.CAPTION, bold=True))
             column.addWidget(title)
             table.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
+            table.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+            table.setVerticalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
             column.addWidget(table)
         column.addWidget(self.condition)
         column.addStretch(1)
@@ -77,30 +81,28 @@ class RigAnswer(QWidget):
             self.tr("All lengths hold {0}.").format(result.condition) if result.condition else ""
         )
         self._show_places(result)
-        sigma = [rig.camera_sigma(c) for c in range(len(rig.cameras))]
+        counted = range(len(rig.cameras))
         self.cameras.show_columns(
             [
                 Column(self.tr("camera"), rig.names),
-                Column("fx", [c.params[0] for c in rig.cameras], with_decimals(2), unit="px"),
                 Column(
-                    "±",
-                    [float(s[0]) for s in sigma],
-                    _POINT_DIGITS,
-                    self.tr("Standard deviation of fx, px"),
+                    "fx",
+                    [
+                        format_with_sigma(rig.cameras[c].params[0], rig.camera_sigma(c)[0])
+                        for c in counted
+                    ],
+                    unit="px",
                 ),
                 Column(
                     "RMS",
-                    [rig.camera_rms(c) for c in range(len(rig.cameras))],
+                    [rig.camera_rms(c) for c in counted],
                     with_decimals(3),
                     self.tr("Root mean square residual of this camera in the rig, px"),
                     unit="px",
                 ),
                 Column(
                     "n",
-                    [
-                        sum(len(v.residuals) for v in rig.views if v.camera == c)
-                        for c in range(len(rig.cameras))
-                    ],
+                    [sum(len(v.residuals) for v in rig.views if v.camera == c) for c in counted],
                     tip=self.tr("Number of corners"),
                 ),
             ]
@@ -123,7 +125,7 @@ class RigAnswer(QWidget):
                 ),
                 Column(self.tr("± across"), [p.across for p in seen], _POINT_DIGITS, unit="mm"),
                 Column(
-                    self.tr("calibration"),
+                    self.tr("calib."),
                     [100 * p.share_of_calibration for p in seen],
                     with_decimals(0),
                     self.tr("Part of the variance that the calibration is to blame for, %"),
@@ -140,27 +142,21 @@ class RigAnswer(QWidget):
 
     def _show_places(self, result: RigResult) -> None:
         rig, rows = result.rig, range(1, len(result.rig.cameras))
-        lengths, sigmas = zip(*(measure_distance(rig, c) for c in rows), strict=True)
-        turns, turn_sigmas = zip(*(measure_turn(rig, c) for c in rows), strict=True)
         self.places.show_columns(
             [
                 Column(self.tr("camera"), [rig.names[c] for c in rows]),
                 Column(
                     self.tr("from {0}").format(rig.names[0]),
-                    lengths,
-                    with_decimals(2),
-                    self.tr("Distance of the two cameras' centres, mm"),
+                    [format_with_sigma(*measure_distance(rig, c)) for c in rows],
+                    tip=self.tr("Distance of the two cameras' centres, mm"),
                     unit="mm",
                 ),
-                Column("±", sigmas, _POINT_DIGITS, self.tr("Standard deviation, mm")),
                 Column(
                     self.tr("turn"),
-                    turns,
-                    with_decimals(3),
-                    self.tr("Angle between the two cameras, degrees"),
+                    [format_with_sigma(*measure_turn(rig, c)) for c in rows],
+                    tip=self.tr("Angle between the two cameras, degrees"),
                     unit="°",
                 ),
-                Column("± ", turn_sigmas, _POINT_DIGITS, self.tr("Standard deviation, degrees")),
             ]
         )
 
