@@ -35,12 +35,13 @@ from calibgui.engine.boards import Board
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.images import is_video
 from calibgui.engine.opencv import read_frame_rate
+from calibgui.engine.rig import Mistake
 from calibgui.formats import ImportedCamera
 from calibgui.formats.origin import RIG
 from calibgui.formats.rig_files import RIG_EXPORTERS, find_rig_exporter
 from calibgui.formats.rig_json import encode_rig, write_rig
 from calibgui.formats.times_csv import read_times
-from calibgui.report.rig import describe_fit, describe_pairing, format_rig
+from calibgui.report.rig import describe_fit, describe_mistake, describe_pairing, format_rig
 from calibgui.report.tables import fill_lines, format_bullet, list_unused_views
 
 
@@ -157,6 +158,13 @@ def run(options: argparse.Namespace, console: Console) -> None:
             times,
             options.offsets,
             tell=lambda _: advance(next(done), len(pairing.cameras)),
+        )
+    if shifted := [m for m in result.rig.mistakes if m.kind is Mistake.SHIFTED]:
+        console.print_text(format_rig(result) + "\n")
+        raise CalibrationError(
+            describe_mistake(result, shifted[0]),
+            "Rename the photographs, or move them in the window (File, Several cameras). Nothing "
+            "was written.",
         )
     messages = _write(result, options, output)
     console.print_json(encode_rig(result))
