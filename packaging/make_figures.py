@@ -1,27 +1,34 @@
-"""Draw the README's figures of what a calibration can be trusted with, from the bundled sample.
+"""Draw the manual's figures: boards, photographs, and what a calibration can be trusted with.
 
-Usage: python packaging/make_figures.py, from anywhere; writes resources/images/.
+Usage: python packaging/make_figures.py [NAME ...], from anywhere; writes resources/manual/images/.
 """
 
 from __future__ import annotations
 
 import json
+import sys
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
+import scipy
+from make_sample import BLUR, BOARD, CAMERA, LOOK, NOISE, draw_photograph, place_board
+from matplotlib.collections import PatchCollection
 from matplotlib.figure import Figure
+from matplotlib.patches import Circle, Rectangle
 
 from calibgui.app.calibrating.calibration import calibrate_views
 from calibgui.app.outputs.output_files import save_figure
+from calibgui.app.outputs.printable_board import complete_pattern, lay_out_page
 from calibgui.app.photographs.detection import find_views
 from calibgui.app.photographs.paths import find_images
 from calibgui.engine.assessment import compare_cameras, screen_outliers
-from calibgui.engine.boards import Board
+from calibgui.engine.boards import KINDS, Board, ListedCircles
 from calibgui.engine.calibration import Observation, calibrate
 from calibgui.engine.camera import Camera, pixels_from_rays
 from calibgui.engine.geometry import rotation_from_vector
-from calibgui.engine.images import read_image
+from calibgui.engine.images import read_image, render_view
 from calibgui.engine.uncertainty import (
     estimate_projection_uncertainty,
     propose_views,
@@ -32,6 +39,8 @@ from calibgui.report import figures, quality_figures
 RESOURCES = Path(__file__).resolve().parents[1] / "resources"
 SQUARE = 25.0
 """Side of a square of the sample's board, mm."""
+_RULER = 6
+"""Number of rectangles of the scale bar below a board, which come last on its page."""
 
 
 def draw_bent_board() -> Figure:
@@ -166,8 +175,65 @@ def photograph_all_around(camera: Camera) -> list[Observation]:
     return views
 
 
-def main() -> None:
-    """Draw all figures and save them."""
+def draw_boards() -> Figure:
+    """Draw a board of each kind with its name on the command line."""
+    sizes = {"aprilgrid": (6, 8), "puzzleboard": (7, 9), "asymmetric-circles": (9, 5)}
+    figure = Figure(figsize=(11.0, 5.6), layout="constrained")
+    for axes, (kind, pattern) in zip(figure.subplots(2, 4).flat, KINDS.items(), strict=True):
+        grid_size = sizes.get(kind, (6, 9))
+        if isinstance(pattern, ListedCircles):
+            rows = [np.arange(9 - k % 2) + 0.5 * (k % 2) for k in range(6)]
+            places = [(x, y) for y, row in enumerate(rows) for x in row]
+            pattern = replace(pattern, places=tuple(places))
+            grid_size = pattern.grid_size
+        page = lay_out_page(Board(*grid_size, 20.0, complete_pattern(pattern, grid_size)), "A2")
+        shapes = [Rectangle((x, y), w, h) for x, y, w, h in page.rectangles[:-_RULER]]
+        discs = [Circle((x, y), r) for x, y, r in page.discs]
+        blanks = [Circle((x, y), r) for x, y, r in page.white_discs]
+        axes.add_collection(PatchCollection([*shapes, *discs], facecolor="black"))
+        axes.add_collection(PatchCollection(blanks, facecolor="white"))
+        axes.autoscale_view()
+        axes.set_aspect("equal")
+        axes.invert_yaxis()
+        axes.set_axis_off()
+        axes.set_title(kind, fontsize=11)
+    return figure
+
+
+def draw_photographs() -> Figure:
+    """Draw photographs that help and others that do not, each with the reason."""
+    rng = np.random.default_rng(1)
+    v, u = np.mgrid[:480, :640]
+    glare = np.exp(-((u - 350) ** 2 + (v - 200) ** 2) / (2 * 90.0**2))
+    tilted, corner, near, turned = 2, 6, 1, 14
+    """Numbers of the sample's photographs."""
+    far = place_board((0, 0, 2, 0, 0, 1300))
+    pictures = {
+        "tilted, half of the image": draw_photograph(tilted),
+        "in a corner of the image": draw_photograph(corner),
+        "to the edge, tilted another way": draw_photograph(10),
+        "turned by 90 degrees": draw_photograph(turned),
+        "too far away, not tilted": render_view(
+            CAMERA, far, BOARD, blur=BLUR, noise=NOISE, seed=1, appearance=LOOK
+        ),
+        "moved while it was taken": scipy.ndimage.uniform_filter1d(draw_photograph(tilted), 19),
+        "a reflection on the board": np.clip(draw_photograph(near) + 320 * glare, 0, 255),
+        "too dark": np.clip(draw_photograph(3) * 0.1 + rng.normal(0, 4, (480, 640)), 0, 255),
+    }
+    figure = Figure(figsize=(11.0, 4.9), layout="constrained")
+    for k, (axes, (reason, picture)) in enumerate(
+        zip(figure.subplots(2, 4).flat, pictures.items(), strict=True)
+    ):
+        axes.imshow(picture, cmap="gray", vmin=0, vmax=255)
+        axes.set(xticks=[], yticks=[])
+        axes.set_title(f"{'✓' if k < 4 else '✗'}  {reason}", fontsize=10)
+        for spine in axes.spines.values():
+            spine.set(color="tab:green" if k < 4 else "tab:red", linewidth=3)
+    return figure
+
+
+def draw_from_sample() -> dict[str, Figure]:
+    """Draw what a calibration of the bundled sample can be trusted with."""
     images = find_images([str(RESOURCES / "sample")])
     result = calibrate_views(find_views(images).corner_set(SQUARE))
     calibration, views = result.calibration, result.observations()
@@ -185,13 +251,27 @@ def main() -> None:
             propose_views(calibration, views), views, size
         ),
     }
-    pictures["board-shape"] = draw_bent_board()
-    pictures["lens-models"] = draw_lens_models()
     truth = json.loads((RESOURCES / "sample" / "truth.json").read_text())["camera"]
     camera = Camera(size, list(truth["params"].values()))
     pictures["robust"] = draw_misplaced_corners([v.image for v in result.used], views, camera)
+    return pictures
+
+
+def main() -> None:
+    """Draw all figures, or those that are named, and save them."""
+    names = set(sys.argv[1:])
+    alone = {
+        "boards": draw_boards,
+        "good-and-bad": draw_photographs,
+        "board-shape": draw_bent_board,
+        "lens-models": draw_lens_models,
+    }
+    pictures = {name: draw() for name, draw in alone.items() if not names or name in names}
+    if not names or names - alone.keys():
+        pictures |= draw_from_sample()
     for name, figure in pictures.items():
-        save_figure(figure, RESOURCES / "images" / f"{name}.png")
+        if not names or name in names:
+            save_figure(figure, RESOURCES / "manual" / "images" / f"{name}.png")
 
 
 if __name__ == "__main__":

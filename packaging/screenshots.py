@@ -1,8 +1,8 @@
-"""Take the pictures of the window that the README shows, one of every panel, and of dialogs.
+"""Take pictures of the window, one of every panel and of dialogs, those of the manual among them.
 
-    python packaging/screenshots.py FOLDER [--size 1280x720] [--scheme light|dark]
+    python packaging/screenshots.py FOLDER [--size 1280x720] [--scheme light|dark] [--manual]
 
-The README's are result, residuals and marking, in resources/images as window-*.png.
+With --manual those that it shows are written to resources/manual/images as well.
 
 Run it under Xvfb (QT_QPA_PLATFORM=xcb) or without a display (offscreen); QT_SCALE_FACTOR=2
 doubles the resolution.
@@ -13,23 +13,33 @@ from __future__ import annotations
 import argparse
 import os
 import tempfile
+import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
+from unittest import mock
 
+import numpy as np
 from PySide6.QtCore import QEventLoop, QPoint, QSettings, Qt, QTimer
-from PySide6.QtGui import QAction
+from PySide6.QtGui import QAction, QImage
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QTabWidget
 
 from calibgui.app.calibrating.series import Scalar
 from calibgui.app.system.resources import find_resource
 from calibgui.cli.main import main as calibgui
-from calibgui.engine.boards import BoardShapeModel
+from calibgui.engine.boards import Board, BoardShapeModel
+from calibgui.engine.calibration import locate_board
+from calibgui.engine.camera import Camera
+from calibgui.engine.capture import Frame
+from calibgui.engine.geometry import Pose, rotation_from_vector, vector_from_rotation
+from calibgui.engine.images import render_view, write_image
+from calibgui.gui.dialogs.manual_dialog import ManualDialog
 from calibgui.gui.dialogs.many_cameras import ManyCameras
 from calibgui.gui.dialogs.series_dialog import SeriesDialog
+from calibgui.gui.live import live_page
 from calibgui.gui.panels.analysis import PANELS
 from calibgui.gui.panels.answer.undistort import RECTIFIED, UndistortPanel
 from calibgui.gui.panels.evidence.board_shape import BoardShapePanel
@@ -41,10 +51,69 @@ from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.actions import show_dialog
 from calibgui.gui.window.main_window import MainWindow
 
+MANUAL = find_resource("manual") / "images"
+SHOWN = ("calibrated", "marking", "residuals", "distortion", "poses", "undistort", "live", "rig")
+"""Pictures that the manual shows."""
+_QUALITY = 85
+"""Quality of the manual's pictures as WebP, of 100."""
 _PATIENCE = 600.0
 """Time after which the window is taken to hang, s."""
 _CAMERAS, _VIEWS = 6, 8
 """Number of cameras in the fleet, and of photographs of each."""
+_BOARD = Board(6, 9, 25.0)
+_LIVE = Camera((640, 480), [560, 560, 322, 236, -0.15, 0.03, 0, 0, 0], "brown-conrady")
+"""What is photographed live, and with which camera."""
+_RIG = (Pose([0, 0, 0], [0, 0, 0]), Pose([0.01, -0.12, 0.0], [-90.0, 1.0, 6.0]))
+"""Poses cam_from_rig of two such cameras."""
+_INSTANTS = 10
+_STILL, _PICTURES = 10, 4
+"""Frames for which a board is held still, and pictures that are taken live."""
+
+
+def place_board(k: int, distance: float = 430.0) -> Pose:
+    """Place the board, tilted otherwise for each number."""
+    tilt = 0.5 * np.array([np.cos(2.4 * k), np.sin(2.4 * k), 0.1])
+    R = rotation_from_vector(tilt)
+    at = np.array([40 * np.cos(1.7 * k), 30 * np.sin(1.3 * k), distance + 10 * k])
+    return Pose(tilt, at - R[:, :2] @ _BOARD.points().mean(axis=0))
+
+
+class Hand:
+    """A camera before which a hand holds a board near where it is wanted."""
+
+    title, is_continuous, is_live = "a rendered camera", True, False
+
+    def __init__(self, window: MainWindow) -> None:
+        self._window = window
+        self._frames = self._hold()
+
+    def read(self) -> Frame:
+        """Return the next frame."""
+        return next(self._frames)
+
+    def close(self) -> None:
+        """Release nothing."""
+
+    def _hold(self) -> Iterator[Frame]:
+        pose, count = place_board(0), 0
+        while True:
+            for _ in range(_STILL):
+                count += 1
+                image = render_view(_LIVE, pose, _BOARD, blur=0.7, noise=4.0, seed=count)
+                yield Frame(np.repeat(image[:, :, None], 3, axis=2), count / 25)
+                pause_in_thread()
+            page = self._window.live
+            session = None if page is None else page.session
+            if session is not None and session.goal is not None:
+                corners = session.goal.reshape(-1, 2), _BOARD.points()
+                pose = locate_board(_LIVE, corners).pose
+                if len(session.pictures) == _PICTURES:  # on the way to the next place
+                    pose = Pose(np.array(pose.rvec) * 0.7, pose.tvec + np.array([18, -12, 40]))
+
+
+def pause_in_thread() -> None:
+    """Leave the processor to the window."""
+    time.sleep(0.02)
 
 
 def pause(seconds: float) -> None:
@@ -102,7 +171,7 @@ class Photographer:
         window.files.open_paths([str(find_resource("sample"))])
         wait(lambda: session.result is not None)
         session.select(session.project.views[2].image)
-        self.take("result")
+        self.take("calibrated")
         self.desk()
         for kind in PANELS:
             if kind is BoardShapePanel:
@@ -119,6 +188,8 @@ class Photographer:
         self.marking()
         self.verdict()
         self.dialogs()
+        self.live()
+        self.rig()
         with tempfile.TemporaryDirectory() as folder:
             self.fleet(Path(folder))
             self.series(Path(folder))
@@ -214,12 +285,17 @@ class Photographer:
             ("export", "&Export…"),
             ("print-board", "&Print a board…"),
             ("palette", "&Find an action…"),
-            ("help", "&How it works"),
         ):
             actions[text].trigger()
             wait(QApplication.activeModalWidget)
             self.take(name)
             self._close_dialog()
+        actions["&Manual"].trigger()
+        manual = self.window.findChild(ManualDialog)
+        assert manual is not None
+        pause(0.3)
+        manual.grab().save(str(self.folder / "manual.png"))
+        manual.close()
 
     def fleet(self, folder: Path) -> None:
         """Calibrate a fleet from sets of the sample's photographs, and show its table."""
@@ -255,6 +331,51 @@ class Photographer:
         self.take("series-camera")
         self._close_dialog()
 
+    def live(self) -> None:
+        """Photograph a rendered board live, up to a place where it is wanted."""
+        window = self.window
+        with mock.patch.object(live_page, "open_source", lambda *_: Hand(window)):
+            window.photograph_live()
+            page = window.live
+            assert page is not None
+            with tempfile.TemporaryDirectory() as folder:
+                page.folder = Path(folder) / "pictures"
+                page.limit.setValue(0.01)
+                page.start.click()
+                wait(lambda: page.strip.list.count() >= _PICTURES)
+                pause(3.0)
+                window.grab().save(str(self.folder / "live.png"))
+                page.leave.click()
+                wait(lambda: not page.is_running)
+
+    def rig(self) -> None:
+        """Calibrate a rendered rig."""
+        window = self.window
+        with tempfile.TemporaryDirectory() as folder:
+            cameras = [Path(folder) / name for name in ("left", "right")]
+            for k in range(_INSTANTS):
+                board = place_board(k)
+                for place, pose in zip(cameras, _RIG, strict=True):
+                    place.mkdir(exist_ok=True)
+                    R = rotation_from_vector(np.array(pose.rvec))
+                    turn = R @ rotation_from_vector(np.array(board.rvec))
+                    seen = Pose(vector_from_rotation(turn), R @ board.tvec + pose.tvec)
+                    image = render_view(_LIVE, seen, _BOARD, blur=0.7, noise=4.0, seed=k)
+                    write_image(place / f"{k + 1:02}.png", image)
+            window.show_rig(list(map(str, cameras)))
+            page = window.rig
+            assert page is not None
+            wait(lambda: page.pairing is not None)
+            page.square.setValue(_BOARD.square)
+            page.calibrate.click()
+            wait(lambda: page.result is not None)
+            page.matrix.setCurrentCell(3, 1)
+            page.tabs.setCurrentWidget(page.rectified)
+            self.take("rig")
+            page.tabs.setCurrentWidget(page.scene)
+            self.take("rig-space")
+            page.leave.click()
+
     def _close_dialog(self) -> None:
         dialog = QApplication.activeModalWidget()
         assert dialog is not None
@@ -271,10 +392,15 @@ def add_options(parser: argparse.ArgumentParser) -> argparse.ArgumentParser:
 
 def main() -> None:
     """Take all pictures."""
-    options = add_options(argparse.ArgumentParser(description=__doc__.splitlines()[0])).parse_args()
+    parser = add_options(argparse.ArgumentParser(description=__doc__.splitlines()[0]))
+    parser.add_argument("--manual", action="store_true")
+    options = parser.parse_args()
     options.folder.mkdir(parents=True, exist_ok=True)
     with open_window(*map(int, options.size.split("x")), options.scheme) as window:
         Photographer(window, options.folder).all()
+    for name in SHOWN if options.manual else ():
+        picture = QImage(str(options.folder / f"{name}.png"))
+        picture.save(str(MANUAL / f"{name}.webp"), quality=_QUALITY)
 
 
 if __name__ == "__main__":

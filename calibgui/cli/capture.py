@@ -15,9 +15,8 @@ from pathlib import Path
 from calibgui.app.photographs.recording import (
     BoardFinder,
     RecordedFrame,
+    Recorder,
     check_recording_folder,
-    list_recorded_views,
-    record_pictures,
 )
 from calibgui.cli.arguments import add_grid_size_option, add_square_option, parse_positive
 from calibgui.cli.boards import add_board_options, is_pattern_open, read_pattern_options
@@ -68,17 +67,17 @@ def run(options: argparse.Namespace, console: Console) -> None:
     pattern = None if is_pattern_open(options) else read_pattern_options(options)
     square = DEFAULT_SQUARE if options.square is None else options.square
     session = CaptureSession(BoardFinder(pattern, options.board), square, options.until)
-    failure = None
+    recorder, failure = Recorder(session, options.output), None
     with open_source(options.source, options.patience) as source:
         try:
             said = ""
-            for recorded in record_pictures(source, session, options.output, lambda: False):
+            for recorded in recorder.record(source, lambda: False):
                 said = _tell(recorded, session, said, console)
         except KeyboardInterrupt:
             console.print_text("Stopped.")
         except CalibrationError as error:
             failure = error
-    _finish(session, options, square, console)
+    _finish(recorder, session, options, square, console)
     if failure is not None:
         raise failure
 
@@ -106,7 +105,11 @@ def _tell(recorded: RecordedFrame, session: CaptureSession, said: str, console: 
 
 
 def _finish(
-    session: CaptureSession, options: argparse.Namespace, square: float, console: Console
+    recorder: Recorder,
+    session: CaptureSession,
+    options: argparse.Namespace,
+    square: float,
+    console: Console,
 ) -> None:
     """Write the corners of what was taken, and say what it is worth.
 
@@ -122,7 +125,7 @@ def _finish(
     height, width = session.pictures[0].frame.image.shape[:2]
     corner_set = CornerSet(
         (width, height),
-        list_recorded_views(session, options.output),
+        recorder.list_views(),
         Board(*corners.shape, square, corners.pattern),
         lengths_confirmed=options.square is not None,
     )
@@ -132,8 +135,11 @@ def _finish(
     taken = format_count(len(session.pictures), "picture")
     state = "The camera is known well enough" if session.is_complete else "More would help"
     console.print_text(f"\n{state}: {taken}, worst pixel ±{session.worst:.2g} px.")
-    unseen = session.measure_unseen_error()
-    if unseen == unseen:
-        console.print_text(f"Pictures that were put aside are predicted to {unseen:.2g} px rms.")
+    progress = recorder.measure_progress()
+    if progress.unseen_corners:
+        console.print_text(
+            f"Pictures that were put aside are predicted to {progress.unseen_error:.2g} px rms "
+            f"({progress.unseen_corners} corners)."
+        )
     console.print_text(f"Wrote {file}. Now: calibgui calibrate {options.output}")
     console.print_line(f"{taken} in {options.output}.")

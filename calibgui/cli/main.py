@@ -36,6 +36,7 @@ _PACKAGES = (
     "PyYAML",
     "matplotlib",
     "jinja2",
+    "markdown-it-py",
     "numba",
     "threadpoolctl",
     "platformdirs",

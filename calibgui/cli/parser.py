@@ -39,6 +39,7 @@ COMMANDS = {
     "demo": "calibrate the bundled sample and write all results and figures",
     "paper": "reproduce the paper from its 25 images, with its printed numbers beside ours",
     "prepare": "compile what is slow in Python, once after an installation",
+    "manual": "write the manual as one page for a browser",
     "completion": "print what completes these commands in a shell at the press of the tab key",
 }
 """Subcommands, which but for hyphens are also the names of their modules, and their help texts."""
@@ -79,7 +80,7 @@ class Parser(argparse.ArgumentParser):
     def format_help(self) -> str:
         """Format the help on all options; of many the usage names those alone that are needed."""
         if len(self._list_options()) >= _MANY:
-            self.usage = self._format_short_usage().partition(" (")[0].removeprefix("usage: ")
+            self.usage = self.format_short_usage().partition(" (")[0].removeprefix("usage: ")
         return super().format_help()
 
     def format_short_help(self) -> str:
@@ -92,7 +93,7 @@ class Parser(argparse.ArgumentParser):
         listed.sort(key=lambda each: min(rank.get(name, len(rank)) for name in each.option_strings))
         required = [each for each in options if each.required and each not in listed]
         formatter = self._get_formatter()
-        formatter.add_text(self._format_short_usage().partition(" (")[0])
+        formatter.add_text(self.format_short_usage().partition(" (")[0])
         formatter.add_text(self.description)
         formatter.start_section("arguments")
         formatter.add_arguments([each for each in self._actions if not each.option_strings])
@@ -117,7 +118,7 @@ class Parser(argparse.ArgumentParser):
 
     def error(self, message: str) -> NoReturn:
         """End the program with exit code 2, the reason and a line on the usage."""
-        self.exit(2, f"{self.prog}: {message}\n{self._format_short_usage()}\n")
+        self.exit(2, f"{self.prog}: {message}\n{self.format_short_usage()}\n")
 
     def _describe_unknown(self, argument: str) -> str:
         """Describe an argument that nothing accepts."""
@@ -127,7 +128,7 @@ class Parser(argparse.ArgumentParser):
         known = [option for action in self._actions for option in action.option_strings]
         return f"there is no option {name}.{suggest(name, known)}"
 
-    def _format_short_usage(self) -> str:
+    def format_short_usage(self) -> str:
         """Format the usage in one line, with what is needed and no more."""
         needed = [a for a in self._actions if a.required or not a.option_strings]
         formatter = argparse.HelpFormatter(self.prog, width=1000)

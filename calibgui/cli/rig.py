@@ -35,13 +35,14 @@ from calibgui.engine.boards import Board
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.images import is_video
 from calibgui.engine.opencv import read_frame_rate
+from calibgui.engine.rig import Mistake
 from calibgui.formats import ImportedCamera
 from calibgui.formats.origin import RIG
 from calibgui.formats.rig_files import RIG_EXPORTERS, find_rig_exporter
 from calibgui.formats.rig_json import encode_rig, write_rig
 from calibgui.formats.times_csv import read_times
-from calibgui.report.rig import describe_fit, describe_pairing, format_rig
-from calibgui.report.tables import format_bullet, list_unused_views
+from calibgui.report.rig import describe_fit, describe_mistake, describe_pairing, format_rig
+from calibgui.report.tables import fill_lines, format_bullet, list_unused_views
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
@@ -136,7 +137,7 @@ def run(options: argparse.Namespace, console: Console) -> None:
             "taken.",
             "Give their times with --times FILE.",
         )
-    console.print_text(describe_pairing(pairing) + "\n")
+    console.print_text(fill_lines(describe_pairing(pairing), "", "  ") + "\n")
     known = _read_known(options, pairing, console)
     if output:
         read = [file for camera in pairing.cameras for file in camera.files.values()]
@@ -157,6 +158,13 @@ def run(options: argparse.Namespace, console: Console) -> None:
             times,
             options.offsets,
             tell=lambda _: advance(next(done), len(pairing.cameras)),
+        )
+    if shifted := [m for m in result.rig.mistakes if m.kind is Mistake.SHIFTED]:
+        console.print_text(format_rig(result) + "\n")
+        raise CalibrationError(
+            describe_mistake(result, shifted[0]),
+            "Rename the photographs, or move them in the window (File, Several cameras). Nothing "
+            "was written.",
         )
     messages = _write(result, options, output)
     console.print_json(encode_rig(result))

@@ -16,7 +16,7 @@ RESULT, CORNERS, CORNERS_CSV, BOARD_SHAPE = "result", "corners", "corners-csv", 
 FIGURE, LENS_COMPARISON, METHOD_COMPARISON = "figure", "lens-comparison", "method-comparison"
 PAPER_PAGE, SERIES_CSV = "paper-page", "series-csv"
 FLEET_TABLE, FLEET_PAGE, REPORT = "fleet-table", "fleet-page", "report"
-EXPORT_PAGE = "export-page"
+EXPORT_PAGE, MANUAL = "export-page", "manual"
 POSES, POSES_CSV, RAYS_CSV = "poses", "poses-csv", "rays-csv"
 HAND_EYE, HAND_EYE_ROS, HAND_EYE_OPENCV = "hand-eye", "hand-eye-ros", "hand-eye-opencv"
 RIG, SPACE_POINTS_CSV = "rig", "space-points-csv"
@@ -59,6 +59,7 @@ _TITLES: Mapping[str, str] = {
     SPACE_POINTS_CSV: "a table of points",
     FLEET_PAGE: "a page on a fleet",
     EXPORT_PAGE: "a page on exports",
+    MANUAL: "a manual",
     HAND_EYE: "a file of hand and eye",
     HAND_EYE_ROS: "a file for easy_handeye2",
     HAND_EYE_OPENCV: "a file of hand and eye for OpenCV",

@@ -9,6 +9,7 @@ from typing import assert_never
 import numpy as np
 
 from calibgui.dataset import RigPairing, RigResult, relate_cameras
+from calibgui.engine.arrays import Array
 from calibgui.engine.camera import find_model
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.rig import (
@@ -49,7 +50,7 @@ def describe_pairing(pairing: RigPairing) -> str:
     )
     if left := pairing.left_over:
         text += f" Without a partner: {list_names([file.name for file in left])}."
-    return fill_lines(text, "", "  ")
+    return text
 
 
 def list_names(names: Sequence[str]) -> str:
@@ -205,22 +206,30 @@ def tabulate_poses(result: RigResult) -> str:
         turn = map(
             format_with_sigma, np.degrees(pose.rvec).tolist(), np.degrees(sigma[:3]).tolist()
         )
-        rows.append([rig.names[c], "mm", *place, _format_length(rig, c, 3)])
-        rows.append(["", "deg", *turn, _format_length(rig, c, 0)])
+        rows.append([rig.names[c], "mm", *place, format_with_sigma(*measure_distance(rig, c))])
+        rows.append(["", "deg", *turn, format_with_sigma(*measure_turn(rig, c))])
     condition = f", {result.condition}" if result.condition else ""
     title = f"Translation and rotation vector from {rig.names[0]}{condition}"
     return f"{title}\n{align_columns(rows, left=(0, 1))}"
 
 
-def _format_length(rig: Rig, c: int, start: int) -> str:
-    """Format the length of a camera's translation (3), mm, or rotation vector (0), degrees."""
-    vector = rig.poses[c].tvec if start else rig.poses[c].rvec
-    length = float(np.linalg.norm(vector))
+def measure_distance(rig: Rig, c: int) -> tuple[float, float]:
+    """Measure how far camera `c` is from the first one, mm, with its standard deviation."""
+    return _measure_length(rig, c, rig.poses[c].tvec, 3)
+
+
+def measure_turn(rig: Rig, c: int) -> tuple[float, float]:
+    """Measure the angle of camera `c` to the first one, degrees, with its standard deviation."""
+    angle, sigma = _measure_length(rig, c, rig.poses[c].rvec, 0)
+    return float(np.degrees(angle)), float(np.degrees(sigma))
+
+
+def _measure_length(rig: Rig, c: int, vector: Array, start: int) -> tuple[float, float]:
+    """Return the length of a part of camera `c`'s pose, and its standard deviation."""
     place = rig.layout.pose(c).start + start
     block = rig.covariance[place : place + 3, place : place + 3]
-    sigma = float(np.sqrt(vector @ block @ vector)) / length if length else 0.0
-    scale = 1.0 if start else float(np.degrees(1.0))
-    return format_with_sigma(scale * length, scale * sigma)
+    length = float(np.linalg.norm(vector))
+    return length, float(np.sqrt(vector @ block @ vector)) / length if length else 0.0
 
 
 def tabulate_points(rig: Rig) -> str:

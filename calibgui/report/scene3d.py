@@ -20,7 +20,7 @@ from typing import assert_never
 
 import numpy as np
 
-from calibgui.dataset import Result
+from calibgui.dataset import Result, RigResult
 from calibgui.engine.arrays import Array, freeze
 from calibgui.engine.camera import Camera
 from calibgui.engine.geometry import rotation_from_vector
@@ -88,6 +88,36 @@ def build_scene(result: Result, centre: SceneCentre) -> tuple[Polygon, ...]:
         case _:
             assert_never(centre)
     return (*shared, *placed)
+
+
+def build_rig_scene(result: RigResult) -> tuple[Polygon, ...]:
+    """Build the scene of a rig in the frame of its first camera.
+
+    The boards stand for views 0 to n - 1, in the order of the rig's instants, and the cameras for
+    those after them.
+    """
+    rig = result.rig
+    T = np.array([pose.tvec for pose in rig.boards])
+    size = _RELATIVE_CAMERA_LENGTH * float(np.linalg.norm(T, axis=1).mean())
+    outline = _make_rig_board(result)
+    polygons = [
+        Polygon(outline @ rotation_from_vector(pose.rvec).T + pose.tvec, PolygonKind.BOARD, k)
+        for k, pose in enumerate(rig.boards)
+    ]
+    for c, (camera, pose) in enumerate(zip(rig.cameras, rig.poses, strict=True)):
+        R = rotation_from_vector(pose.rvec)
+        polygons += [
+            Polygon((face - pose.tvec) @ R, PolygonKind.CAMERA, len(rig.boards) + c)
+            for face in _make_camera_faces(camera, size)
+        ]
+    return tuple(polygons)
+
+
+def _make_rig_board(result: RigResult) -> Array:
+    """Return corners (4, 3) of the rectangle around all points that were seen, mm."""
+    xy = np.concatenate([view.xy for view in result.observations.values()])
+    (x0, y0), (x1, y1) = xy.min(axis=0), xy.max(axis=0)
+    return np.array([[x0, y0, 0.0], [x1, y0, 0.0], [x1, y1, 0.0], [x0, y1, 0.0]])
 
 
 @dataclass(frozen=True, slots=True)

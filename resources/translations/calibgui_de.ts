@@ -245,6 +245,37 @@ die beide dort am nächsten zusammenbringt, wo Ecken (Punkte) gesehen wurden.</t
     </message>
 </context>
 <context>
+    <name>BoardScreen</name>
+    <message>
+        <source>Board on the screen</source>
+        <translation>Brett auf dem Bildschirm</translation>
+    </message>
+    <message>
+        <source> mm</source>
+        <translation> mm</translation>
+    </message>
+    <message>
+        <source>Length of the line</source>
+        <translation>Länge der Linie</translation>
+    </message>
+    <message>
+        <source>&amp;Close (Esc)</source>
+        <translation>&amp;Schließen (Esc)</translation>
+    </message>
+    <message>
+        <source>Measure the line above with a ruler:</source>
+        <translation>Die Linie oben mit einem Lineal messen:</translation>
+    </message>
+    <message>
+        <source>A square is {0} pixels: {1} mm. State this length.</source>
+        <translation>Ein Quadrat ist {0} Pixel groß: {1} mm. Diese Länge angeben.</translation>
+    </message>
+    <message>
+        <source>Circles are {0} pixels apart: {1} mm. State this length.</source>
+        <translation>Kreise sind {0} Pixel auseinander: {1} mm. Diese Länge angeben.</translation>
+    </message>
+</context>
+<context>
     <name>BoardShapeChoice</name>
     <message>
         <source>Shape of the board</source>
@@ -686,6 +717,22 @@ Farben: quer zur Ebene; Rot ist von der Kamera weg.</translation>
         <translation>Alle Bilder eines Ordners nehmen</translation>
     </message>
     <message>
+        <source>P&amp;hotograph live…</source>
+        <translation>Live &amp;fotografieren…</translation>
+    </message>
+    <message>
+        <source>Take photographs with a camera that says where to hold the board</source>
+        <translation>Mit einer Kamera fotografieren, die sagt, wohin das Brett soll</translation>
+    </message>
+    <message>
+        <source>Several &amp;cameras…</source>
+        <translation>Mehrere &amp;Kameras…</translation>
+    </message>
+    <message>
+        <source>Calibrate cameras that stand fast to each other: a rig</source>
+        <translation>Kameras kalibrieren, die fest zueinander stehen: ein Rig</translation>
+    </message>
+    <message>
         <source>&amp;Quit</source>
         <translation>Be&amp;enden</translation>
     </message>
@@ -882,12 +929,12 @@ Farben: quer zur Ebene; Rot ist von der Kamera weg.</translation>
         <translation>&amp;Hilfe</translation>
     </message>
     <message>
-        <source>&amp;How it works</source>
-        <translation>&amp;Wie es geht</translation>
+        <source>&amp;Manual</source>
+        <translation>&amp;Handbuch</translation>
     </message>
     <message>
-        <source>The workflow on one page</source>
-        <translation>Der Ablauf auf einer Seite</translation>
+        <source>How to photograph, what a message means, who reads which file</source>
+        <translation>Wie man fotografiert, was eine Meldung bedeutet, wer welche Datei liest</translation>
     </message>
     <message>
         <source>Take the &amp;tour</source>
@@ -1923,105 +1970,6 @@ nach der Drehung, die beide dort am nächsten zusammenbringt, wo Ecken (Punkte) 
     </message>
 </context>
 <context>
-    <name>HelpDialog</name>
-    <message>
-        <source>Help</source>
-        <translation>Hilfe</translation>
-    </message>
-    <message>
-        <source>How it works</source>
-        <translation>Wie es geht</translation>
-    </message>
-    <message>
-        <source>&lt;b&gt;Photograph&lt;/b&gt; a flat board 10 to 20 times with focus and zoom fixed: tilted by 20 to 45 degrees in different directions, near and far, and with corners close to every corner of the image. &lt;i&gt;Print a board&lt;/i&gt; makes one; glue it to something flat and measure the bar below it.</source>
-        <translation>Ein ebenes Brett 10- bis 20-mal &lt;b&gt;fotografieren&lt;/b&gt;, mit festem Fokus und Zoom: um 20 bis 45 Grad in verschiedene Richtungen geneigt, nah und fern, und mit Ecken nahe jeder Ecke des Bildes. &lt;i&gt;Brett drucken&lt;/i&gt; macht eines; auf etwas Ebenes kleben und den Balken darunter nachmessen.</translation>
-    </message>
-    <message>
-        <source>&lt;b&gt;Drop&lt;/b&gt; the images or their folder on the window. Corners are found and the camera is calibrated at once. State the &lt;b&gt;side of a square&lt;/b&gt;: only distances depend on it.</source>
-        <translation>Die Bilder oder ihren Ordner auf dem Fenster &lt;b&gt;ablegen&lt;/b&gt;. Ecken werden gefunden, und die Kamera wird sofort kalibriert. Die &lt;b&gt;Seite eines Quadrats&lt;/b&gt; angeben: nur Entfernungen hängen davon ab.</translation>
-    </message>
-    <message>
-        <source>&lt;b&gt;Look at the film strip&lt;/b&gt;: images without a board say why. &lt;i&gt;Mark board&lt;/i&gt; (M) takes four clicks on the outermost inner corners; the loupe shows where a click will go. &lt;i&gt;Mark all by hand&lt;/i&gt; (Board) turns the search off. &lt;i&gt;Edit corners&lt;/i&gt; (E) moves, removes and restores single corners. An image whose file has changed since says so: &lt;i&gt;detect again&lt;/i&gt; (F5).</source>
-        <translation>&lt;b&gt;Den Bildstreifen ansehen&lt;/b&gt;: Bilder ohne Brett sagen, warum. &lt;i&gt;Brett markieren&lt;/i&gt; (M) nimmt vier Klicks auf die äußersten inneren Ecken; die Lupe zeigt, wohin ein Klick geht. &lt;i&gt;Alle von Hand markieren&lt;/i&gt; (Brett) schaltet die Suche aus. &lt;i&gt;Ecken bearbeiten&lt;/i&gt; (E) verschiebt, entfernt und holt einzelne Ecken zurück. Ein Bild, dessen Datei sich geändert hat, sagt es: &lt;i&gt;neu suchen&lt;/i&gt; (F5).</translation>
-    </message>
-    <message>
-        <source>&lt;b&gt;Read the verdict&lt;/b&gt;: the button below it mends what is most wrong, or shows where to hold the board next. The result states every value with its standard deviation, and what is badly determined.</source>
-        <translation>&lt;b&gt;Das Urteil lesen&lt;/b&gt;: der Knopf darunter behebt, was am meisten stört, oder zeigt, wohin das Brett als Nächstes gehört. Das Ergebnis nennt jeden Wert mit seiner Standardabweichung, und was schlecht bestimmt ist.</translation>
-    </message>
-    <message>
-        <source>&lt;b&gt;Doubt it&lt;/b&gt;: residuals that point the same way, a view with a long bar, or a synthetic check whose residuals are much smaller than the real ones show what the model does not explain; so does the sentence above the residuals. Exclude views above a threshold, or let the Set-up leave outliers out and estimate the board&apos;s shape, and calibrate again; every result keeps its name and can be compared.</source>
-        <translation>&lt;b&gt;Zweifeln&lt;/b&gt;: Residuen, die in dieselbe Richtung zeigen, eine Ansicht mit langem Balken oder eine synthetische Probe, deren Residuen viel kleiner sind als die echten, zeigen, was das Modell nicht erklärt; ebenso der Satz über den Residuen. Ansichten über einer Schwelle weglassen oder in der Einrichtung Ausreißer weglassen und die Brettform schätzen lassen, und neu kalibrieren; jedes Ergebnis behält seinen Namen und lässt sich vergleichen.</translation>
-    </message>
-    <message>
-        <source>&lt;b&gt;Export&lt;/b&gt; to the format that your program reads. Models that differ are refitted to the same corners; the dialog says how far they are off, in pixels.</source>
-        <translation>In das Format &lt;b&gt;exportieren&lt;/b&gt;, das Ihr Programm liest. Andere Modelle werden an dieselben Ecken angepasst; der Dialog sagt in Pixeln, wie weit sie danebenliegen.</translation>
-    </message>
-    <message>
-        <source>calibrate</source>
-        <translation>kalibrieren</translation>
-    </message>
-    <message>
-        <source>mark board / edit corners</source>
-        <translation>Brett markieren / Ecken bearbeiten</translation>
-    </message>
-    <message>
-        <source>Space</source>
-        <translation>Leertaste</translation>
-    </message>
-    <message>
-        <source>exclude or include the selected images: the fit follows</source>
-        <translation>gewählte Bilder weglassen oder nehmen: die Anpassung folgt</translation>
-    </message>
-    <message>
-        <source>the desk alone, or back</source>
-        <translation>nur den Tisch, oder zurück</translation>
-    </message>
-    <message>
-        <source>↑ ↓</source>
-        <translation>↑ ↓</translation>
-    </message>
-    <message>
-        <source>move the threshold, with the film strip in focus</source>
-        <translation>die Schwelle verschieben, mit dem Bildstreifen im Fokus</translation>
-    </message>
-    <message>
-        <source>← →</source>
-        <translation>← →</translation>
-    </message>
-    <message>
-        <source>previous and next image, with the image in focus</source>
-        <translation>voriges und nächstes Bild, mit dem Bild im Fokus</translation>
-    </message>
-    <message>
-        <source>Wheel, + −</source>
-        <translation>Rad, + −</translation>
-    </message>
-    <message>
-        <source>zoom, before and after as well; Ctrl+0 fits, Ctrl+1 shows pixels</source>
-        <translation>vergrößern, auch vorher und nachher; Strg+0 passt ein, Strg+1 zeigt Pixel</translation>
-    </message>
-    <message>
-        <source>layers over the image</source>
-        <translation>Ebenen über dem Bild</translation>
-    </message>
-    <message>
-        <source>export the camera / write the report</source>
-        <translation>die Kamera exportieren / den Bericht schreiben</translation>
-    </message>
-    <message>
-        <source>find any action or panel by typing a part of it</source>
-        <translation>jeden Befehl und jede Ansicht finden, indem man einen Teil tippt</translation>
-    </message>
-    <message>
-        <source>undo and redo: everything can be taken back</source>
-        <translation>zurück und wieder vor: alles lässt sich zurücknehmen</translation>
-    </message>
-    <message>
-        <source>The method is L. Lucchese, &lt;i&gt;Geometric calibration of digital cameras through multi-view rectification&lt;/i&gt;, Image and Vision Computing 23 (2005) 517-539.</source>
-        <translation>Das Verfahren ist L. Lucchese, &lt;i&gt;Geometric calibration of digital cameras through multi-view rectification&lt;/i&gt;, Image and Vision Computing 23 (2005) 517-539.</translation>
-    </message>
-</context>
-<context>
     <name>HistogramPlot</name>
     <message>
         <source>density</source>
@@ -2199,6 +2147,13 @@ Dropped on the left they join the project.</source>
 Neue Fotos des Bretts hier ablegen: sie prüfen sie und ändern nichts.
 
 Links abgelegt kommen sie ins Projekt.</translation>
+    </message>
+</context>
+<context>
+    <name>InstantView</name>
+    <message>
+        <source>Photographs of an instant</source>
+        <translation>Fotos eines Zeitpunkts</translation>
     </message>
 </context>
 <context>
@@ -2511,6 +2466,120 @@ nur ihre Lagen angepasst</translation>
     </message>
 </context>
 <context>
+    <name>LivePage</name>
+    <message>
+        <source>camera {0}</source>
+        <translation>Kamera {0}</translation>
+    </message>
+    <message>
+        <source>Choose a camera, and press Start.</source>
+        <translation>Eine Kamera wählen und auf Start drücken.</translation>
+    </message>
+    <message>
+        <source>Camera</source>
+        <translation>Kamera</translation>
+    </message>
+    <message>
+        <source>A camera at this computer, or the address of one in the network (rtsp://…, http://…), or the folder that a camera&apos;s program fills</source>
+        <translation>Eine Kamera an diesem Rechner, die Adresse einer im Netz (rtsp://…, http://…) oder der Ordner, den das Programm einer Kamera füllt</translation>
+    </message>
+    <message>
+        <source> px</source>
+        <translation> px</translation>
+    </message>
+    <message>
+        <source>It ends when the camera puts no pixel farther off, one standard deviation</source>
+        <translation>Es endet, wenn die Kamera kein Pixel weiter danebensetzt, eine Standardabweichung</translation>
+    </message>
+    <message>
+        <source>Choose…</source>
+        <translation>Wählen…</translation>
+    </message>
+    <message>
+        <source>A &amp;sound for each picture</source>
+        <translation>Ein &amp;Ton für jedes Bild</translation>
+    </message>
+    <message>
+        <source>&amp;Start</source>
+        <translation>&amp;Start</translation>
+    </message>
+    <message>
+        <source>&amp;Take it now (space)</source>
+        <translation>&amp;Jetzt aufnehmen (Leertaste)</translation>
+    </message>
+    <message>
+        <source>&amp;Finish</source>
+        <translation>&amp;Beenden</translation>
+    </message>
+    <message>
+        <source>&amp;Calibrate with these</source>
+        <translation>Damit &amp;kalibrieren</translation>
+    </message>
+    <message>
+        <source>&amp;Go on</source>
+        <translation>&amp;Weiter</translation>
+    </message>
+    <message>
+        <source>&amp;Leave</source>
+        <translation>&amp;Verlassen</translation>
+    </message>
+    <message>
+        <source>%p % of the way to the yellow place</source>
+        <translation>%p % des Wegs zum gelben Ort</translation>
+    </message>
+    <message>
+        <source>Camera, address or folder</source>
+        <translation>Kamera, Adresse oder Ordner</translation>
+    </message>
+    <message>
+        <source>Until the worst pixel is known to</source>
+        <translation>Bis das schlechteste Pixel bekannt ist auf</translation>
+    </message>
+    <message>
+        <source>Pictures are written to</source>
+        <translation>Bilder kommen nach</translation>
+    </message>
+    <message>
+        <source>Hold the whole board in the picture: its kind and size are found. The yellow shape shows where it is wanted next. When it is still, sharp and worth it, the picture is taken by itself; every fifth one is put aside to check the camera with. No board at hand? Calibration › Print a board shows one on a screen.</source>
+        <translation>Das ganze Brett ins Bild halten: Art und Größe werden gefunden. Die gelbe Form zeigt, wohin es als Nächstes soll. Ist es ruhig, scharf und lohnend, wird das Bild von selbst aufgenommen; jedes fünfte wird zurückgelegt, um die Kamera damit zu prüfen. Kein Brett zur Hand? Kalibrierung › Brett drucken zeigt eines auf einem Bildschirm.</translation>
+    </message>
+    <message>
+        <source>Photograph live</source>
+        <translation>Live fotografieren</translation>
+    </message>
+    <message>
+        <source>Opening…</source>
+        <translation>Öffnet…</translation>
+    </message>
+    <message>
+        <source>Pictures put aside are predicted to {0} px rms ({1} corners).</source>
+        <translation>Zurückgelegte Bilder werden auf {0} px RMS vorhergesagt ({1} Ecken).</translation>
+    </message>
+    <message>
+        <source>Nothing was taken.</source>
+        <translation>Nichts wurde aufgenommen.</translation>
+    </message>
+    <message>
+        <source>Done: the camera is known well enough.</source>
+        <translation>Fertig: die Kamera ist gut genug bekannt.</translation>
+    </message>
+    <message>
+        <source>Stopped. More pictures would help.</source>
+        <translation>Angehalten. Mehr Bilder würden helfen.</translation>
+    </message>
+    <message>
+        <source>Folder for the pictures</source>
+        <translation>Ordner für die Bilder</translation>
+    </message>
+</context>
+<context>
+    <name>LiveView</name>
+    <message>
+        <source>Live image</source>
+        <translation>Live-Bild</translation>
+    </message>
+</context>
+<context>
     <name>MainWindow</name>
     <message>
         <source>C&amp;alibrate</source>
@@ -2539,6 +2608,37 @@ nur ihre Lagen angepasst</translation>
     <message>
         <source>Untitled</source>
         <translation>Ohne Namen</translation>
+    </message>
+    <message>
+        <source>Several folders</source>
+        <translation>Mehrere Ordner</translation>
+    </message>
+    <message>
+        <source>Are these the photographs of several cameras that stand fast to each other, a folder for each? No: all are of one camera.</source>
+        <translation>Sind das die Fotos mehrerer Kameras, die fest zueinander stehen, ein Ordner für jede? Nein: alle sind von einer Kamera.</translation>
+    </message>
+</context>
+<context>
+    <name>ManualDialog</name>
+    <message>
+        <source>Manual</source>
+        <translation>Handbuch</translation>
+    </message>
+    <message>
+        <source>Chapters</source>
+        <translation>Kapitel</translation>
+    </message>
+    <message>
+        <source>Chapter</source>
+        <translation>Kapitel</translation>
+    </message>
+    <message>
+        <source>Open in the &amp;browser</source>
+        <translation>Im &amp;Browser öffnen</translation>
+    </message>
+    <message>
+        <source>All chapters as one page, to search and to print</source>
+        <translation>Alle Kapitel als eine Seite, zum Suchen und Drucken</translation>
     </message>
 </context>
 <context>
@@ -2922,6 +3022,37 @@ wo die äußerste Ecke liegt; negativ zur Mitte hin</translation>
     <message>
         <source>What was found</source>
         <translation>Was gefunden wurde</translation>
+    </message>
+</context>
+<context>
+    <name>PairingMatrix</name>
+    <message>
+        <source>Photographs by cameras and instants</source>
+        <translation>Fotos nach Kameras und Zeitpunkten</translation>
+    </message>
+    <message>
+        <source>A column for each camera, a row for each instant. Click a camera&apos;s name to choose all its photographs.</source>
+        <translation>Eine Spalte je Kamera, eine Zeile je Zeitpunkt. Den Namen einer Kamera anklicken wählt alle ihre Fotos.</translation>
+    </message>
+    <message>
+        <source>left out</source>
+        <translation>weggelassen</translation>
+    </message>
+    <message>
+        <source>{0}: contradicts the others</source>
+        <translation>{0}: widerspricht den anderen</translation>
+    </message>
+    <message>
+        <source>{0} px</source>
+        <translation>{0} px</translation>
+    </message>
+    <message>
+        <source>{0}: {1} corners, {2} px rms; alone {3} px</source>
+        <translation>{0}: {1} Ecken, {2} px RMS; allein {3} px</translation>
+    </message>
+    <message>
+        <source>no board</source>
+        <translation>kein Brett</translation>
     </message>
 </context>
 <context>
@@ -3424,6 +3555,14 @@ lässt jede Ansicht denselben Ursprung finden.</translation>
         <translation>&amp;Speichern…</translation>
     </message>
     <message>
+        <source>Show on this scr&amp;een</source>
+        <translation>Auf diesem &amp;Bildschirm zeigen</translation>
+    </message>
+    <message>
+        <source>As large as the screen holds it: a screen is flat, and needs no printer</source>
+        <translation>So groß, wie der Bildschirm es fasst: er ist eben und braucht keinen Drucker</translation>
+    </message>
+    <message>
         <source>Tags</source>
         <translation>Marken</translation>
     </message>
@@ -3481,6 +3620,49 @@ lässt jede Ansicht denselben Ursprung finden.</translation>
     <message>
         <source>, {0} left</source>
         <translation>, noch {0}</translation>
+    </message>
+</context>
+<context>
+    <name>ProgressFigure</name>
+    <message>
+        <source>How far the capture has come</source>
+        <translation>Wie weit die Aufnahme gekommen ist</translation>
+    </message>
+    <message>
+        <source>The ring: the uncertainty of the worst pixel, one standard deviation, and the one that is asked for.
+The rectangle: the corners in all pictures, over the sensor.
+The circle: how the boards were tilted; the middle is facing the camera, the rim 60 degrees.</source>
+        <translation>Der Ring: die Unsicherheit des schlechtesten Pixels, eine Standardabweichung, und die geforderte.
+Das Rechteck: die Ecken in allen Bildern, über dem Sensor.
+Der Kreis: wie die Bretter geneigt waren; die Mitte ist zur Kamera hin, der Rand 60 Grad.</translation>
+    </message>
+    <message>
+        <source>nothing taken</source>
+        <translation>nichts aufgenommen</translation>
+    </message>
+    <message>
+        <source>{0} taken, not determined yet</source>
+        <translation>{0} aufgenommen, noch unbestimmt</translation>
+    </message>
+    <message>
+        <source>{0} taken, worst pixel ±{1} px of {2}</source>
+        <translation>{0} aufgenommen, schlechtestes Pixel ±{1} px von {2}</translation>
+    </message>
+    <message>
+        <source>±{0} px</source>
+        <translation>±{0} px</translation>
+    </message>
+    <message>
+        <source>of {0} px</source>
+        <translation>von {0} px</translation>
+    </message>
+    <message>
+        <source>corners on the sensor</source>
+        <translation>Ecken auf dem Sensor</translation>
+    </message>
+    <message>
+        <source>tilts</source>
+        <translation>Neigungen</translation>
     </message>
 </context>
 <context>
@@ -3743,6 +3925,244 @@ lässt jede Ansicht denselben Ursprung finden.</translation>
     <message>
         <source>may be 0</source>
         <translation>evtl. 0</translation>
+    </message>
+</context>
+<context>
+    <name>RigAnswer</name>
+    <message>
+        <source>Where the cameras stand</source>
+        <translation>Wo die Kameras stehen</translation>
+    </message>
+    <message>
+        <source>Cameras</source>
+        <translation>Kameras</translation>
+    </message>
+    <message>
+        <source>Points ahead</source>
+        <translation>Punkte voraus</translation>
+    </message>
+    <message>
+        <source>The cameras agree</source>
+        <translation>Die Kameras stimmen überein</translation>
+    </message>
+    <message>
+        <source>Photographs contradict</source>
+        <translation>Fotos widersprechen sich</translation>
+    </message>
+    <message>
+        <source>The instants disagree</source>
+        <translation>Die Zeitpunkte stimmen nicht überein</translation>
+    </message>
+    <message>
+        <source>All lengths hold {0}.</source>
+        <translation>Alle Längen gelten {0}.</translation>
+    </message>
+    <message>
+        <source>camera</source>
+        <translation>Kamera</translation>
+    </message>
+    <message>
+        <source>Root mean square residual of this camera in the rig, px</source>
+        <translation>RMS-Residuum dieser Kamera im Rig, px</translation>
+    </message>
+    <message>
+        <source>Number of corners</source>
+        <translation>Zahl der Ecken</translation>
+    </message>
+    <message>
+        <source>distance</source>
+        <translation>Entfernung</translation>
+    </message>
+    <message>
+        <source>± along</source>
+        <translation>± längs</translation>
+    </message>
+    <message>
+        <source>Standard deviation along the line of sight, with this rig&apos;s noise, mm</source>
+        <translation>Standardabweichung entlang der Sichtlinie, mit dem Rauschen dieses Rigs, mm</translation>
+    </message>
+    <message>
+        <source>± across</source>
+        <translation>± quer</translation>
+    </message>
+    <message>
+        <source>calib.</source>
+        <translation>Kalib.</translation>
+    </message>
+    <message>
+        <source>Part of the variance that the calibration is to blame for, %</source>
+        <translation>Anteil der Varianz, den die Kalibrierung verschuldet, %</translation>
+    </message>
+    <message>
+        <source>from {0}</source>
+        <translation>von {0}</translation>
+    </message>
+    <message>
+        <source>Distance of the two cameras&apos; centres, mm</source>
+        <translation>Abstand der Mitten beider Kameras, mm</translation>
+    </message>
+    <message>
+        <source>turn</source>
+        <translation>Drehung</translation>
+    </message>
+    <message>
+        <source>Angle between the two cameras, degrees</source>
+        <translation>Winkel zwischen beiden Kameras, Grad</translation>
+    </message>
+</context>
+<context>
+    <name>RigPage</name>
+    <message>
+        <source>Pairing photographs</source>
+        <translation>Fotos zuordnen</translation>
+    </message>
+    <message>
+        <source>Opening {0}</source>
+        <translation>{0} öffnen</translation>
+    </message>
+    <message>
+        <source> mm</source>
+        <translation> mm</translation>
+    </message>
+    <message>
+        <source>not measured (as if {0} mm)</source>
+        <translation>nicht gemessen (als ob {0} mm)</translation>
+    </message>
+    <message>
+        <source>Side of a square</source>
+        <translation>Seite eines Quadrats</translation>
+    </message>
+    <message>
+        <source>Leave out what no camera e&amp;xplains</source>
+        <translation>&amp;Weglassen, was keine Kamera erklärt</translation>
+    </message>
+    <message>
+        <source>Corners and views that no camera explains take no part</source>
+        <translation>Ecken und Ansichten, die keine Kamera erklärt, bleiben außen vor</translation>
+    </message>
+    <message>
+        <source>&amp;Folders…</source>
+        <translation>&amp;Ordner…</translation>
+    </message>
+    <message>
+        <source>O&amp;pen rig…</source>
+        <translation>Rig ö&amp;ffnen…</translation>
+    </message>
+    <message>
+        <source>Earli&amp;er</source>
+        <translation>&amp;Früher</translation>
+    </message>
+    <message>
+        <source>La&amp;ter</source>
+        <translation>&amp;Später</translation>
+    </message>
+    <message>
+        <source>Lea&amp;ve out</source>
+        <translation>&amp;Weglassen</translation>
+    </message>
+    <message>
+        <source>&amp;Undo</source>
+        <translation>&amp;Rückgängig</translation>
+    </message>
+    <message>
+        <source>Move the chosen photographs of a camera to the instant before</source>
+        <translation>Die gewählten Fotos einer Kamera zum vorigen Zeitpunkt schieben</translation>
+    </message>
+    <message>
+        <source>Move the chosen photographs of a camera to the instant after</source>
+        <translation>Die gewählten Fotos einer Kamera zum nächsten Zeitpunkt schieben</translation>
+    </message>
+    <message>
+        <source>&amp;Calibrate rig</source>
+        <translation>Rig &amp;kalibrieren</translation>
+    </message>
+    <message>
+        <source>&amp;Stop</source>
+        <translation>&amp;Anhalten</translation>
+    </message>
+    <message>
+        <source>C&amp;lose</source>
+        <translation>Sch&amp;ließen</translation>
+    </message>
+    <message>
+        <source>E&amp;xport</source>
+        <translation>E&amp;xportieren</translation>
+    </message>
+    <message>
+        <source>Rig, with everything (JSON)…</source>
+        <translation>Rig, mit allem (JSON)…</translation>
+    </message>
+    <message>
+        <source>Photographs</source>
+        <translation>Fotos</translation>
+    </message>
+    <message>
+        <source>Rectified</source>
+        <translation>Rektifiziert</translation>
+    </message>
+    <message>
+        <source>3-D</source>
+        <translation>3-D</translation>
+    </message>
+    <message>
+        <source>Several cameras</source>
+        <translation>Mehrere Kameras</translation>
+    </message>
+    <message>
+        <source>Side of a square (distance of circles)</source>
+        <translation>Seite eines Quadrats (Abstand der Kreise)</translation>
+    </message>
+    <message>
+        <source>Cameras that stand fast to each other and photograph one board together: choose the folder that holds a folder for each camera (or all photographs, named as left01 and right01), or drop the folders here.</source>
+        <translation>Kameras, die fest zueinander stehen und ein Brett zusammen fotografieren: den Ordner wählen, der für jede Kamera einen Ordner enthält (oder alle Fotos, benannt wie left01 und right01), oder die Ordner hier ablegen.</translation>
+    </message>
+    <message>
+        <source>No photographs yet.</source>
+        <translation>Noch keine Fotos.</translation>
+    </message>
+    <message>
+        <source>Calibrate the rig first.</source>
+        <translation>Erst das Rig kalibrieren.</translation>
+    </message>
+    <message>
+        <source>No two cameras have a photograph of one instant.</source>
+        <translation>Keine zwei Kameras haben ein Foto eines Zeitpunkts.</translation>
+    </message>
+    <message>
+        <source>{0} and {1} have no photographs of this instant together.</source>
+        <translation>{0} und {1} haben keine gemeinsamen Fotos dieses Zeitpunkts.</translation>
+    </message>
+    <message>
+        <source>Searching</source>
+        <translation>Sucht ab</translation>
+    </message>
+    <message>
+        <source>Calibrating {0}</source>
+        <translation>{0} kalibrieren</translation>
+    </message>
+    <message>
+        <source>Lengths hold {0}.</source>
+        <translation>Längen gelten {0}.</translation>
+    </message>
+    <message>
+        <source>Folder with a folder for each camera, or the photographs of all</source>
+        <translation>Ordner mit einem Ordner für jede Kamera oder den Fotos aller</translation>
+    </message>
+    <message>
+        <source>Open rig</source>
+        <translation>Rig öffnen</translation>
+    </message>
+    <message>
+        <source>Rigs (*.json)</source>
+        <translation>Rigs (*.json)</translation>
+    </message>
+    <message>
+        <source>Save rig</source>
+        <translation>Rig speichern</translation>
+    </message>
+    <message>
+        <source>Wrote {0}.</source>
+        <translation>{0} geschrieben.</translation>
     </message>
 </context>
 <context>
@@ -4561,6 +4981,29 @@ Rauschen hinzu und kalibriert: was herauskommen muss, ist genau bekannt.</transl
     </message>
 </context>
 <context>
+    <name>TakenStrip</name>
+    <message>
+        <source>Pictures taken</source>
+        <translation>Aufgenommene Bilder</translation>
+    </message>
+    <message>
+        <source>&amp;Take back</source>
+        <translation>&amp;Zurücknehmen</translation>
+    </message>
+    <message>
+        <source>{0} · put aside</source>
+        <translation>{0} · zurückgelegt</translation>
+    </message>
+    <message>
+        <source>{0}: the camera is not calibrated with it, but checked</source>
+        <translation>{0}: die Kamera wird nicht damit kalibriert, aber geprüft</translation>
+    </message>
+    <message>
+        <source>&amp;Take again</source>
+        <translation>Neu &amp;aufnehmen</translation>
+    </message>
+</context>
+<context>
     <name>Tour</name>
     <message>
         <source>Leave</source>
@@ -5047,6 +5490,14 @@ gleicher Maßstab behält die Größe der Mitte; Bildwinkel zeigt einen Winkel I
         <translation>Ecken werden gefunden, die Kamera wird sofort kalibriert.</translation>
     </message>
     <message>
+        <source>&amp;Photograph live</source>
+        <translation>Live &amp;fotografieren</translation>
+    </message>
+    <message>
+        <source>With a camera: it says where to hold the board, and when it is enough.</source>
+        <translation>Mit einer Kamera: sie sagt, wohin das Brett soll, und wann es genug ist.</translation>
+    </message>
+    <message>
         <source>&amp;Add images</source>
         <translation>Bilder &amp;hinzufügen</translation>
     </message>
@@ -5063,16 +5514,16 @@ gleicher Maßstab behält die Größe der Mitte; Bildwinkel zeigt einen Winkel I
         <translation>Vierzehn gerechnete Fotos zum Umsehen.</translation>
     </message>
     <message>
-        <source>&amp;Take the tour</source>
-        <translation>&amp;Rundgang</translation>
+        <source>Take the to&amp;ur</source>
+        <translation>R&amp;undgang</translation>
+    </message>
+    <message>
+        <source>Prin&amp;t a board</source>
+        <translation>Bre&amp;tt drucken</translation>
     </message>
     <message>
         <source>Two minutes on the sample; it can be left at any step.</source>
         <translation>Zwei Minuten am Beispiel; jederzeit zu verlassen.</translation>
-    </message>
-    <message>
-        <source>&amp;Print a board</source>
-        <translation>Brett &amp;drucken</translation>
     </message>
     <message>
         <source>A checkerboard, or one of the other kinds, in true size.</source>

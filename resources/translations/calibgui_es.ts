@@ -245,6 +245,37 @@ que más las acerca donde se vieron esquinas (puntos).</translation>
     </message>
 </context>
 <context>
+    <name>BoardScreen</name>
+    <message>
+        <source>Board on the screen</source>
+        <translation>Tablero en la pantalla</translation>
+    </message>
+    <message>
+        <source> mm</source>
+        <translation> mm</translation>
+    </message>
+    <message>
+        <source>Length of the line</source>
+        <translation>Longitud de la línea</translation>
+    </message>
+    <message>
+        <source>&amp;Close (Esc)</source>
+        <translation>&amp;Cerrar (Esc)</translation>
+    </message>
+    <message>
+        <source>Measure the line above with a ruler:</source>
+        <translation>Mida la línea de arriba con una regla:</translation>
+    </message>
+    <message>
+        <source>A square is {0} pixels: {1} mm. State this length.</source>
+        <translation>Un cuadro mide {0} píxeles: {1} mm. Indique esta longitud.</translation>
+    </message>
+    <message>
+        <source>Circles are {0} pixels apart: {1} mm. State this length.</source>
+        <translation>Los círculos distan {0} píxeles: {1} mm. Indique esta longitud.</translation>
+    </message>
+</context>
+<context>
     <name>BoardShapeChoice</name>
     <message>
         <source>Shape of the board</source>
@@ -686,6 +717,22 @@ Colores: fuera del plano; rojo se aleja de la cámara.</translation>
         <translation>Tomar todas las imágenes de una carpeta</translation>
     </message>
     <message>
+        <source>P&amp;hotograph live…</source>
+        <translation>&amp;Fotografiar en vivo…</translation>
+    </message>
+    <message>
+        <source>Take photographs with a camera that says where to hold the board</source>
+        <translation>Hacer fotos con una cámara que dice dónde poner el tablero</translation>
+    </message>
+    <message>
+        <source>Several &amp;cameras…</source>
+        <translation>Varias &amp;cámaras…</translation>
+    </message>
+    <message>
+        <source>Calibrate cameras that stand fast to each other: a rig</source>
+        <translation>Calibrar cámaras fijas entre sí: un conjunto</translation>
+    </message>
+    <message>
         <source>&amp;Quit</source>
         <translation>&amp;Salir</translation>
     </message>
@@ -882,12 +929,12 @@ Colores: fuera del plano; rojo se aleja de la cámara.</translation>
         <translation>A&amp;yuda</translation>
     </message>
     <message>
-        <source>&amp;How it works</source>
-        <translation>&amp;Cómo funciona</translation>
+        <source>&amp;Manual</source>
+        <translation>&amp;Manual</translation>
     </message>
     <message>
-        <source>The workflow on one page</source>
-        <translation>El proceso en una página</translation>
+        <source>How to photograph, what a message means, who reads which file</source>
+        <translation>Cómo fotografiar, qué significa un mensaje, quién lee cada archivo</translation>
     </message>
     <message>
         <source>Take the &amp;tour</source>
@@ -1923,105 +1970,6 @@ tras el giro que más las acerca donde se vieron esquinas (puntos).</translation
     </message>
 </context>
 <context>
-    <name>HelpDialog</name>
-    <message>
-        <source>Help</source>
-        <translation>Ayuda</translation>
-    </message>
-    <message>
-        <source>How it works</source>
-        <translation>Cómo funciona</translation>
-    </message>
-    <message>
-        <source>&lt;b&gt;Photograph&lt;/b&gt; a flat board 10 to 20 times with focus and zoom fixed: tilted by 20 to 45 degrees in different directions, near and far, and with corners close to every corner of the image. &lt;i&gt;Print a board&lt;/i&gt; makes one; glue it to something flat and measure the bar below it.</source>
-        <translation>&lt;b&gt;Fotografíe&lt;/b&gt; un tablero plano de 10 a 20 veces con enfoque y zoom fijos: inclinado de 20 a 45 grados en distintas direcciones, cerca y lejos, y con esquinas próximas a cada esquina de la imagen. &lt;i&gt;Imprimir un tablero&lt;/i&gt; hace uno; péguelo a algo plano y mida la barra de debajo.</translation>
-    </message>
-    <message>
-        <source>&lt;b&gt;Drop&lt;/b&gt; the images or their folder on the window. Corners are found and the camera is calibrated at once. State the &lt;b&gt;side of a square&lt;/b&gt;: only distances depend on it.</source>
-        <translation>&lt;b&gt;Suelte&lt;/b&gt; las imágenes o su carpeta en la ventana. Se encuentran las esquinas y la cámara se calibra enseguida. Indique el &lt;b&gt;lado de un cuadro&lt;/b&gt;: solo las distancias dependen de él.</translation>
-    </message>
-    <message>
-        <source>&lt;b&gt;Look at the film strip&lt;/b&gt;: images without a board say why. &lt;i&gt;Mark board&lt;/i&gt; (M) takes four clicks on the outermost inner corners; the loupe shows where a click will go. &lt;i&gt;Mark all by hand&lt;/i&gt; (Board) turns the search off. &lt;i&gt;Edit corners&lt;/i&gt; (E) moves, removes and restores single corners. An image whose file has changed since says so: &lt;i&gt;detect again&lt;/i&gt; (F5).</source>
-        <translation>&lt;b&gt;Mire la tira&lt;/b&gt;: las imágenes sin tablero dicen por qué. &lt;i&gt;Marcar tablero&lt;/i&gt; (M) toma cuatro clics en las esquinas interiores extremas; la lupa muestra dónde caerá el clic. &lt;i&gt;Marcar todo a mano&lt;/i&gt; (Tablero) desactiva la búsqueda. &lt;i&gt;Editar esquinas&lt;/i&gt; (E) mueve, quita y recupera esquinas. Una imagen cuyo archivo ha cambiado lo dice: &lt;i&gt;buscar de nuevo&lt;/i&gt; (F5).</translation>
-    </message>
-    <message>
-        <source>&lt;b&gt;Read the verdict&lt;/b&gt;: the button below it mends what is most wrong, or shows where to hold the board next. The result states every value with its standard deviation, and what is badly determined.</source>
-        <translation>&lt;b&gt;Lea el veredicto&lt;/b&gt;: el botón de debajo corrige lo que más falla, o muestra dónde poner el tablero. El resultado da cada valor con su desviación estándar, y lo que está mal determinado.</translation>
-    </message>
-    <message>
-        <source>&lt;b&gt;Doubt it&lt;/b&gt;: residuals that point the same way, a view with a long bar, or a synthetic check whose residuals are much smaller than the real ones show what the model does not explain; so does the sentence above the residuals. Exclude views above a threshold, or let the Set-up leave outliers out and estimate the board&apos;s shape, and calibrate again; every result keeps its name and can be compared.</source>
-        <translation>&lt;b&gt;Dude&lt;/b&gt;: residuos que apuntan en la misma dirección, una vista con barra larga o una prueba sintética con residuos mucho menores que los reales muestran lo que el modelo no explica; también la frase sobre los residuos. Omita vistas por encima de un umbral, o deje que los Ajustes omitan valores atípicos y estimen la forma del tablero, y calibre de nuevo; cada resultado conserva su nombre y se puede comparar.</translation>
-    </message>
-    <message>
-        <source>&lt;b&gt;Export&lt;/b&gt; to the format that your program reads. Models that differ are refitted to the same corners; the dialog says how far they are off, in pixels.</source>
-        <translation>&lt;b&gt;Exporte&lt;/b&gt; al formato que lee su programa. Los modelos distintos se reajustan a las mismas esquinas; el diálogo dice en píxeles cuánto se apartan.</translation>
-    </message>
-    <message>
-        <source>calibrate</source>
-        <translation>calibrar</translation>
-    </message>
-    <message>
-        <source>mark board / edit corners</source>
-        <translation>marcar tablero / editar esquinas</translation>
-    </message>
-    <message>
-        <source>Space</source>
-        <translation>Espacio</translation>
-    </message>
-    <message>
-        <source>exclude or include the selected images: the fit follows</source>
-        <translation>omitir o incluir las imágenes elegidas: el ajuste sigue</translation>
-    </message>
-    <message>
-        <source>the desk alone, or back</source>
-        <translation>solo la mesa, o volver</translation>
-    </message>
-    <message>
-        <source>↑ ↓</source>
-        <translation>↑ ↓</translation>
-    </message>
-    <message>
-        <source>move the threshold, with the film strip in focus</source>
-        <translation>mover el umbral, con la tira enfocada</translation>
-    </message>
-    <message>
-        <source>← →</source>
-        <translation>← →</translation>
-    </message>
-    <message>
-        <source>previous and next image, with the image in focus</source>
-        <translation>imagen anterior y siguiente, con la imagen enfocada</translation>
-    </message>
-    <message>
-        <source>Wheel, + −</source>
-        <translation>Rueda, + −</translation>
-    </message>
-    <message>
-        <source>zoom, before and after as well; Ctrl+0 fits, Ctrl+1 shows pixels</source>
-        <translation>ampliar, también antes y después; Ctrl+0 ajusta, Ctrl+1 muestra píxeles</translation>
-    </message>
-    <message>
-        <source>layers over the image</source>
-        <translation>capas sobre la imagen</translation>
-    </message>
-    <message>
-        <source>export the camera / write the report</source>
-        <translation>exportar la cámara / escribir el informe</translation>
-    </message>
-    <message>
-        <source>find any action or panel by typing a part of it</source>
-        <translation>encontrar cualquier acción o panel escribiendo una parte</translation>
-    </message>
-    <message>
-        <source>undo and redo: everything can be taken back</source>
-        <translation>deshacer y rehacer: todo se puede anular</translation>
-    </message>
-    <message>
-        <source>The method is L. Lucchese, &lt;i&gt;Geometric calibration of digital cameras through multi-view rectification&lt;/i&gt;, Image and Vision Computing 23 (2005) 517-539.</source>
-        <translation>El método es L. Lucchese, &lt;i&gt;Geometric calibration of digital cameras through multi-view rectification&lt;/i&gt;, Image and Vision Computing 23 (2005) 517-539.</translation>
-    </message>
-</context>
-<context>
     <name>HistogramPlot</name>
     <message>
         <source>density</source>
@@ -2199,6 +2147,13 @@ Dropped on the left they join the project.</source>
 Suelte aquí fotos nuevas del tablero: la comprueban y no cambian nada.
 
 Soltadas a la izquierda entran en el proyecto.</translation>
+    </message>
+</context>
+<context>
+    <name>InstantView</name>
+    <message>
+        <source>Photographs of an instant</source>
+        <translation>Fotos de un instante</translation>
     </message>
 </context>
 <context>
@@ -2511,6 +2466,120 @@ ajustando solo sus poses</translation>
     </message>
 </context>
 <context>
+    <name>LivePage</name>
+    <message>
+        <source>camera {0}</source>
+        <translation>cámara {0}</translation>
+    </message>
+    <message>
+        <source>Choose a camera, and press Start.</source>
+        <translation>Elija una cámara y pulse Iniciar.</translation>
+    </message>
+    <message>
+        <source>Camera</source>
+        <translation>Cámara</translation>
+    </message>
+    <message>
+        <source>A camera at this computer, or the address of one in the network (rtsp://…, http://…), or the folder that a camera&apos;s program fills</source>
+        <translation>Una cámara de este ordenador, la dirección de una en la red (rtsp://…, http://…), o la carpeta que llena el programa de una cámara</translation>
+    </message>
+    <message>
+        <source> px</source>
+        <translation> px</translation>
+    </message>
+    <message>
+        <source>It ends when the camera puts no pixel farther off, one standard deviation</source>
+        <translation>Termina cuando la cámara no desvía más ningún píxel, una desviación estándar</translation>
+    </message>
+    <message>
+        <source>Choose…</source>
+        <translation>Elegir…</translation>
+    </message>
+    <message>
+        <source>A &amp;sound for each picture</source>
+        <translation>Un &amp;sonido por foto</translation>
+    </message>
+    <message>
+        <source>&amp;Start</source>
+        <translation>&amp;Iniciar</translation>
+    </message>
+    <message>
+        <source>&amp;Take it now (space)</source>
+        <translation>&amp;Tomar ahora (espacio)</translation>
+    </message>
+    <message>
+        <source>&amp;Finish</source>
+        <translation>&amp;Terminar</translation>
+    </message>
+    <message>
+        <source>&amp;Calibrate with these</source>
+        <translation>&amp;Calibrar con estas</translation>
+    </message>
+    <message>
+        <source>&amp;Go on</source>
+        <translation>&amp;Seguir</translation>
+    </message>
+    <message>
+        <source>&amp;Leave</source>
+        <translation>Sa&amp;lir</translation>
+    </message>
+    <message>
+        <source>%p % of the way to the yellow place</source>
+        <translation>%p % del camino al lugar amarillo</translation>
+    </message>
+    <message>
+        <source>Camera, address or folder</source>
+        <translation>Cámara, dirección o carpeta</translation>
+    </message>
+    <message>
+        <source>Until the worst pixel is known to</source>
+        <translation>Hasta conocer el peor píxel a</translation>
+    </message>
+    <message>
+        <source>Pictures are written to</source>
+        <translation>Las fotos se escriben en</translation>
+    </message>
+    <message>
+        <source>Hold the whole board in the picture: its kind and size are found. The yellow shape shows where it is wanted next. When it is still, sharp and worth it, the picture is taken by itself; every fifth one is put aside to check the camera with. No board at hand? Calibration › Print a board shows one on a screen.</source>
+        <translation>Sostenga el tablero entero en la imagen: su clase y tamaño se averiguan. La forma amarilla muestra dónde ponerlo ahora. Cuando está quieto, nítido y merece la pena, la foto se toma sola; una de cada cinco se aparta para comprobar la cámara. ¿Sin tablero a mano? Calibración › Imprimir un tablero muestra uno en pantalla.</translation>
+    </message>
+    <message>
+        <source>Photograph live</source>
+        <translation>Fotografiar en vivo</translation>
+    </message>
+    <message>
+        <source>Opening…</source>
+        <translation>Abriendo…</translation>
+    </message>
+    <message>
+        <source>Pictures put aside are predicted to {0} px rms ({1} corners).</source>
+        <translation>Las fotos apartadas se predicen a {0} px RMS ({1} esquinas).</translation>
+    </message>
+    <message>
+        <source>Nothing was taken.</source>
+        <translation>No se tomó nada.</translation>
+    </message>
+    <message>
+        <source>Done: the camera is known well enough.</source>
+        <translation>Hecho: la cámara se conoce lo bastante bien.</translation>
+    </message>
+    <message>
+        <source>Stopped. More pictures would help.</source>
+        <translation>Detenido. Más fotos ayudarían.</translation>
+    </message>
+    <message>
+        <source>Folder for the pictures</source>
+        <translation>Carpeta para las fotos</translation>
+    </message>
+</context>
+<context>
+    <name>LiveView</name>
+    <message>
+        <source>Live image</source>
+        <translation>Imagen en vivo</translation>
+    </message>
+</context>
+<context>
     <name>MainWindow</name>
     <message>
         <source>C&amp;alibrate</source>
@@ -2539,6 +2608,37 @@ ajustando solo sus poses</translation>
     <message>
         <source>Untitled</source>
         <translation>Sin nombre</translation>
+    </message>
+    <message>
+        <source>Several folders</source>
+        <translation>Varias carpetas</translation>
+    </message>
+    <message>
+        <source>Are these the photographs of several cameras that stand fast to each other, a folder for each? No: all are of one camera.</source>
+        <translation>¿Son las fotos de varias cámaras fijas entre sí, una carpeta por cada una? No: todas son de una cámara.</translation>
+    </message>
+</context>
+<context>
+    <name>ManualDialog</name>
+    <message>
+        <source>Manual</source>
+        <translation>Manual</translation>
+    </message>
+    <message>
+        <source>Chapters</source>
+        <translation>Capítulos</translation>
+    </message>
+    <message>
+        <source>Chapter</source>
+        <translation>Capítulo</translation>
+    </message>
+    <message>
+        <source>Open in the &amp;browser</source>
+        <translation>Abrir en el &amp;navegador</translation>
+    </message>
+    <message>
+        <source>All chapters as one page, to search and to print</source>
+        <translation>Todos los capítulos en una página, para buscar e imprimir</translation>
     </message>
 </context>
 <context>
@@ -2922,6 +3022,37 @@ donde está la esquina más alejada; negativo hacia él</translation>
     <message>
         <source>What was found</source>
         <translation>Lo que se encontró</translation>
+    </message>
+</context>
+<context>
+    <name>PairingMatrix</name>
+    <message>
+        <source>Photographs by cameras and instants</source>
+        <translation>Fotos por cámaras e instantes</translation>
+    </message>
+    <message>
+        <source>A column for each camera, a row for each instant. Click a camera&apos;s name to choose all its photographs.</source>
+        <translation>Una columna por cámara, una fila por instante. Pulse el nombre de una cámara para elegir todas sus fotos.</translation>
+    </message>
+    <message>
+        <source>left out</source>
+        <translation>omitido</translation>
+    </message>
+    <message>
+        <source>{0}: contradicts the others</source>
+        <translation>{0}: contradice a las demás</translation>
+    </message>
+    <message>
+        <source>{0} px</source>
+        <translation>{0} px</translation>
+    </message>
+    <message>
+        <source>{0}: {1} corners, {2} px rms; alone {3} px</source>
+        <translation>{0}: {1} esquinas, {2} px RMS; sola {3} px</translation>
+    </message>
+    <message>
+        <source>no board</source>
+        <translation>sin tablero</translation>
     </message>
 </context>
 <context>
@@ -3424,6 +3555,14 @@ hacen que cada vista halle el mismo origen.</translation>
         <translation>&amp;Guardar…</translation>
     </message>
     <message>
+        <source>Show on this scr&amp;een</source>
+        <translation>Mostrar en esta &amp;pantalla</translation>
+    </message>
+    <message>
+        <source>As large as the screen holds it: a screen is flat, and needs no printer</source>
+        <translation>Tan grande como quepa: una pantalla es plana y no necesita impresora</translation>
+    </message>
+    <message>
         <source>Tags</source>
         <translation>Etiquetas</translation>
     </message>
@@ -3481,6 +3620,49 @@ hacen que cada vista halle el mismo origen.</translation>
     <message>
         <source>, {0} left</source>
         <translation>, faltan {0}</translation>
+    </message>
+</context>
+<context>
+    <name>ProgressFigure</name>
+    <message>
+        <source>How far the capture has come</source>
+        <translation>Cuánto ha avanzado la toma</translation>
+    </message>
+    <message>
+        <source>The ring: the uncertainty of the worst pixel, one standard deviation, and the one that is asked for.
+The rectangle: the corners in all pictures, over the sensor.
+The circle: how the boards were tilted; the middle is facing the camera, the rim 60 degrees.</source>
+        <translation>El anillo: la incertidumbre del peor píxel, una desviación estándar, y la pedida.
+El rectángulo: las esquinas de todas las fotos, sobre el sensor.
+El círculo: cómo se inclinaron los tableros; el centro es de frente, el borde 60 grados.</translation>
+    </message>
+    <message>
+        <source>nothing taken</source>
+        <translation>nada tomado</translation>
+    </message>
+    <message>
+        <source>{0} taken, not determined yet</source>
+        <translation>{0} tomadas, aún sin determinar</translation>
+    </message>
+    <message>
+        <source>{0} taken, worst pixel ±{1} px of {2}</source>
+        <translation>{0} tomadas, peor píxel ±{1} px de {2}</translation>
+    </message>
+    <message>
+        <source>±{0} px</source>
+        <translation>±{0} px</translation>
+    </message>
+    <message>
+        <source>of {0} px</source>
+        <translation>de {0} px</translation>
+    </message>
+    <message>
+        <source>corners on the sensor</source>
+        <translation>esquinas en el sensor</translation>
+    </message>
+    <message>
+        <source>tilts</source>
+        <translation>inclinaciones</translation>
     </message>
 </context>
 <context>
@@ -3743,6 +3925,244 @@ hacen que cada vista halle el mismo origen.</translation>
     <message>
         <source>may be 0</source>
         <translation>quizá 0</translation>
+    </message>
+</context>
+<context>
+    <name>RigAnswer</name>
+    <message>
+        <source>Where the cameras stand</source>
+        <translation>Dónde están las cámaras</translation>
+    </message>
+    <message>
+        <source>Cameras</source>
+        <translation>Cámaras</translation>
+    </message>
+    <message>
+        <source>Points ahead</source>
+        <translation>Puntos delante</translation>
+    </message>
+    <message>
+        <source>The cameras agree</source>
+        <translation>Las cámaras concuerdan</translation>
+    </message>
+    <message>
+        <source>Photographs contradict</source>
+        <translation>Hay fotos que se contradicen</translation>
+    </message>
+    <message>
+        <source>The instants disagree</source>
+        <translation>Los instantes no concuerdan</translation>
+    </message>
+    <message>
+        <source>All lengths hold {0}.</source>
+        <translation>Todas las longitudes valen {0}.</translation>
+    </message>
+    <message>
+        <source>camera</source>
+        <translation>cámara</translation>
+    </message>
+    <message>
+        <source>Root mean square residual of this camera in the rig, px</source>
+        <translation>Residuo RMS de esta cámara en el conjunto, px</translation>
+    </message>
+    <message>
+        <source>Number of corners</source>
+        <translation>Número de esquinas</translation>
+    </message>
+    <message>
+        <source>distance</source>
+        <translation>distancia</translation>
+    </message>
+    <message>
+        <source>± along</source>
+        <translation>± a lo largo</translation>
+    </message>
+    <message>
+        <source>Standard deviation along the line of sight, with this rig&apos;s noise, mm</source>
+        <translation>Desviación estándar a lo largo de la línea de visión, con el ruido de este conjunto, mm</translation>
+    </message>
+    <message>
+        <source>± across</source>
+        <translation>± a través</translation>
+    </message>
+    <message>
+        <source>calib.</source>
+        <translation>calib.</translation>
+    </message>
+    <message>
+        <source>Part of the variance that the calibration is to blame for, %</source>
+        <translation>Parte de la varianza debida a la calibración, %</translation>
+    </message>
+    <message>
+        <source>from {0}</source>
+        <translation>desde {0}</translation>
+    </message>
+    <message>
+        <source>Distance of the two cameras&apos; centres, mm</source>
+        <translation>Distancia entre los centros de las dos cámaras, mm</translation>
+    </message>
+    <message>
+        <source>turn</source>
+        <translation>giro</translation>
+    </message>
+    <message>
+        <source>Angle between the two cameras, degrees</source>
+        <translation>Ángulo entre las dos cámaras, grados</translation>
+    </message>
+</context>
+<context>
+    <name>RigPage</name>
+    <message>
+        <source>Pairing photographs</source>
+        <translation>Emparejando fotos</translation>
+    </message>
+    <message>
+        <source>Opening {0}</source>
+        <translation>Abriendo {0}</translation>
+    </message>
+    <message>
+        <source> mm</source>
+        <translation> mm</translation>
+    </message>
+    <message>
+        <source>not measured (as if {0} mm)</source>
+        <translation>sin medir (como si {0} mm)</translation>
+    </message>
+    <message>
+        <source>Side of a square</source>
+        <translation>Lado de un cuadro</translation>
+    </message>
+    <message>
+        <source>Leave out what no camera e&amp;xplains</source>
+        <translation>Omitir lo que ninguna cámara e&amp;xplica</translation>
+    </message>
+    <message>
+        <source>Corners and views that no camera explains take no part</source>
+        <translation>Las esquinas y vistas que ninguna cámara explica no participan</translation>
+    </message>
+    <message>
+        <source>&amp;Folders…</source>
+        <translation>Car&amp;petas…</translation>
+    </message>
+    <message>
+        <source>O&amp;pen rig…</source>
+        <translation>A&amp;brir conjunto…</translation>
+    </message>
+    <message>
+        <source>Earli&amp;er</source>
+        <translation>&amp;Antes</translation>
+    </message>
+    <message>
+        <source>La&amp;ter</source>
+        <translation>&amp;Después</translation>
+    </message>
+    <message>
+        <source>Lea&amp;ve out</source>
+        <translation>&amp;Omitir</translation>
+    </message>
+    <message>
+        <source>&amp;Undo</source>
+        <translation>&amp;Deshacer</translation>
+    </message>
+    <message>
+        <source>Move the chosen photographs of a camera to the instant before</source>
+        <translation>Mover las fotos elegidas de una cámara al instante anterior</translation>
+    </message>
+    <message>
+        <source>Move the chosen photographs of a camera to the instant after</source>
+        <translation>Mover las fotos elegidas de una cámara al instante siguiente</translation>
+    </message>
+    <message>
+        <source>&amp;Calibrate rig</source>
+        <translation>&amp;Calibrar conjunto</translation>
+    </message>
+    <message>
+        <source>&amp;Stop</source>
+        <translation>&amp;Detener</translation>
+    </message>
+    <message>
+        <source>C&amp;lose</source>
+        <translation>C&amp;errar</translation>
+    </message>
+    <message>
+        <source>E&amp;xport</source>
+        <translation>E&amp;xportar</translation>
+    </message>
+    <message>
+        <source>Rig, with everything (JSON)…</source>
+        <translation>Conjunto, con todo (JSON)…</translation>
+    </message>
+    <message>
+        <source>Photographs</source>
+        <translation>Fotos</translation>
+    </message>
+    <message>
+        <source>Rectified</source>
+        <translation>Rectificado</translation>
+    </message>
+    <message>
+        <source>3-D</source>
+        <translation>3-D</translation>
+    </message>
+    <message>
+        <source>Several cameras</source>
+        <translation>Varias cámaras</translation>
+    </message>
+    <message>
+        <source>Side of a square (distance of circles)</source>
+        <translation>Lado de un cuadro (distancia de círculos)</translation>
+    </message>
+    <message>
+        <source>Cameras that stand fast to each other and photograph one board together: choose the folder that holds a folder for each camera (or all photographs, named as left01 and right01), or drop the folders here.</source>
+        <translation>Cámaras fijas entre sí que fotografían juntas un tablero: elija la carpeta que contiene una carpeta por cámara (o todas las fotos, con nombres como left01 y right01), o suelte aquí las carpetas.</translation>
+    </message>
+    <message>
+        <source>No photographs yet.</source>
+        <translation>Aún no hay fotos.</translation>
+    </message>
+    <message>
+        <source>Calibrate the rig first.</source>
+        <translation>Calibre antes el conjunto.</translation>
+    </message>
+    <message>
+        <source>No two cameras have a photograph of one instant.</source>
+        <translation>Ningún par de cámaras tiene una foto del mismo instante.</translation>
+    </message>
+    <message>
+        <source>{0} and {1} have no photographs of this instant together.</source>
+        <translation>{0} y {1} no tienen fotos juntas de este instante.</translation>
+    </message>
+    <message>
+        <source>Searching</source>
+        <translation>Buscando</translation>
+    </message>
+    <message>
+        <source>Calibrating {0}</source>
+        <translation>Calibrando {0}</translation>
+    </message>
+    <message>
+        <source>Lengths hold {0}.</source>
+        <translation>Las longitudes valen {0}.</translation>
+    </message>
+    <message>
+        <source>Folder with a folder for each camera, or the photographs of all</source>
+        <translation>Carpeta con una carpeta por cámara, o con las fotos de todas</translation>
+    </message>
+    <message>
+        <source>Open rig</source>
+        <translation>Abrir conjunto</translation>
+    </message>
+    <message>
+        <source>Rigs (*.json)</source>
+        <translation>Conjuntos (*.json)</translation>
+    </message>
+    <message>
+        <source>Save rig</source>
+        <translation>Guardar conjunto</translation>
+    </message>
+    <message>
+        <source>Wrote {0}.</source>
+        <translation>{0} escrito.</translation>
     </message>
 </context>
 <context>
@@ -4561,6 +4981,29 @@ encontrado y calibra: lo que debe salir se conoce exactamente.</translation>
     </message>
 </context>
 <context>
+    <name>TakenStrip</name>
+    <message>
+        <source>Pictures taken</source>
+        <translation>Fotos tomadas</translation>
+    </message>
+    <message>
+        <source>&amp;Take back</source>
+        <translation>&amp;Deshacer</translation>
+    </message>
+    <message>
+        <source>{0} · put aside</source>
+        <translation>{0} · apartada</translation>
+    </message>
+    <message>
+        <source>{0}: the camera is not calibrated with it, but checked</source>
+        <translation>{0}: la cámara no se calibra con ella, pero se comprueba</translation>
+    </message>
+    <message>
+        <source>&amp;Take again</source>
+        <translation>&amp;Tomar de nuevo</translation>
+    </message>
+</context>
+<context>
     <name>Tour</name>
     <message>
         <source>Leave</source>
@@ -5047,6 +5490,14 @@ misma escala conserva el tamaño del centro; campo de visión muestra el ángulo
         <translation>Se hallan las esquinas y la cámara se calibra enseguida.</translation>
     </message>
     <message>
+        <source>&amp;Photograph live</source>
+        <translation>&amp;Fotografiar en vivo</translation>
+    </message>
+    <message>
+        <source>With a camera: it says where to hold the board, and when it is enough.</source>
+        <translation>Con una cámara: dice dónde poner el tablero, y cuándo basta.</translation>
+    </message>
+    <message>
         <source>&amp;Add images</source>
         <translation>&amp;Añadir imágenes</translation>
     </message>
@@ -5063,16 +5514,16 @@ misma escala conserva el tamaño del centro; campo de visión muestra el ángulo
         <translation>Catorce fotos sintéticas, para mirar alrededor.</translation>
     </message>
     <message>
-        <source>&amp;Take the tour</source>
-        <translation>&amp;Recorrido</translation>
+        <source>Take the to&amp;ur</source>
+        <translation>Reco&amp;rrido</translation>
+    </message>
+    <message>
+        <source>Prin&amp;t a board</source>
+        <translation>Im&amp;primir un tablero</translation>
     </message>
     <message>
         <source>Two minutes on the sample; it can be left at any step.</source>
         <translation>Dos minutos con la muestra; se puede dejar en cualquier paso.</translation>
-    </message>
-    <message>
-        <source>&amp;Print a board</source>
-        <translation>Im&amp;primir un tablero</translation>
     </message>
     <message>
         <source>A checkerboard, or one of the other kinds, in true size.</source>

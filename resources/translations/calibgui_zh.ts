@@ -245,6 +245,37 @@ brings the two closest where corners (dots) were seen.</source>
     </message>
 </context>
 <context>
+    <name>BoardScreen</name>
+    <message>
+        <source>Board on the screen</source>
+        <translation>屏幕上的标定板</translation>
+    </message>
+    <message>
+        <source> mm</source>
+        <translation> mm</translation>
+    </message>
+    <message>
+        <source>Length of the line</source>
+        <translation>线的长度</translation>
+    </message>
+    <message>
+        <source>&amp;Close (Esc)</source>
+        <translation>关闭 (Esc)(&amp;C)</translation>
+    </message>
+    <message>
+        <source>Measure the line above with a ruler:</source>
+        <translation>用尺子量上面的线：</translation>
+    </message>
+    <message>
+        <source>A square is {0} pixels: {1} mm. State this length.</source>
+        <translation>一个方格为 {0} 像素：{1} mm。请填写此长度。</translation>
+    </message>
+    <message>
+        <source>Circles are {0} pixels apart: {1} mm. State this length.</source>
+        <translation>圆的间距为 {0} 像素：{1} mm。请填写此长度。</translation>
+    </message>
+</context>
+<context>
     <name>BoardShapeChoice</name>
     <message>
         <source>Shape of the board</source>
@@ -686,6 +717,22 @@ Colours: out of the plane; red is away from the camera.</source>
         <translation>取文件夹中的所有图像</translation>
     </message>
     <message>
+        <source>P&amp;hotograph live…</source>
+        <translation>实时拍摄(&amp;H)…</translation>
+    </message>
+    <message>
+        <source>Take photographs with a camera that says where to hold the board</source>
+        <translation>用相机拍摄，它会说明标定板放在哪里</translation>
+    </message>
+    <message>
+        <source>Several &amp;cameras…</source>
+        <translation>多台相机(&amp;C)…</translation>
+    </message>
+    <message>
+        <source>Calibrate cameras that stand fast to each other: a rig</source>
+        <translation>标定彼此固定的相机：相机组</translation>
+    </message>
+    <message>
         <source>&amp;Quit</source>
         <translation>退出(&amp;Q)</translation>
     </message>
@@ -882,12 +929,12 @@ Colours: out of the plane; red is away from the camera.</source>
         <translation>帮助(&amp;H)</translation>
     </message>
     <message>
-        <source>&amp;How it works</source>
-        <translation>使用说明(&amp;H)</translation>
+        <source>&amp;Manual</source>
+        <translation>手册(&amp;M)</translation>
     </message>
     <message>
-        <source>The workflow on one page</source>
-        <translation>一页说明工作流程</translation>
+        <source>How to photograph, what a message means, who reads which file</source>
+        <translation>如何拍摄、消息的含义、各文件由谁读取</translation>
     </message>
     <message>
         <source>Take the &amp;tour</source>
@@ -1923,105 +1970,6 @@ after the rotation that brings the two closest where corners (dots) were seen.</
     </message>
 </context>
 <context>
-    <name>HelpDialog</name>
-    <message>
-        <source>Help</source>
-        <translation>帮助</translation>
-    </message>
-    <message>
-        <source>How it works</source>
-        <translation>使用说明</translation>
-    </message>
-    <message>
-        <source>&lt;b&gt;Photograph&lt;/b&gt; a flat board 10 to 20 times with focus and zoom fixed: tilted by 20 to 45 degrees in different directions, near and far, and with corners close to every corner of the image. &lt;i&gt;Print a board&lt;/i&gt; makes one; glue it to something flat and measure the bar below it.</source>
-        <translation>固定对焦和变焦，&lt;b&gt;拍摄&lt;/b&gt;平整标定板 10 到 20 次：向不同方向倾斜 20 到 45 度，有近有远，并使角点靠近图像的每个角。&lt;i&gt;打印标定板&lt;/i&gt;可制作一块；把它贴在平整物体上，并量出下方的标尺。</translation>
-    </message>
-    <message>
-        <source>&lt;b&gt;Drop&lt;/b&gt; the images or their folder on the window. Corners are found and the camera is calibrated at once. State the &lt;b&gt;side of a square&lt;/b&gt;: only distances depend on it.</source>
-        <translation>把图像或其文件夹&lt;b&gt;拖放&lt;/b&gt;到窗口。角点会被找到，相机立即标定。请给出&lt;b&gt;方格边长&lt;/b&gt;：只有距离取决于它。</translation>
-    </message>
-    <message>
-        <source>&lt;b&gt;Look at the film strip&lt;/b&gt;: images without a board say why. &lt;i&gt;Mark board&lt;/i&gt; (M) takes four clicks on the outermost inner corners; the loupe shows where a click will go. &lt;i&gt;Mark all by hand&lt;/i&gt; (Board) turns the search off. &lt;i&gt;Edit corners&lt;/i&gt; (E) moves, removes and restores single corners. An image whose file has changed since says so: &lt;i&gt;detect again&lt;/i&gt; (F5).</source>
-        <translation>&lt;b&gt;查看图像条&lt;/b&gt;：没有标定板的图像会说明原因。&lt;i&gt;标记标定板&lt;/i&gt; (M) 在最外侧内角点上点击四次；放大镜显示点击落在何处。&lt;i&gt;全部手动标记&lt;/i&gt;（标定板）关闭搜索。&lt;i&gt;编辑角点&lt;/i&gt; (E) 移动、删除和恢复单个角点。文件已改变的图像会提示：&lt;i&gt;重新检测&lt;/i&gt; (F5)。</translation>
-    </message>
-    <message>
-        <source>&lt;b&gt;Read the verdict&lt;/b&gt;: the button below it mends what is most wrong, or shows where to hold the board next. The result states every value with its standard deviation, and what is badly determined.</source>
-        <translation>&lt;b&gt;阅读结论&lt;/b&gt;：下方的按钮修正最大的问题，或显示下一次把标定板放在哪里。结果给出每个值及其标准差，以及哪些没有确定好。</translation>
-    </message>
-    <message>
-        <source>&lt;b&gt;Doubt it&lt;/b&gt;: residuals that point the same way, a view with a long bar, or a synthetic check whose residuals are much smaller than the real ones show what the model does not explain; so does the sentence above the residuals. Exclude views above a threshold, or let the Set-up leave outliers out and estimate the board&apos;s shape, and calibrate again; every result keeps its name and can be compared.</source>
-        <translation>&lt;b&gt;保持怀疑&lt;/b&gt;：指向相同方向的残差、带长条的视图，或残差远小于真实残差的合成检查，都显示模型没有解释的内容；残差上方的句子也是。请排除超过阈值的视图，或让设置排除离群值并估计标定板形状，然后重新标定；每个结果都保留名称并可比较。</translation>
-    </message>
-    <message>
-        <source>&lt;b&gt;Export&lt;/b&gt; to the format that your program reads. Models that differ are refitted to the same corners; the dialog says how far they are off, in pixels.</source>
-        <translation>&lt;b&gt;导出&lt;/b&gt;为您的程序可读的格式。不同的模型会重新拟合到相同的角点；对话框以像素说明其偏差。</translation>
-    </message>
-    <message>
-        <source>calibrate</source>
-        <translation>标定</translation>
-    </message>
-    <message>
-        <source>mark board / edit corners</source>
-        <translation>标记标定板 / 编辑角点</translation>
-    </message>
-    <message>
-        <source>Space</source>
-        <translation>空格</translation>
-    </message>
-    <message>
-        <source>exclude or include the selected images: the fit follows</source>
-        <translation>排除或加入所选图像：随即重新拟合</translation>
-    </message>
-    <message>
-        <source>the desk alone, or back</source>
-        <translation>只留桌面，或恢复</translation>
-    </message>
-    <message>
-        <source>↑ ↓</source>
-        <translation>↑ ↓</translation>
-    </message>
-    <message>
-        <source>move the threshold, with the film strip in focus</source>
-        <translation>移动阈值，焦点在图像条上</translation>
-    </message>
-    <message>
-        <source>← →</source>
-        <translation>← →</translation>
-    </message>
-    <message>
-        <source>previous and next image, with the image in focus</source>
-        <translation>上一幅和下一幅图像，焦点在图像上</translation>
-    </message>
-    <message>
-        <source>Wheel, + −</source>
-        <translation>滚轮，+ −</translation>
-    </message>
-    <message>
-        <source>zoom, before and after as well; Ctrl+0 fits, Ctrl+1 shows pixels</source>
-        <translation>缩放，前后对比中也可；Ctrl+0 适合窗口，Ctrl+1 显示像素</translation>
-    </message>
-    <message>
-        <source>layers over the image</source>
-        <translation>图像上的图层</translation>
-    </message>
-    <message>
-        <source>export the camera / write the report</source>
-        <translation>导出相机 / 写报告</translation>
-    </message>
-    <message>
-        <source>find any action or panel by typing a part of it</source>
-        <translation>键入一部分即可找到任何操作或面板</translation>
-    </message>
-    <message>
-        <source>undo and redo: everything can be taken back</source>
-        <translation>撤销和重做：一切都可以撤回</translation>
-    </message>
-    <message>
-        <source>The method is L. Lucchese, &lt;i&gt;Geometric calibration of digital cameras through multi-view rectification&lt;/i&gt;, Image and Vision Computing 23 (2005) 517-539.</source>
-        <translation>方法为 L. Lucchese, &lt;i&gt;Geometric calibration of digital cameras through multi-view rectification&lt;/i&gt;, Image and Vision Computing 23 (2005) 517-539.</translation>
-    </message>
-</context>
-<context>
     <name>HistogramPlot</name>
     <message>
         <source>density</source>
@@ -2199,6 +2147,13 @@ Dropped on the left they join the project.</source>
 把标定板的新照片拖放到这里：它们检查相机，不改变任何东西。
 
 拖放到左侧则加入项目。</translation>
+    </message>
+</context>
+<context>
+    <name>InstantView</name>
+    <message>
+        <source>Photographs of an instant</source>
+        <translation>同一时刻的照片</translation>
     </message>
 </context>
 <context>
@@ -2511,6 +2466,120 @@ with only their poses fitted</source>
     </message>
 </context>
 <context>
+    <name>LivePage</name>
+    <message>
+        <source>camera {0}</source>
+        <translation>相机 {0}</translation>
+    </message>
+    <message>
+        <source>Choose a camera, and press Start.</source>
+        <translation>选择相机，然后按“开始”。</translation>
+    </message>
+    <message>
+        <source>Camera</source>
+        <translation>相机</translation>
+    </message>
+    <message>
+        <source>A camera at this computer, or the address of one in the network (rtsp://…, http://…), or the folder that a camera&apos;s program fills</source>
+        <translation>本机的相机，网络相机的地址 (rtsp://…, http://…)，或相机程序写入的文件夹</translation>
+    </message>
+    <message>
+        <source> px</source>
+        <translation> px</translation>
+    </message>
+    <message>
+        <source>It ends when the camera puts no pixel farther off, one standard deviation</source>
+        <translation>当相机没有像素偏离更多时结束，一个标准差</translation>
+    </message>
+    <message>
+        <source>Choose…</source>
+        <translation>选择…</translation>
+    </message>
+    <message>
+        <source>A &amp;sound for each picture</source>
+        <translation>每张照片响一声(&amp;S)</translation>
+    </message>
+    <message>
+        <source>&amp;Start</source>
+        <translation>开始(&amp;S)</translation>
+    </message>
+    <message>
+        <source>&amp;Take it now (space)</source>
+        <translation>立即拍摄 (空格)(&amp;T)</translation>
+    </message>
+    <message>
+        <source>&amp;Finish</source>
+        <translation>结束(&amp;F)</translation>
+    </message>
+    <message>
+        <source>&amp;Calibrate with these</source>
+        <translation>用这些标定(&amp;C)</translation>
+    </message>
+    <message>
+        <source>&amp;Go on</source>
+        <translation>继续(&amp;G)</translation>
+    </message>
+    <message>
+        <source>&amp;Leave</source>
+        <translation>离开(&amp;L)</translation>
+    </message>
+    <message>
+        <source>%p % of the way to the yellow place</source>
+        <translation>到黄色位置的 %p %</translation>
+    </message>
+    <message>
+        <source>Camera, address or folder</source>
+        <translation>相机、地址或文件夹</translation>
+    </message>
+    <message>
+        <source>Until the worst pixel is known to</source>
+        <translation>直到最差像素已知到</translation>
+    </message>
+    <message>
+        <source>Pictures are written to</source>
+        <translation>照片写入</translation>
+    </message>
+    <message>
+        <source>Hold the whole board in the picture: its kind and size are found. The yellow shape shows where it is wanted next. When it is still, sharp and worth it, the picture is taken by itself; every fifth one is put aside to check the camera with. No board at hand? Calibration › Print a board shows one on a screen.</source>
+        <translation>把整块标定板放在画面中：种类和大小会自动识别。黄色形状表示下一步放在哪里。当它静止、清晰且有价值时，照片会自动拍下；每五张留出一张用于检查相机。手边没有标定板？“标定 › 打印标定板”可在屏幕上显示一块。</translation>
+    </message>
+    <message>
+        <source>Photograph live</source>
+        <translation>实时拍摄</translation>
+    </message>
+    <message>
+        <source>Opening…</source>
+        <translation>正在打开…</translation>
+    </message>
+    <message>
+        <source>Pictures put aside are predicted to {0} px rms ({1} corners).</source>
+        <translation>留出的照片预测到 {0} px 均方根（{1} 个角点）。</translation>
+    </message>
+    <message>
+        <source>Nothing was taken.</source>
+        <translation>没有拍摄任何照片。</translation>
+    </message>
+    <message>
+        <source>Done: the camera is known well enough.</source>
+        <translation>完成：相机已足够精确。</translation>
+    </message>
+    <message>
+        <source>Stopped. More pictures would help.</source>
+        <translation>已停止。更多照片会有帮助。</translation>
+    </message>
+    <message>
+        <source>Folder for the pictures</source>
+        <translation>照片的文件夹</translation>
+    </message>
+</context>
+<context>
+    <name>LiveView</name>
+    <message>
+        <source>Live image</source>
+        <translation>实时图像</translation>
+    </message>
+</context>
+<context>
     <name>MainWindow</name>
     <message>
         <source>C&amp;alibrate</source>
@@ -2539,6 +2608,37 @@ with only their poses fitted</source>
     <message>
         <source>Untitled</source>
         <translation>未命名</translation>
+    </message>
+    <message>
+        <source>Several folders</source>
+        <translation>多个文件夹</translation>
+    </message>
+    <message>
+        <source>Are these the photographs of several cameras that stand fast to each other, a folder for each? No: all are of one camera.</source>
+        <translation>这些是彼此固定的多台相机的照片，每台一个文件夹吗？否：都来自一台相机。</translation>
+    </message>
+</context>
+<context>
+    <name>ManualDialog</name>
+    <message>
+        <source>Manual</source>
+        <translation>手册</translation>
+    </message>
+    <message>
+        <source>Chapters</source>
+        <translation>章节</translation>
+    </message>
+    <message>
+        <source>Chapter</source>
+        <translation>章</translation>
+    </message>
+    <message>
+        <source>Open in the &amp;browser</source>
+        <translation>在浏览器中打开(&amp;B)</translation>
+    </message>
+    <message>
+        <source>All chapters as one page, to search and to print</source>
+        <translation>所有章节在一页，便于搜索和打印</translation>
     </message>
 </context>
 <context>
@@ -2922,6 +3022,37 @@ where the outermost corner lies; negative towards it</source>
     <message>
         <source>What was found</source>
         <translation>找到的内容</translation>
+    </message>
+</context>
+<context>
+    <name>PairingMatrix</name>
+    <message>
+        <source>Photographs by cameras and instants</source>
+        <translation>按相机和时刻排列的照片</translation>
+    </message>
+    <message>
+        <source>A column for each camera, a row for each instant. Click a camera&apos;s name to choose all its photographs.</source>
+        <translation>每台相机一列，每个时刻一行。点击相机名称可选中其所有照片。</translation>
+    </message>
+    <message>
+        <source>left out</source>
+        <translation>已排除</translation>
+    </message>
+    <message>
+        <source>{0}: contradicts the others</source>
+        <translation>{0}：与其他矛盾</translation>
+    </message>
+    <message>
+        <source>{0} px</source>
+        <translation>{0} px</translation>
+    </message>
+    <message>
+        <source>{0}: {1} corners, {2} px rms; alone {3} px</source>
+        <translation>{0}：{1} 个角点，{2} px 均方根；单独 {3} px</translation>
+    </message>
+    <message>
+        <source>no board</source>
+        <translation>无标定板</translation>
     </message>
 </context>
 <context>
@@ -3424,6 +3555,14 @@ lets every view find the same origin.</source>
         <translation>保存(&amp;S)…</translation>
     </message>
     <message>
+        <source>Show on this scr&amp;een</source>
+        <translation>在此屏幕上显示(&amp;E)</translation>
+    </message>
+    <message>
+        <source>As large as the screen holds it: a screen is flat, and needs no printer</source>
+        <translation>按屏幕能容纳的大小：屏幕是平的，无需打印机</translation>
+    </message>
+    <message>
         <source>Tags</source>
         <translation>标签</translation>
     </message>
@@ -3481,6 +3620,49 @@ lets every view find the same origin.</source>
     <message>
         <source>, {0} left</source>
         <translation>，还剩 {0}</translation>
+    </message>
+</context>
+<context>
+    <name>ProgressFigure</name>
+    <message>
+        <source>How far the capture has come</source>
+        <translation>拍摄进展</translation>
+    </message>
+    <message>
+        <source>The ring: the uncertainty of the worst pixel, one standard deviation, and the one that is asked for.
+The rectangle: the corners in all pictures, over the sensor.
+The circle: how the boards were tilted; the middle is facing the camera, the rim 60 degrees.</source>
+        <translation>圆环：最差像素的不确定度（一个标准差）及所要求的值。
+矩形：所有照片的角点，在传感器上。
+圆：标定板的倾斜；中心为正对相机，边缘为 60 度。</translation>
+    </message>
+    <message>
+        <source>nothing taken</source>
+        <translation>没有拍摄</translation>
+    </message>
+    <message>
+        <source>{0} taken, not determined yet</source>
+        <translation>已拍 {0}，尚未确定</translation>
+    </message>
+    <message>
+        <source>{0} taken, worst pixel ±{1} px of {2}</source>
+        <translation>已拍 {0}，最差像素 ±{1} px，目标 {2}</translation>
+    </message>
+    <message>
+        <source>±{0} px</source>
+        <translation>±{0} px</translation>
+    </message>
+    <message>
+        <source>of {0} px</source>
+        <translation>目标 {0} px</translation>
+    </message>
+    <message>
+        <source>corners on the sensor</source>
+        <translation>传感器上的角点</translation>
+    </message>
+    <message>
+        <source>tilts</source>
+        <translation>倾斜</translation>
     </message>
 </context>
 <context>
@@ -3743,6 +3925,244 @@ lets every view find the same origin.</source>
     <message>
         <source>may be 0</source>
         <translation>可能为 0</translation>
+    </message>
+</context>
+<context>
+    <name>RigAnswer</name>
+    <message>
+        <source>Where the cameras stand</source>
+        <translation>相机的位置</translation>
+    </message>
+    <message>
+        <source>Cameras</source>
+        <translation>相机</translation>
+    </message>
+    <message>
+        <source>Points ahead</source>
+        <translation>前方的点</translation>
+    </message>
+    <message>
+        <source>The cameras agree</source>
+        <translation>各相机一致</translation>
+    </message>
+    <message>
+        <source>Photographs contradict</source>
+        <translation>照片相互矛盾</translation>
+    </message>
+    <message>
+        <source>The instants disagree</source>
+        <translation>各时刻不一致</translation>
+    </message>
+    <message>
+        <source>All lengths hold {0}.</source>
+        <translation>所有长度成立 {0}。</translation>
+    </message>
+    <message>
+        <source>camera</source>
+        <translation>相机</translation>
+    </message>
+    <message>
+        <source>Root mean square residual of this camera in the rig, px</source>
+        <translation>此相机在相机组中的均方根残差，px</translation>
+    </message>
+    <message>
+        <source>Number of corners</source>
+        <translation>角点数</translation>
+    </message>
+    <message>
+        <source>distance</source>
+        <translation>距离</translation>
+    </message>
+    <message>
+        <source>± along</source>
+        <translation>± 沿视线</translation>
+    </message>
+    <message>
+        <source>Standard deviation along the line of sight, with this rig&apos;s noise, mm</source>
+        <translation>沿视线的标准差，按此相机组的噪声，mm</translation>
+    </message>
+    <message>
+        <source>± across</source>
+        <translation>± 横向</translation>
+    </message>
+    <message>
+        <source>calib.</source>
+        <translation>标定</translation>
+    </message>
+    <message>
+        <source>Part of the variance that the calibration is to blame for, %</source>
+        <translation>由标定造成的方差部分，%</translation>
+    </message>
+    <message>
+        <source>from {0}</source>
+        <translation>自 {0}</translation>
+    </message>
+    <message>
+        <source>Distance of the two cameras&apos; centres, mm</source>
+        <translation>两台相机中心的距离，mm</translation>
+    </message>
+    <message>
+        <source>turn</source>
+        <translation>转角</translation>
+    </message>
+    <message>
+        <source>Angle between the two cameras, degrees</source>
+        <translation>两台相机的夹角，度</translation>
+    </message>
+</context>
+<context>
+    <name>RigPage</name>
+    <message>
+        <source>Pairing photographs</source>
+        <translation>正在配对照片</translation>
+    </message>
+    <message>
+        <source>Opening {0}</source>
+        <translation>正在打开 {0}</translation>
+    </message>
+    <message>
+        <source> mm</source>
+        <translation> mm</translation>
+    </message>
+    <message>
+        <source>not measured (as if {0} mm)</source>
+        <translation>未测量（按 {0} mm）</translation>
+    </message>
+    <message>
+        <source>Side of a square</source>
+        <translation>方格边长</translation>
+    </message>
+    <message>
+        <source>Leave out what no camera e&amp;xplains</source>
+        <translation>排除没有相机能解释的(&amp;X)</translation>
+    </message>
+    <message>
+        <source>Corners and views that no camera explains take no part</source>
+        <translation>没有相机能解释的角点和视图不参与</translation>
+    </message>
+    <message>
+        <source>&amp;Folders…</source>
+        <translation>文件夹(&amp;F)…</translation>
+    </message>
+    <message>
+        <source>O&amp;pen rig…</source>
+        <translation>打开相机组(&amp;P)…</translation>
+    </message>
+    <message>
+        <source>Earli&amp;er</source>
+        <translation>更早(&amp;E)</translation>
+    </message>
+    <message>
+        <source>La&amp;ter</source>
+        <translation>更晚(&amp;T)</translation>
+    </message>
+    <message>
+        <source>Lea&amp;ve out</source>
+        <translation>排除(&amp;V)</translation>
+    </message>
+    <message>
+        <source>&amp;Undo</source>
+        <translation>撤销(&amp;U)</translation>
+    </message>
+    <message>
+        <source>Move the chosen photographs of a camera to the instant before</source>
+        <translation>把所选相机照片移到前一时刻</translation>
+    </message>
+    <message>
+        <source>Move the chosen photographs of a camera to the instant after</source>
+        <translation>把所选相机照片移到后一时刻</translation>
+    </message>
+    <message>
+        <source>&amp;Calibrate rig</source>
+        <translation>标定相机组(&amp;C)</translation>
+    </message>
+    <message>
+        <source>&amp;Stop</source>
+        <translation>停止(&amp;S)</translation>
+    </message>
+    <message>
+        <source>C&amp;lose</source>
+        <translation>关闭(&amp;L)</translation>
+    </message>
+    <message>
+        <source>E&amp;xport</source>
+        <translation>导出(&amp;X)</translation>
+    </message>
+    <message>
+        <source>Rig, with everything (JSON)…</source>
+        <translation>相机组，全部内容 (JSON)…</translation>
+    </message>
+    <message>
+        <source>Photographs</source>
+        <translation>照片</translation>
+    </message>
+    <message>
+        <source>Rectified</source>
+        <translation>已校正</translation>
+    </message>
+    <message>
+        <source>3-D</source>
+        <translation>三维</translation>
+    </message>
+    <message>
+        <source>Several cameras</source>
+        <translation>多台相机</translation>
+    </message>
+    <message>
+        <source>Side of a square (distance of circles)</source>
+        <translation>方格边长（圆的间距）</translation>
+    </message>
+    <message>
+        <source>Cameras that stand fast to each other and photograph one board together: choose the folder that holds a folder for each camera (or all photographs, named as left01 and right01), or drop the folders here.</source>
+        <translation>彼此固定、同时拍摄一块标定板的相机：请选择包含每台相机文件夹的文件夹（或所有照片，命名如 left01 和 right01），或把文件夹拖放到这里。</translation>
+    </message>
+    <message>
+        <source>No photographs yet.</source>
+        <translation>还没有照片。</translation>
+    </message>
+    <message>
+        <source>Calibrate the rig first.</source>
+        <translation>请先标定相机组。</translation>
+    </message>
+    <message>
+        <source>No two cameras have a photograph of one instant.</source>
+        <translation>没有两台相机有同一时刻的照片。</translation>
+    </message>
+    <message>
+        <source>{0} and {1} have no photographs of this instant together.</source>
+        <translation>{0} 和 {1} 没有此时刻的共同照片。</translation>
+    </message>
+    <message>
+        <source>Searching</source>
+        <translation>正在搜索</translation>
+    </message>
+    <message>
+        <source>Calibrating {0}</source>
+        <translation>正在标定 {0}</translation>
+    </message>
+    <message>
+        <source>Lengths hold {0}.</source>
+        <translation>长度成立 {0}。</translation>
+    </message>
+    <message>
+        <source>Folder with a folder for each camera, or the photographs of all</source>
+        <translation>含每台相机文件夹或全部照片的文件夹</translation>
+    </message>
+    <message>
+        <source>Open rig</source>
+        <translation>打开相机组</translation>
+    </message>
+    <message>
+        <source>Rigs (*.json)</source>
+        <translation>相机组 (*.json)</translation>
+    </message>
+    <message>
+        <source>Save rig</source>
+        <translation>保存相机组</translation>
+    </message>
+    <message>
+        <source>Wrote {0}.</source>
+        <translation>已写入 {0}。</translation>
     </message>
 </context>
 <context>
@@ -4561,6 +4981,29 @@ was found and calibrates: what must come back is known exactly.</source>
     </message>
 </context>
 <context>
+    <name>TakenStrip</name>
+    <message>
+        <source>Pictures taken</source>
+        <translation>已拍的照片</translation>
+    </message>
+    <message>
+        <source>&amp;Take back</source>
+        <translation>撤回(&amp;T)</translation>
+    </message>
+    <message>
+        <source>{0} · put aside</source>
+        <translation>{0} · 留出</translation>
+    </message>
+    <message>
+        <source>{0}: the camera is not calibrated with it, but checked</source>
+        <translation>{0}：不用于标定，但用于检查</translation>
+    </message>
+    <message>
+        <source>&amp;Take again</source>
+        <translation>重新拍摄(&amp;T)</translation>
+    </message>
+</context>
+<context>
     <name>Tour</name>
     <message>
         <source>Leave</source>
@@ -5047,6 +5490,14 @@ same scale keeps the size of the middle; field of view shows an angle of your ch
         <translation>自动寻找角点并立即标定相机。</translation>
     </message>
     <message>
+        <source>&amp;Photograph live</source>
+        <translation>实时拍摄(&amp;P)</translation>
+    </message>
+    <message>
+        <source>With a camera: it says where to hold the board, and when it is enough.</source>
+        <translation>用相机：它会说明标定板放在哪里，以及何时足够。</translation>
+    </message>
+    <message>
         <source>&amp;Add images</source>
         <translation>添加图像(&amp;A)</translation>
     </message>
@@ -5063,16 +5514,16 @@ same scale keeps the size of the middle; field of view shows an angle of your ch
         <translation>十四张渲染的照片，供浏览。</translation>
     </message>
     <message>
-        <source>&amp;Take the tour</source>
-        <translation>导览(&amp;T)</translation>
+        <source>Take the to&amp;ur</source>
+        <translation>导览(&amp;U)</translation>
+    </message>
+    <message>
+        <source>Prin&amp;t a board</source>
+        <translation>打印标定板(&amp;T)</translation>
     </message>
     <message>
         <source>Two minutes on the sample; it can be left at any step.</source>
         <translation>用示例走两分钟；随时可以离开。</translation>
-    </message>
-    <message>
-        <source>&amp;Print a board</source>
-        <translation>打印标定板(&amp;P)</translation>
     </message>
     <message>
         <source>A checkerboard, or one of the other kinds, in true size.</source>

@@ -57,3 +57,10 @@ def test_a_file_of_another_kind_is_kept(tmp_path: Path, capsys: Capture) -> None
     assert file.read_text() == "mine" and "notes.pdf" in capsys.readouterr().err
     assert main(["print", "6x9", "-o", str(tmp_path / "board.gif")]) == 1
     assert "is not named as PDF, SVG or PNG" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("suffix", [".pdf", ".svg", ".png"])
+def test_its_own_file_is_written_anew(suffix: str, tmp_path: Path) -> None:
+    file = tmp_path / f"board{suffix}"
+    for size in ("3x4", "4x5"):
+        assert main(["print", size, "-q", "-o", str(file)]) == 0

@@ -120,7 +120,7 @@ def count_verdicts(answers: Iterable[Answer]) -> Counter[Verdict]:
 def make_table(
     answers: list[Answer], peers: Mapping[str, tuple[float, float]] | None = None
 ) -> str:
-    """Make the README's table in Markdown: a row for each fault, one for all, one for clean sets.
+    """Make the manual's table in Markdown: a row for each fault, one for all, one for clean sets.
 
     A clean set has no cause: another one is named where it raises an alarm.
 

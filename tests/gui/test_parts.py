@@ -25,7 +25,6 @@ from calibgui.dataset import View, ViewStatus
 from calibgui.engine.calibration.result import Status
 from calibgui.engine.errors import CalibrationError
 from calibgui.gui.dialogs.bug_dialog import BugDialog
-from calibgui.gui.dialogs.help_dialog import HelpDialog
 from calibgui.gui.dialogs.print_dialog import PrintDialog
 from calibgui.gui.panels.answer.compare import ComparePanel
 from calibgui.gui.panels.answer.result import ResultPanel
@@ -444,15 +443,6 @@ def test_every_action_has_a_tip_and_no_shortcut_twice(window: MainWindow) -> Non
     assert len(keys) == len(set(keys))
     assert len(actions) > 25
     assert all(action.toolTip() for action in actions)
-
-
-def test_help_names_keys_that_work(qtbot: QtBot, window: MainWindow) -> None:
-    dialog = HelpDialog(window)
-    qtbot.addWidget(dialog)
-    text = dialog.text.toPlainText()
-    assert "Lucchese" in text
-    known = {a.shortcut().toString() for a in window.findChildren(type(window.page.tools[0]))}
-    assert {"F9", "M", "E", "Ctrl+0", "Ctrl+1", "Shift+1", "Shift+6"} <= known
 
 
 def test_a_split_is_upright_where_it_is_not_wide(qtbot: QtBot) -> None:

@@ -14,7 +14,7 @@ from pytestqt.qtbot import QtBot
 from calibgui.gui.dialogs.bug_dialog import BugDialog
 from calibgui.gui.dialogs.export_dialog import ExportDialog
 from calibgui.gui.dialogs.fleet_dialog import FleetDialog
-from calibgui.gui.dialogs.help_dialog import HelpDialog
+from calibgui.gui.dialogs.manual_dialog import ManualDialog
 from calibgui.gui.dialogs.print_dialog import PrintDialog
 from calibgui.gui.dialogs.series_dialog import SeriesDialog
 from calibgui.gui.panels.analysis import PANELS
@@ -110,7 +110,7 @@ def test_the_dialogs(full: MainWindow, qtbot: QtBot) -> None:
     assert result is not None
     dialogs = (
         PrintDialog(full.session.project.board),
-        HelpDialog(full),
+        ManualDialog(full),
         ExportDialog(full.session.jobs, result, full),
         SeriesDialog(full.session.jobs, full),
         FleetDialog(Path("fleet.db"), make_overview([]), lambda *_: False, full),

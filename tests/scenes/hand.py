@@ -6,7 +6,9 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from calibgui.engine.arrays import Array
 from calibgui.engine.boards.board import Board
+from calibgui.engine.calibration.board_poses import locate_board
 from calibgui.engine.camera.camera import Camera
 from calibgui.engine.capture.frame_sources import Frame
 from calibgui.engine.geometry.pose import Pose
@@ -23,6 +25,14 @@ def shake(pose: Pose, board: Board, rng: np.random.Generator, mm: float, degrees
     at = R[:, :2] @ middle + pose.tvec + rng.normal(0, mm / np.sqrt(3), 3)
     R = rotation_from_vector(rng.normal(0, np.deg2rad(degrees) / np.sqrt(3), 3)) @ R
     return Pose(vector_from_rotation(R), at - R[:, :2] @ middle)
+
+
+def follow(goal: Array, camera: Camera, board: Board) -> Pose:
+    """Return the pose in which a camera sees a board's corners nearest to (rows, cols, 2) px.
+
+    A hand that follows a picture goes there, however wrong the camera is taken to be so far.
+    """
+    return locate_board(camera, (goal.reshape(-1, 2), board.points())).pose
 
 
 def go(start: Pose, end: Pose, steps: int) -> Iterator[Pose]:

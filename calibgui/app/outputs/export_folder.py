@@ -101,13 +101,14 @@ def format_page(result: Result, outcomes: list[ExportOutcome]) -> str:
         exporter = one.exporter
         if one.report is not None:
             facts = [exporter.readers, exporter.keeps, exporter.loses]
-            lines.append(f"| {' | '.join([one.file, *facts, _format_error(one.report)])} |")
+            lines.append(f"| {' | '.join([one.file, *facts, format_error(one.report)])} |")
     if refused := [one for one in outcomes if one.report is None]:
         lines += ["", "Not written:", "", *(f"- {one.file}: {one.reason}" for one in refused)]
     return "\n".join(lines) + "\n"
 
 
-def _format_error(report: ExportReport) -> str:
+def format_error(report: ExportReport) -> str:
+    """Format the largest error of a file, px, to two digits; "none" if nothing was refitted."""
     error = report.largest_error_px
     if error is None:
         return "none"

@@ -15,6 +15,7 @@ from pathlib import Path
 
 import numpy as np
 from PIL import Image, ImageDraw, ImageFont
+from PIL.PngImagePlugin import PngInfo
 
 from calibgui.engine import opencv
 from calibgui.engine.arrays import Array, GridSize
@@ -32,6 +33,7 @@ from calibgui.engine.boards import (
 )
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.files import write_atomically
+from calibgui.formats.origin import FIGURE, make_mark
 from calibgui.report.boards import describe_board
 
 PAPER_SIZES_MM = {
@@ -105,6 +107,7 @@ class Page:
         return (
             f'<svg xmlns="http://www.w3.org/2000/svg" width="{width}mm" height="{height}mm" '
             f'viewBox="0 0 {width} {height}">\n'
+            f"<!-- {make_mark(FIGURE)} -->\n"
             f'<rect width="{width}" height="{height}" fill="white"/>\n'
             f'<g fill="black" shape-rendering="crispEdges">\n{shapes}</g>\n'
             f'<g fill="white">\n{blanks}</g>\n{text}</svg>\n'
@@ -160,7 +163,9 @@ class Page:
             text = line.replace("×", "x")  # which the font lacks
             ImageDraw.Draw(image).text((scale * x, scale * y), text, 0, font, anchor="ls")
         file = io.BytesIO()
-        image.save(file, "PNG", dpi=(_DOTS_PER_INCH, _DOTS_PER_INCH))
+        mark = PngInfo()
+        mark.add_text("Software", make_mark(FIGURE))
+        image.save(file, "PNG", dpi=(_DOTS_PER_INCH, _DOTS_PER_INCH), pnginfo=mark)
         return file.getvalue()
 
     def _place_lines(self) -> Iterator[tuple[float, float, str]]:
@@ -367,7 +372,7 @@ def write_page(content: Page, path: Path) -> None:
 
 def _assemble_pdf(objects: list[bytes]) -> bytes:
     """Assemble a PDF file from numbered objects, the first of which is the catalogue."""
-    content = b"%PDF-1.4\n"
+    content = f"%PDF-1.4\n% {make_mark(FIGURE)}\n".encode()
     places = []
     for number, body in enumerate(objects, start=1):
         places.append(len(content))

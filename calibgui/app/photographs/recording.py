@@ -3,16 +3,19 @@
 from __future__ import annotations
 
 import tempfile
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
 from pathlib import Path
+from queue import SimpleQueue
 from typing import NamedTuple
 
 from calibgui.app.photographs.board_recognition import find_any_board
 from calibgui.app.photographs.detection import Detection, find_views
+from calibgui.app.system.workers import do_tasks_here
 from calibgui.dataset import View, ViewStatus
-from calibgui.engine.arrays import GreyImage, GridSize
+from calibgui.engine.arrays import Array, GreyImage, GridSize
 from calibgui.engine.boards import Pattern
-from calibgui.engine.capture import CaptureSession, CaptureState, FrameSource, Picture
+from calibgui.engine.capture import CaptureSession, CaptureState, Frame, FrameSource, Picture
 from calibgui.engine.detection import find_corners
 from calibgui.engine.errors import CalibrationError, NoBoardError
 from calibgui.engine.features import Corners
@@ -60,7 +63,8 @@ class BoardFinder:
             def search(pattern: Pattern, grid_size: GridSize | None) -> Detection:
                 return find_views([file], grid_size, pattern=pattern)
 
-            found = find_any_board(search, self._grid_size)
+            with do_tasks_here():  # a process for a single image would only be waited for
+                found = find_any_board(search, self._grid_size)
         (view,) = found.views
         if not view.usable:
             raise NoBoardError(view.reason)
@@ -72,6 +76,25 @@ class RecordedFrame(NamedTuple):
 
     state: CaptureState
     file: Path | None
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class CaptureProgress:
+    """What was taken, and how far the camera is known by it."""
+
+    pictures: Mapping[Path, Picture]
+    """The pictures that count, by the files that they were written to."""
+    worst: float
+    """Uncertainty of the worst pixel's projection, px; infinite while it is not known."""
+    is_complete: bool
+    """True if the camera is known as well as was asked for."""
+    tilts: Array
+    """(n, 3) normals of the boards towards the camera, in its frame."""
+    unseen_error: float
+    """Rms distance, px, of corners that were put aside from where the camera expects them; NaN if
+    there are none."""
+    unseen_corners: int
+    """Number of such corners."""
 
 
 def check_recording_folder(folder: Path) -> None:
@@ -86,58 +109,104 @@ def check_recording_folder(folder: Path) -> None:
         )
 
 
-def record_pictures(
-    source: FrameSource,
-    session: CaptureSession,
-    folder: Path,
-    should_stop: Callable[[], bool],
-) -> Iterator[RecordedFrame]:
-    """Look at the frames of a source until the capture is complete, and write what is taken.
+class Recorder:
+    """Looks at frames of a source, and writes those that are taken.
+
+    What is asked of it, from any thread, is done between two frames.
 
     Args:
-        source: where the frames come from.
-        session: looks at them; it keeps what was taken when this ends or fails.
+        session: looks at them; it keeps what was taken when the source ends or fails.
         folder: where the pictures are written; it is made if there is none.
-        should_stop: says whether the user wants it to end.
-
-    Raises:
-        CalibrationError: if the source fails, its images change their size, or a picture cannot be
-            written.
     """
-    while not (session.is_complete or should_stop()):
-        frame = source.read()
-        if frame is None:
-            return
-        state = session.observe(frame) if source.is_continuous else session.examine(frame)
-        number = len(session.pictures)
-        file = None if state.taken is None else _write(state.taken, folder, number)
-        yield RecordedFrame(state, file)
 
+    def __init__(self, session: CaptureSession, folder: Path) -> None:
+        self._session, self._folder = session, folder
+        self._files: dict[Path, Picture] = {}
+        """All pictures that were written, also those that were taken back."""
+        self._is_wanted = False
+        self._turned: SimpleQueue[Path] = SimpleQueue()
 
-def list_recorded_views(session: CaptureSession, folder: Path) -> tuple[View, ...]:
-    """List the views of the pictures that were written, with their corners."""
-    return tuple(
-        View(
-            image=str(folder / _NAME.format(k)),
-            status=ViewStatus.FOUND,
-            corners=picture.corners,
+    def ask_for_picture(self) -> None:
+        """Take the next frame that shows a sharp board, whatever it adds."""
+        self._is_wanted = True
+
+    def ask_to_turn(self, file: Path) -> None:
+        """Take a picture back, or again; its file stays."""
+        self._turned.put(file)
+
+    def record(
+        self, source: FrameSource, should_stop: Callable[[], bool]
+    ) -> Iterator[RecordedFrame]:
+        """Look at frames until the capture is complete.
+
+        Args:
+            source: where the frames come from.
+            should_stop: says whether the user wants it to end.
+
+        Raises:
+            CalibrationError: if the source fails, its images change their size, or a picture
+                cannot be written.
+        """
+        while not (self._session.is_complete or should_stop()):
+            frame = source.read()
+            if frame is None:
+                return
+            self._turn_pictures()
+            yield self._look_at(frame, is_film=source.is_continuous)
+
+    def measure_progress(self) -> CaptureProgress:
+        """Measure how far the camera is known; between two frames."""
+        session, counting = self._session, set(self._session.pictures)
+        aside = [each for each in session.pictures if each.for_validation]
+        return CaptureProgress(
+            {file: each for file, each in self._files.items() if each in counting},
+            session.worst,
+            session.is_complete,
+            session.compute_tilts(),
+            session.measure_unseen_error(),
+            sum(len(each.corners) for each in aside) if session.calibration else 0,
         )
-        for k, picture in enumerate(session.pictures, 1)
-    )
+
+    def list_views(self) -> tuple[View, ...]:
+        """List the views of the pictures that count, with their corners."""
+        return tuple(
+            View(image=str(file), status=ViewStatus.FOUND, corners=picture.corners)
+            for file, picture in self.measure_progress().pictures.items()
+        )
+
+    def _look_at(self, frame: Frame, *, is_film: bool) -> RecordedFrame:
+        session, is_wanted = self._session, self._is_wanted
+        self._is_wanted = False
+        state = session.observe(frame) if is_film else session.examine(frame)
+        if is_wanted and state.taken is None:
+            state = session.examine(frame)
+        if state.taken is None:
+            return RecordedFrame(state, None)
+        file = self._folder / _NAME.format(len(self._files) + 1)
+        _write(state.taken, file)
+        self._files[file] = state.taken
+        return RecordedFrame(state, file)
+
+    def _turn_pictures(self) -> None:
+        """Take pictures back, or again, as was asked for."""
+        while not self._turned.empty():
+            picture = self._files[self._turned.get()]
+            if picture in self._session.pictures:
+                self._session.remove(picture)
+            else:
+                self._session.restore(picture)
 
 
-def _write(picture: Picture, folder: Path, number: int) -> Path:
+def _write(picture: Picture, file: Path) -> None:
     """Write a picture.
 
     Raises:
         CalibrationError: if the disk refuses it.
     """
-    file = folder / _NAME.format(number)
     try:
-        folder.mkdir(parents=True, exist_ok=True)
+        file.parent.mkdir(parents=True, exist_ok=True)
     except OSError as error:
         raise CalibrationError(
-            f"{folder} cannot be made: {error.strerror or error}.", "State another folder: -o."
+            f"{file.parent} cannot be made: {error.strerror or error}.", "State another folder."
         ) from error
     write_image(file, picture.frame.image)
-    return file

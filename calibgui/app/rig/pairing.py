@@ -13,11 +13,11 @@ from __future__ import annotations
 
 import re
 from collections import Counter, defaultdict
-from collections.abc import Hashable, Mapping, Sequence
+from collections.abc import Collection, Hashable, Mapping, Sequence
 from pathlib import Path
 
 from calibgui.app.photographs.paths import count_images_below, find_images, make_natural_key
-from calibgui.dataset import CameraPhotographs, RigPairing
+from calibgui.dataset import CameraPhotographs, RigPairing, RigResult
 from calibgui.engine.errors import CalibrationError
 
 _PARTS = re.compile(r"\d+|[^\W\d_]+")
@@ -82,6 +82,71 @@ def pair_files(groups: Mapping[str, Sequence[Path]]) -> RigPairing:
         for camera, files in keyed.items()
     )
     return RigPairing(cameras, {number[key]: str(key) for key in keys}, how)
+
+
+def move_photographs(
+    pairing: RigPairing, camera: int, instants: Collection[int], step: int
+) -> RigPairing:
+    """Move photographs of a camera to the instants before or after theirs.
+
+    A photograph that stands there and is not moved takes the place that becomes free. Beyond the
+    first and the last instant a new one is made.
+
+    Args:
+        pairing: the cameras and instants.
+        camera: number of the camera.
+        instants: numbers of the instants whose photographs are moved.
+        step: 1 to later instants, -1 to earlier ones.
+    """
+    photographs = pairing.cameras[camera]
+    order, files = list(pairing.instants), dict(photographs.files)
+    names = dict(pairing.instants)
+    moved = [instant for instant in order if instant in files and instant in instants]
+    for instant in reversed(moved) if step > 0 else moved:
+        place = order.index(instant) + step
+        if not 0 <= place < len(order):
+            new = max(order) + 1 if step > 0 else min(order) - 1
+            order.insert(len(order) if step > 0 else 0, new)
+            names[new] = files[instant].stem
+            place = order.index(new)
+        there = files.pop(order[place], None)
+        files[order[place]] = files.pop(instant)
+        if there is not None:
+            files[instant] = there
+    return _replace_files(pairing, camera, files, {instant: names[instant] for instant in order})
+
+
+def leave_photographs_out(
+    pairing: RigPairing, camera: int, instants: Collection[int]
+) -> RigPairing:
+    """Return a pairing without photographs of a camera at these instants."""
+    files = pairing.cameras[camera].files
+    kept = {instant: file for instant, file in files.items() if instant not in instants}
+    return _replace_files(pairing, camera, kept, pairing.instants)
+
+
+def _replace_files(
+    pairing: RigPairing, camera: int, files: Mapping[int, Path], instants: Mapping[int, str]
+) -> RigPairing:
+    """Return a pairing with other photographs of a camera, in the order of the instants.
+
+    Instants of which there is no photograph any more are dropped.
+    """
+    cameras = list(pairing.cameras)
+    in_order = {instant: files[instant] for instant in instants if instant in files}
+    cameras[camera] = CameraPhotographs(cameras[camera].name, in_order)
+    seen = {instant for each in cameras for instant in each.files}
+    kept = {instant: name for instant, name in instants.items() if instant in seen}
+    return RigPairing(tuple(cameras), kept, pairing.how)
+
+
+def recall_pairing(result: RigResult) -> RigPairing:
+    """Return the pairing that a rig was made from, as far as its file tells."""
+    cameras = []
+    for c, name in enumerate(result.rig.names):
+        files = {i: Path(image) for (of, i), image in result.images.items() if of == c}
+        cameras.append(CameraPhotographs(name, dict(sorted(files.items()))))
+    return RigPairing(tuple(cameras), result.instants, "names")
 
 
 def _sort_items(files: Mapping[Hashable, Path]) -> list[tuple[Hashable, Path]]:

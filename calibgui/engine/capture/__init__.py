@@ -12,6 +12,7 @@ from calibgui.engine.faces import load_on_demand
 
 if TYPE_CHECKING:
     from calibgui.engine.capture.board_tracking import track_corners as track_corners
+    from calibgui.engine.capture.cameras import list_cameras as list_cameras
     from calibgui.engine.capture.frame_sources import (
         Frame as Frame,
         FrameSource as FrameSource,
@@ -19,6 +20,7 @@ if TYPE_CHECKING:
         open_source as open_source,
     )
     from calibgui.engine.capture.guidance import Guidance as Guidance, guide_board as guide_board
+    from calibgui.engine.capture.latest_frames import LatestFrames as LatestFrames
     from calibgui.engine.capture.session import (
         CaptureSession as CaptureSession,
         CaptureState as CaptureState,
@@ -29,8 +31,10 @@ load_on_demand(
     __name__,
     {
         "board_tracking": ["track_corners"],
+        "cameras": ["list_cameras"],
         "frame_sources": ["Frame", "FrameSource", "Opened", "open_source"],
         "guidance": ["Guidance", "guide_board"],
+        "latest_frames": ["LatestFrames"],
         "session": ["CaptureSession", "CaptureState", "Picture"],
     },
 )

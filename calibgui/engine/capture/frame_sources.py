@@ -39,6 +39,8 @@ class FrameSource(Protocol):
     """What it is called in messages."""
     is_continuous: bool
     """True if frames follow each other as in a film; False if each is a photograph by itself."""
+    is_live: bool
+    """True if a frame that nobody reads in time is lost, as those of cameras are."""
 
     def read(self) -> Frame | None:
         """Return the next frame, or None if there is none any more.
@@ -69,7 +71,7 @@ class _Opened:
 class VideoSource(_Opened):
     """Every frame of a video file, with the times at which it shows them."""
 
-    is_continuous = True
+    is_continuous, is_live = True, False
 
     def __init__(self, path: Path) -> None:
         self.title = str(path)
@@ -90,7 +92,7 @@ class CameraSource(_Opened):
         CalibrationError: if it cannot be opened.
     """
 
-    is_continuous = True
+    is_continuous = is_live = True
 
     def __init__(self, which: int | str) -> None:
         self.title = f"camera {which}" if isinstance(which, int) else which
@@ -125,23 +127,27 @@ class FolderSource(_Opened):
         patience: time without a new photograph after which no more is expected, s.
     """
 
-    is_continuous = False
+    is_continuous = is_live = False
 
     def __init__(self, folder: Path, patience: float) -> None:
         self.title = str(folder)
         self._folder, self._patience = folder, patience
+        self._is_closed = False
         self._files = self._wait_for_files()
 
     def read(self) -> Frame | None:
         file = next(self._files, None)
         return None if file is None else Frame(read_image(file).pixels, time.monotonic())
 
+    def close(self) -> None:
+        self._is_closed = True
+
     def _wait_for_files(self) -> Iterator[Path]:
         """Wait for files whose size no longer changes."""
         sizes: dict[Path, int] = {}
         given: set[Path] = set()
         last = time.monotonic()
-        while time.monotonic() - last < self._patience:
+        while time.monotonic() - last < self._patience and not self._is_closed:
             for file in sorted(self._folder.iterdir()):
                 if file in given or file.suffix.lower() not in FORMATS:
                     continue

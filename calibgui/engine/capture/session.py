@@ -21,6 +21,7 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import dataclass
 
 import numpy as np
@@ -31,6 +32,7 @@ from calibgui.engine.calibration.board_poses import locate_board
 from calibgui.engine.calibration.calibrate import calibrate
 from calibgui.engine.calibration.observations import Observation, make_observation
 from calibgui.engine.calibration.result import Calibration, DegenerateError
+from calibgui.engine.camera.distortion import project_points
 from calibgui.engine.capture.board_tracking import track_corners
 from calibgui.engine.capture.frame_sources import Frame
 from calibgui.engine.capture.guidance import guide_board
@@ -38,6 +40,7 @@ from calibgui.engine.detection.detector_io import check_grey_levels
 from calibgui.engine.errors import CalibrationError, NoBoardError
 from calibgui.engine.features.corners import Corners
 from calibgui.engine.geometry.pose import Pose
+from calibgui.engine.geometry.rotations import rotation_from_vector
 from calibgui.engine.uncertainty.next_view import (
     NextView,
     predict_uncertainty,
@@ -90,6 +93,8 @@ class CaptureState:
     """The board in the frame; None if there is none."""
     wanted: NextView | None
     """The view to take next; None before the first picture, and when the capture is complete."""
+    goal: Array | None
+    """(rows, cols, 2) px, where that view shows the corners; None if there is none."""
     match: float
     """How near the board is to it, 0 to 1."""
     instruction: str
@@ -121,6 +126,8 @@ class CaptureSession:
         self._size: Size | None = None
         self.wanted: NextView | None = None
         """The view to take next; None before the first picture, and at the end."""
+        self.goal: Array | None = None
+        """(rows, cols, 2) px, where that view shows the corners; None if there is none."""
         self._before: GreyImage | None = None
         self._corners: Corners | None = None
         self._found_at = -np.inf
@@ -209,8 +216,33 @@ class CaptureSession:
         is_aside = len(self.pictures) % _VALIDATION_EVERY == _VALIDATION_EVERY - 1
         picture = Picture(frame, corners, observation, is_aside)
         self.pictures.append(picture)
-        self._learn()
+        if not is_aside:
+            self._learn()
         return picture
+
+    def remove(self, picture: Picture) -> None:
+        """Take a picture back: the camera is calibrated without it.
+
+        Raises:
+            ValueError: if it was not taken.
+        """
+        self.pictures.remove(picture)
+        self._learn()
+
+    def restore(self, picture: Picture) -> None:
+        """Take a picture again that was taken back."""
+        self.pictures.append(picture)
+        self._learn()
+
+    def compute_tilts(self) -> Array:
+        """Compute the normals (n, 3) of the boards, in the camera's frame, towards the camera.
+
+        They are those of the pictures that the camera is calibrated from.
+        """
+        if self.calibration is None:
+            return np.empty((0, 3))
+        poses = self.calibration.poses
+        return np.array([-rotation_from_vector(np.array(pose.rvec))[:, 2] for pose in poses])
 
     def measure_unseen_error(self) -> float:
         """Measure the rms distance, px, of corners put aside from where the camera expects them.
@@ -226,7 +258,7 @@ class CaptureSession:
     def _state(
         self, instruction: str, match: float = 0.0, taken: Picture | None = None
     ) -> CaptureState:
-        return CaptureState(self._corners, self.wanted, match, instruction, taken)
+        return CaptureState(self._corners, self.wanted, self.goal, match, instruction, taken)
 
     def _check_size(self, grey: GreyImage) -> None:
         size = (grey.shape[1], grey.shape[0])
@@ -299,21 +331,21 @@ class CaptureSession:
     def _learn(self) -> None:
         """Calibrate with what was taken, and propose the next view."""
         assert self._size is not None
-        if self.pictures[-1].for_validation:
-            return
         views = self.views
-        self.calibration = _calibrate(views, self._size)
+        self.calibration = _calibrate(views, self._size) if views else None
+        self.worst, self.wanted, self.goal = np.inf, None, None
         if self.calibration is None:
             return
         if self.calibration.diagnosis is None:
             self.worst = estimate_projection_uncertainty(self.calibration, views).worst
         if self.is_complete:
-            self.wanted = None
             return
-        try:
+        assert self._board is not None
+        with suppress(CalibrationError):
             (self.wanted,) = propose_views(self.calibration, views, 1, _LOSS)
-        except CalibrationError:
-            self.wanted = None
+            corners = self._board.points()
+            goal = project_points(corners, self.calibration.camera, self.wanted.pose)
+            self.goal = goal.reshape(*self._board.grid_size, 2)
 
 
 def _calibrate(views: list[Observation], size: Size) -> Calibration | None:

@@ -106,6 +106,13 @@ class PrintDialog(QDialog):
         self.save = buttons.addButton(self.tr("&Save…"), QDialogButtonBox.ButtonRole.ActionRole)
         self.save.setDefault(True)
         self.save.clicked.connect(self._ask_and_save)
+        self.show_on_screen = buttons.addButton(
+            self.tr("Show on this scr&een"), QDialogButtonBox.ButtonRole.ActionRole
+        )
+        self.show_on_screen.setToolTip(
+            self.tr("As large as the screen holds it: a screen is flat, and needs no printer")
+        )
+        self.show_on_screen.clicked.connect(self._show_on_screen)
         middle = QHBoxLayout()
         middle.addLayout(form)
         middle.addWidget(self.preview, 1)
@@ -128,10 +135,24 @@ class PrintDialog(QDialog):
 
     def make_sheet(self) -> Page:
         """The sheet as chosen. Raises CalibrationError if it does not fit the paper."""
+        return lay_out_page(self._make_board(), self.paper.currentText())
+
+    def _make_board(self) -> Board:
+        """Return the board as chosen. Raises CalibrationError if there is no such board."""
         pattern = self.pattern.pattern
         grid_size = count_points(pattern, (self.rows.value(), self.cols.value()))
-        board = Board(*grid_size, self.square.value(), complete_pattern(pattern, grid_size))
-        return lay_out_page(board, self.paper.currentText())
+        return Board(*grid_size, self.square.value(), complete_pattern(pattern, grid_size))
+
+    def _show_on_screen(self) -> None:
+        from calibgui.gui.dialogs.board_screen import BoardScreen
+
+        try:
+            screen = BoardScreen(self._make_board(), self.parentWidget())
+            screen.setGeometry(self.screen().geometry())  # no window manager may do it
+            screen.showFullScreen()
+            self.accept()
+        except CalibrationError as error:
+            self.words.setText(str(error))
 
     def _refresh(self) -> None:
         colours = theme.current()

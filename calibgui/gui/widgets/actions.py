@@ -91,15 +91,22 @@ def add_close_button(dialog: QDialog) -> QDialogButtonBox:
     return buttons
 
 
-def show_dialog(dialog: QDialog) -> None:
+def show_dialog(dialog: QDialog, *, is_modal: bool = True) -> None:
     """Open a dialog over its window, no larger than the screen.
 
     It ceases to exist when it is closed.
+
+    Args:
+        dialog: the dialog.
+        is_modal: whether the window waits until it is closed.
     """
     dialog.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
     screen = dialog.screen().availableSize() - QSize(*[_FRAME] * 2)
     dialog.resize(dialog.size().boundedTo(screen))
-    dialog.open()
+    if is_modal:
+        dialog.open()
+    else:
+        dialog.show()
 
 
 _FRAME = 40

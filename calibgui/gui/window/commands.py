@@ -50,6 +50,8 @@ class Commands(QObject):
         list_pages: Callable[[], Sequence[Page]],
         find_action: Callable[[], object],
         take_tour: Callable[[], object],
+        photograph: Callable[[], object],
+        show_rig: Callable[[], object],
     ) -> Sequence[Menu]:
         """Return the menus from left to right.
 
@@ -62,9 +64,11 @@ class Commands(QObject):
             list_pages: returns what the window can show now.
             find_action: opens the palette of all actions.
             take_tour: points at one part of the window after another.
+            photograph: opens the page on which photographs are taken live.
+            show_rig: opens the page of several cameras.
         """
         return (
-            self._describe_file(leave),
+            self._describe_file(leave, photograph, show_rig),
             self._describe_edit(),
             Menu(
                 self.tr("&Images"),
@@ -82,7 +86,12 @@ class Commands(QObject):
             self._describe_help(find_action, take_tour),
         )
 
-    def _describe_file(self, leave: Callable[[], object]) -> Menu:
+    def _describe_file(
+        self,
+        leave: Callable[[], object],
+        photograph: Callable[[], object],
+        show_rig: Callable[[], object],
+    ) -> Menu:
         files = self._files
         return Menu(
             self.tr("&File"),
@@ -135,6 +144,17 @@ class Commands(QObject):
                     shortcut="Ctrl+Shift+I",
                     tip=self.tr("Take all images of a folder"),
                     run=files.ask_for_folder,
+                ),
+                Command(
+                    text=self.tr("P&hotograph live…"),
+                    shortcut="Ctrl+L",
+                    tip=self.tr("Take photographs with a camera that says where to hold the board"),
+                    run=photograph,
+                ),
+                Command(
+                    text=self.tr("Several &cameras…"),
+                    tip=self.tr("Calibrate cameras that stand fast to each other: a rig"),
+                    run=show_rig,
                 ),
                 None,
                 Command(
@@ -217,11 +237,15 @@ class Commands(QObject):
         if (copier := find_copier(self._parent, name)) is not None:
             copier.trigger()
 
-    def _help(self) -> None:
-        """Show how it works."""
-        from calibgui.gui.dialogs.help_dialog import HelpDialog
+    def _show_manual(self) -> None:
+        """Show the manual beside the window, or bring it to the front."""
+        from calibgui.gui.dialogs.manual_dialog import ManualDialog
 
-        show_dialog(HelpDialog(self._parent))
+        manual = self._parent.findChild(ManualDialog)
+        if manual is None:
+            manual = ManualDialog(self._parent)
+            show_dialog(manual, is_modal=False)
+        manual.activateWindow()
 
     def _describe_calibration(
         self,
@@ -335,10 +359,10 @@ class Commands(QObject):
             self.tr("&Help"),
             (
                 Command(
-                    text=self.tr("&How it works"),
+                    text=self.tr("&Manual"),
                     shortcut=Key.HelpContents,
-                    tip=self.tr("The workflow on one page"),
-                    run=self._help,
+                    tip=self.tr("How to photograph, what a message means, who reads which file"),
+                    run=self._show_manual,
                 ),
                 Command(
                     text=self.tr("Take the &tour"),

@@ -54,6 +54,7 @@ class Welcome(QScrollArea):
     images_wanted = Signal()
     sample_wanted = Signal()
     tour_wanted = Signal()
+    camera_wanted = Signal()
     board_wanted = Signal()
     recent_wanted = Signal(Path)
     """A recent project's file or folder of images is to be opened."""
@@ -75,6 +76,11 @@ class Welcome(QScrollArea):
                 self.tr("Corners are found and the camera is calibrated at once."),
                 self.folder_wanted,
             ),
+            self._link(
+                self.tr("&Photograph live"),
+                self.tr("With a camera: it says where to hold the board, and when it is enough."),
+                self.camera_wanted,
+            ),
             self._link(self.tr("&Add images"), self.tr("Choose single files."), self.images_wanted),
             self._link(
                 self.tr("Open the &sample"),
@@ -82,12 +88,12 @@ class Welcome(QScrollArea):
                 self.sample_wanted,
             ),
             self._link(
-                self.tr("&Take the tour"),
+                self.tr("Take the to&ur"),
                 self.tr("Two minutes on the sample; it can be left at any step."),
                 self.tour_wanted,
             ),
             self._link(
-                self.tr("&Print a board"),
+                self.tr("Prin&t a board"),
                 self.tr("A checkerboard, or one of the other kinds, in true size."),
                 self.board_wanted,
             ),
@@ -185,7 +191,7 @@ class Welcome(QScrollArea):
 
     def _restyle(self) -> None:
         """Draw the icons in the theme's colour."""
-        icons = Icon.FOLDER, Icon.PICTURE, Icon.BOARD, Icon.PLAY, Icon.PRINTER
+        icons = Icon.FOLDER, Icon.CAMERA, Icon.PICTURE, Icon.BOARD, Icon.PLAY, Icon.PRINTER
         for button, icon in zip(self.buttons, icons, strict=True):
             button.setIcon(draw_icon(icon))
 

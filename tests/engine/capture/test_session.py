@@ -20,7 +20,7 @@ from calibgui.engine.errors import CalibrationError
 from calibgui.engine.features.corners import Corners
 from calibgui.engine.geometry.pose import Pose
 from calibgui.engine.uncertainty.projection_uncertainty import estimate_projection_uncertainty
-from tests.scenes.hand import Film, go, shake
+from tests.scenes.hand import Film, follow, go, shake
 
 CAMERA = Camera((320, 240), [300, 300, 157, 122, -0.2, 0.05, 0, 0, 0], "brown-conrady")
 BOARD = Board(6, 8, 20.0)
@@ -61,7 +61,9 @@ def test_a_hand_that_follows_ends_the_capture(session: CaptureSession, film: Fil
     pose, taken = FIRST, []
     state = session.observe(film.take(pose))
     while not session.is_complete and len(session.pictures) < 20:
-        wanted = FIRST if state.wanted is None else shake(state.wanted.pose, BOARD, rng, 10, 3)
+        wanted = FIRST
+        if state.goal is not None:
+            wanted = shake(follow(state.goal, CAMERA, BOARD), BOARD, rng, 10, 3)
         for each in go(pose, wanted, 3):
             state = session.observe(film.take(each))
             assert state.taken is None

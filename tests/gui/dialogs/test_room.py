@@ -13,7 +13,7 @@ from pytestqt.qtbot import QtBot
 from calibgui.gui.dialogs.bug_dialog import BugDialog
 from calibgui.gui.dialogs.export_dialog import ExportDialog
 from calibgui.gui.dialogs.fleet_dialog import FleetDialog
-from calibgui.gui.dialogs.help_dialog import HelpDialog
+from calibgui.gui.dialogs.manual_dialog import ManualDialog
 from calibgui.gui.dialogs.print_dialog import PrintDialog
 from calibgui.gui.dialogs.series_dialog import SeriesDialog
 from calibgui.gui.window.main_window import MainWindow
@@ -36,10 +36,10 @@ def make_export(window: MainWindow) -> QDialog:
         lambda window: PrintDialog(window.session.project.board, window),
         lambda window: SeriesDialog(window.session.jobs, window),
         lambda window: FleetDialog(Path("f.db"), make_overview([]), lambda *_: False, window),
-        lambda window: HelpDialog(window),
+        lambda window: ManualDialog(window),
         lambda window: BugDialog(ValueError("by design"), window),
     ],
-    ids=["export", "print", "series", "fleet", "help", "bug"],
+    ids=["export", "print", "series", "fleet", "manual", "bug"],
 )
 def test_no_text_is_clipped(
     full: MainWindow, qtbot: QtBot, make: Callable[[MainWindow], QDialog]

@@ -8,7 +8,6 @@ import pytest
 from PySide6.QtCore import Qt
 from pytestqt.qtbot import QtBot
 
-from calibgui.gui.dialogs.help_dialog import HelpDialog
 from calibgui.gui.panels.analysis import PANELS
 from calibgui.gui.panels.panel import Panel
 from calibgui.gui.widgets.glossary import explain, list_terms
@@ -68,11 +67,3 @@ def test_headings_and_axes_say_what_they_mean(
         for name, label in plot._labels.items():
             axis = plot.area.axes[name]
             assert axis.toolTip() or plot.toolTip() or label in ("", "view"), label
-
-
-def test_help_lists_the_words(qtbot: QtBot) -> None:
-    dialog = HelpDialog()
-    qtbot.addWidget(dialog)
-    text = dialog.text.toPlainText()
-    for term, sentence in list_terms().items():
-        assert term in text and sentence in text

@@ -53,7 +53,7 @@ def test_an_empty_window_takes_it_on_the_sample(
 ) -> None:
     opened: list[int] = []
     monkeypatch.setattr(window.files, "open_sample", lambda: opened.append(1))
-    window.welcome.buttons[3].click()
+    window.welcome.buttons[4].click()
     assert opened == [1]
     assert window._tour is not None
     window._tour.leave()

@@ -1,0 +1,399 @@
+"""The page on which photographs are taken live: the camera tells which is wanted next.
+
+A job reads the source and looks at its frames; a timer shows the newest one, so that the image goes
+on while a picture is calibrated. What was taken is on the disk at once.
+"""
+
+from __future__ import annotations
+
+import math
+from datetime import datetime
+from pathlib import Path
+from typing import NamedTuple
+
+from PySide6.QtCore import QStandardPaths, Qt, QTimer, Signal
+from PySide6.QtGui import QColor, QHideEvent, QKeySequence, QPainter, QPaintEvent, QShortcut
+from PySide6.QtWidgets import (
+    QApplication,
+    QCheckBox,
+    QComboBox,
+    QDoubleSpinBox,
+    QFileDialog,
+    QFormLayout,
+    QHBoxLayout,
+    QLabel,
+    QProgressBar,
+    QStackedWidget,
+    QVBoxLayout,
+    QWidget,
+)
+
+from calibgui.app.photographs.recording import (
+    BoardFinder,
+    CaptureProgress,
+    RecordedFrame,
+    Recorder,
+    check_recording_folder,
+)
+from calibgui.dataset import DEFAULT_SQUARE
+from calibgui.engine.capture import (
+    CaptureSession,
+    LatestFrames,
+    list_cameras,
+    open_source,
+)
+from calibgui.engine.errors import CalibrationError
+from calibgui.engine.numbers import format_two_digits
+from calibgui.gui.jobs.job import Job
+from calibgui.gui.jobs.jobs import Jobs
+from calibgui.gui.live.live_view import LiveView
+from calibgui.gui.live.progress_figure import ProgressFigure
+from calibgui.gui.live.taken_strip import TakenStrip
+from calibgui.gui.widgets import theme
+from calibgui.gui.widgets.buttons import Button, Kind
+from calibgui.gui.widgets.elided import ElidedLabel
+from calibgui.gui.widgets.kept_settings import keep, read_kept_text
+from calibgui.gui.widgets.wrapped_label import WrappedLabel
+
+_SIDE = 340
+"""Width of what stands at the right, device-independent px."""
+_LIMIT = 0.1
+"""Uncertainty of the worst pixel that is asked for unless another is stated, px."""
+_FRAME = 33
+"""Time between two looks for a new image, ms."""
+_UNNAMED = 4
+"""Number of cameras that are offered by number where the system names none."""
+_SOUND = "capture/sound"
+_SILENT = "silent"
+
+
+class _Seen(NamedTuple):
+    """What the job tells of a frame."""
+
+    recorded: RecordedFrame
+    progress: CaptureProgress
+
+
+class LivePage(QWidget):
+    """Begin, photograph, and calibrate with what was taken.
+
+    Args:
+        jobs: that look at the frames.
+    """
+
+    pictures_wanted = Signal(list)
+    """The pictures in these files are to be calibrated from."""
+    left = Signal()
+
+    def __init__(self, jobs: Jobs) -> None:
+        super().__init__()
+        self._jobs = jobs
+        self._job: Job | None = None
+        self.session: CaptureSession | None = None
+        """What looks at the frames; None before the start."""
+        self._recorder: Recorder | None = None
+        self._frames: LatestFrames | None = None
+        self._has_failed = False
+        self._shown: object = None
+        """The image that is on the screen."""
+        self.folder = Path()
+        """Where the pictures are written."""
+        self.view, self.strip, self.figure = LiveView(), TakenStrip(), ProgressFigure(_LIMIT)
+        self._make_controls()
+        self._lay_out()
+        self._timer = QTimer(self, interval=_FRAME)
+        self._timer.timeout.connect(self._show_newest)
+        space = QShortcut(QKeySequence(Qt.Key.Key_Space), self)
+        space.setContext(Qt.ShortcutContext.WidgetWithChildrenShortcut)
+        space.activated.connect(self._take)
+        self.strip.turn_wanted.connect(self._turn)
+        self.offer()
+
+    def offer(self) -> None:
+        """Offer to begin, with the cameras that there are now."""
+        named = list_cameras()
+        self.source.clear()
+        for number in named or range(_UNNAMED):
+            name = self.tr("camera {0}").format(number)
+            if number in named:
+                name = f"{name}, {named[number]}"
+            self.source.addItem(name, str(number))
+        self.folder = _name_folder()
+        self._show_folder()
+        self.session = self._recorder = None
+        self.strip.clear()
+        self.strip.hide()
+        self.figure.show_progress(None)
+        self.view.clear()
+        self.view.show_words(self.tr("Choose a camera, and press Start."))
+        self._stack.setCurrentIndex(0)
+        self._show_buttons()
+
+    @property
+    def is_running(self) -> bool:
+        """Return whether a camera is open."""
+        return self._job is not None
+
+    def stop(self) -> None:
+        """End the capture, and release the camera; what was taken stays."""
+        if self._job is not None:
+            self._job.stop()
+            if self._frames is not None:
+                self._frames.stop()
+
+    def _make_controls(self) -> None:
+        self.source = QComboBox()
+        self.source.setEditable(True)
+        self.source.setInsertPolicy(QComboBox.InsertPolicy.NoInsert)
+        self.source.setAccessibleName(self.tr("Camera"))
+        self.source.setToolTip(
+            self.tr(
+                "A camera at this computer, or the address of one in the network (rtsp://…, "
+                "http://…), or the folder that a camera's program fills"
+            )
+        )
+        self.limit = QDoubleSpinBox()
+        self.limit.setRange(0.01, 10.0)
+        self.limit.setSingleStep(0.05)
+        self.limit.setValue(_LIMIT)
+        self.limit.setSuffix(self.tr(" px"))
+        self.limit.setToolTip(
+            self.tr("It ends when the camera puts no pixel farther off, one standard deviation")
+        )
+        self.place, self.choose = ElidedLabel(), Button(self.tr("Choose…"))
+        self.choose.clicked.connect(self._choose_folder)
+        self.sound = QCheckBox(self.tr("A &sound for each picture"))
+        self.sound.setChecked(read_kept_text(_SOUND) != _SILENT)
+        self.sound.toggled.connect(lambda on: keep(_SOUND, "" if on else _SILENT))
+        self.start, self.take = Button(self.tr("&Start"), Kind.MAIN), Button()
+        self.take.setText(self.tr("&Take it now (space)"))
+        self.finish = Button(self.tr("&Finish"))
+        self.calibrate = Button(self.tr("&Calibrate with these"), Kind.MAIN)
+        self.go_on, self.leave = Button(self.tr("&Go on")), Button(self.tr("&Leave"))
+        self.match = QProgressBar()
+        self.match.setRange(0, 100)
+        self.match.setFormat(self.tr("%p % of the way to the yellow place"))
+        self.words = WrappedLabel()
+        for button, run in (
+            (self.start, self._begin),
+            (self.take, self._take),
+            (self.finish, self.stop),
+            (self.calibrate, lambda: self.pictures_wanted.emit(self.strip.list_files())),
+            (self.go_on, self._go_on),
+            (self.leave, self._leave),
+        ):
+            button.clicked.connect(run)
+
+    def _lay_out(self) -> None:
+        form = QWidget()
+        rows = QFormLayout(form)
+        rows.setContentsMargins(0, 0, 0, 0)
+        rows.setRowWrapPolicy(QFormLayout.RowWrapPolicy.WrapAllRows)
+        rows.addRow(self.tr("Camera, address or folder"), self.source)
+        rows.addRow(self.tr("Until the worst pixel is known to"), self.limit)
+        folder = QHBoxLayout()
+        folder.addWidget(self.place, 1)
+        folder.addWidget(self.choose)
+        rows.addRow(self.tr("Pictures are written to"), folder)
+        rows.addRow(
+            WrappedLabel(
+                self.tr(
+                    "Hold the whole board in the picture: its kind and size are found. The yellow "
+                    "shape shows where it is wanted next. When it is still, sharp and worth it, "
+                    "the picture is taken by itself; every fifth one is put aside to check the "
+                    "camera with. No board at hand? Calibration › Print a board shows one on a "
+                    "screen."
+                )
+            )
+        )
+        live = QWidget()
+        column = QVBoxLayout(live)
+        column.setContentsMargins(0, 0, 0, 0)
+        column.setSpacing(theme.SPACING)
+        column.addWidget(self.figure)
+        column.addWidget(self.match)
+        column.addWidget(self.words)
+        column.addStretch(1)
+        self._stack = QStackedWidget()
+        self._stack.addWidget(form)
+        self._stack.addWidget(live)
+        title = QLabel(self.tr("Photograph live"))
+        title.setFont(theme.make_font(theme.HEADLINE, bold=True))
+        side = QWidget()
+        side.setFixedWidth(_SIDE)
+        beside = QVBoxLayout(side)
+        beside.setContentsMargins(theme.MARGIN, 12, theme.MARGIN, 12)
+        beside.setSpacing(12)
+        beside.addWidget(title)
+        beside.addWidget(self._stack, 1)
+        beside.addWidget(self.sound)
+        for pair in ((self.start, self.calibrate), (self.take, self.finish, self.go_on)):
+            row = QHBoxLayout()
+            for button in pair:
+                row.addWidget(button)
+            if self.start in pair:
+                row.addStretch(1)
+                row.addWidget(self.leave)
+            else:
+                row.addStretch(1)
+            beside.addLayout(row)
+        whole = QHBoxLayout(self)
+        whole.setContentsMargins(0, 0, 0, 0)
+        whole.setSpacing(0)
+        whole.addWidget(self.strip)
+        whole.addWidget(self.view, 1)
+        whole.addWidget(side)
+
+    def _begin(self) -> None:
+        """Begin a capture as the form says."""
+        try:
+            check_recording_folder(self.folder)
+        except CalibrationError as error:
+            self.view.show_words(f"{error.message} {self.tr('Choose another one.')}")
+            return
+        self.figure.limit = self.limit.value()
+        self.session = CaptureSession(BoardFinder(None, None), DEFAULT_SQUARE, self.figure.limit)
+        self._recorder = Recorder(self.session, self.folder)
+        self.words.setText("")
+        self._record()
+
+    def _go_on(self) -> None:
+        """Take more pictures; of a camera that is known as well as was asked for, more is asked."""
+        if (session := self.session) is not None:
+            if session.is_complete:
+                session.limit = self.figure.limit = session.worst / 2
+            self._record()
+
+    def _record(self) -> None:
+        """Open the source, and look at its frames beside the window."""
+        recorder, text = self._recorder, self.source.currentText().strip()
+        index = self.source.findText(text)
+        name = self.source.itemData(index) if index >= 0 else text
+        assert recorder is not None
+
+        def work(job: Job) -> None:
+            frames = self._frames = LatestFrames(open_source(name, math.inf))
+            try:
+                for recorded in recorder.record(frames, lambda: job.stopping):
+                    job.send(_Seen(recorded, recorder.measure_progress()))
+            finally:
+                frames.close()
+
+        self.view.clear()
+        self.view.show_words(self.tr("Opening…"))
+        self.strip.show()
+        self._stack.setCurrentIndex(1)
+        self._job = self._jobs.start(
+            "",
+            work,
+            received=self._show_seen,
+            failed=self._show_failure,
+            ended=self._end,
+            is_about_document=False,
+            owner=self,
+        )
+        self._timer.start()
+        self._show_buttons()
+        self.view.setFocus()
+
+    def _show_newest(self) -> None:
+        """Show the newest image, if there is another one."""
+        frame = None if self._frames is None else self._frames.newest
+        if frame is not None and frame is not self._shown:
+            self._shown = frame
+            self.view.show_image(frame.image)
+
+    def _show_seen(self, seen: _Seen) -> None:
+        state, file = seen.recorded.state, seen.recorded.file
+        self.view.show_state(state)
+        self.match.setValue(round(100 * state.match))
+        self.match.setVisible(state.goal is not None)
+        if file is not None and state.taken is not None:
+            self.strip.add(file, state.taken)
+            if self.sound.isChecked():
+                QApplication.beep()
+        self.figure.show_progress(seen.progress)
+        self._describe(seen.progress)
+
+    def _describe(self, progress: CaptureProgress) -> None:
+        """Say how well the pictures that were put aside are predicted."""
+        text = ""
+        if progress.unseen_corners:
+            text = self.tr("Pictures put aside are predicted to {0} px rms ({1} corners).").format(
+                format_two_digits(progress.unseen_error), progress.unseen_corners
+            )
+        self.words.setText(text)
+
+    def _show_failure(self, error: Exception) -> None:
+        self._has_failed = True
+        if isinstance(error, CalibrationError):
+            self.view.show_words(f"{error.message} {error.hint}")
+        else:
+            self._jobs.failed.emit(error)
+
+    def _end(self) -> None:
+        """The source is released: say what was reached, or why nothing was."""
+        session, self._job, self._frames = self.session, None, None
+        self._timer.stop()
+        has_failed, self._has_failed = self._has_failed, False
+        if session is None or not session.pictures:
+            self._stack.setCurrentIndex(0)
+            if not has_failed:
+                self.view.show_words(self.tr("Nothing was taken."))
+        elif not has_failed:
+            self.view.show_words(
+                self.tr("Done: the camera is known well enough.")
+                if session.is_complete
+                else self.tr("Stopped. More pictures would help.")
+            )
+        self._show_buttons()
+
+    def _show_buttons(self) -> None:
+        running = self.is_running
+        has_pictures = self.session is not None and bool(self.session.pictures)
+        for button, shown in (
+            (self.start, not running and not has_pictures),
+            (self.calibrate, not running and has_pictures),
+            (self.go_on, not running and has_pictures),
+            (self.take, running),
+            (self.finish, running),
+        ):
+            button.setVisible(shown)
+        self.match.setVisible(False)
+
+    def _take(self) -> None:
+        if self.is_running and self._recorder is not None:
+            self._recorder.ask_for_picture()
+
+    def _turn(self, file: Path) -> None:
+        if self._recorder is not None:
+            self._recorder.ask_to_turn(file)
+
+    def _choose_folder(self) -> None:
+        folder = QFileDialog.getExistingDirectory(self, self.tr("Folder for the pictures"))
+        if folder:
+            self.folder = Path(folder)
+            self._show_folder()
+
+    def _show_folder(self) -> None:
+        self.place.setText(str(self.folder))
+        self.place.setToolTip(str(self.folder))
+
+    def _leave(self) -> None:
+        self.stop()
+        self.left.emit()
+
+    def hideEvent(self, event: QHideEvent) -> None:  # noqa: N802 - Qt's name
+        super().hideEvent(event)
+        if not event.spontaneous():  # the window may only be minimised
+            self.stop()
+
+    def paintEvent(self, event: QPaintEvent) -> None:  # noqa: N802, ARG002 - Qt's name
+        QPainter(self).fillRect(self.rect(), QColor(theme.current().base))
+
+
+def _name_folder() -> Path:
+    """Name a new folder for pictures, where people keep theirs."""
+    place = QStandardPaths.writableLocation(QStandardPaths.StandardLocation.PicturesLocation)
+    now = datetime.now().astimezone()
+    return Path(place) / "calibgui" / f"{now:%Y-%m-%d %H-%M-%S}"

@@ -1,0 +1,150 @@
+"""The live image, with the board that is seen and the place where it is wanted next."""
+
+from __future__ import annotations
+
+import numpy as np
+from PySide6.QtCore import QPointF, QRectF, Qt, QTimer
+from PySide6.QtGui import QColor, QFontMetricsF, QImage, QPainter, QPaintEvent, QPen, QPolygonF
+from PySide6.QtWidgets import QSizePolicy, QWidget
+
+from calibgui.engine.arrays import Array, GreyImage
+from calibgui.engine.capture import CaptureState
+from calibgui.gui.canvas.layers import choose_arm_length, draw_rings
+from calibgui.gui.widgets import theme
+
+_LETTERS = 24
+"""Height of the words over the image, px: they are read from where the board is held."""
+_MARGIN = 16
+_FILL = 50
+"""Opacity of the place where the board is wanted, of 255."""
+_FLASH = 180
+"""Time for which the frame of a taken image lights up, ms."""
+
+
+class LiveView(QWidget):
+    """Shows the newest image as large as there is room for."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self._image: QImage | None = None
+        self._size = (1, 1)
+        """Width and height of the camera's images, px."""
+        self._state: CaptureState | None = None
+        self._words = ""
+        self._flash = QTimer(self, singleShot=True, interval=_FLASH)
+        self._flash.timeout.connect(self.update)
+        self.setMinimumSize(240, 180)
+        self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Expanding)
+        self.setAccessibleName(self.tr("Live image"))
+
+    def show_image(self, image: GreyImage) -> None:
+        """Show an image, grey (h, w) or RGB (h, w, 3), of 8 bits or more."""
+        height, width = image.shape[:2]
+        self._size = width, height
+        ratio = self.devicePixelRatioF()
+        step = max(1, int(max(width / (self.width() * ratio), height / (self.height() * ratio))))
+        small = image[::step, ::step]
+        if small.dtype != np.uint8:
+            small = small >> 8
+        pixels = np.ascontiguousarray(small, dtype=np.uint8)
+        kind = QImage.Format.Format_Grayscale8 if pixels.ndim == 2 else QImage.Format.Format_RGB888
+        rows, cols = pixels.shape[:2]
+        self._image = QImage(pixels.data, cols, rows, pixels.strides[0], kind).copy()
+        self.update()
+
+    def show_state(self, state: CaptureState | None) -> None:
+        """Show where the board is, where it is wanted, and what to do."""
+        self._state = state
+        self._words = "" if state is None else state.instruction
+        self.setAccessibleDescription(self._words)
+        if state is not None and state.taken is not None:
+            self._flash.start()
+        self.update()
+
+    def show_words(self, words: str) -> None:
+        """Show words in place of what to do."""
+        self._words = words
+        self.setAccessibleDescription(words)
+        self.update()
+
+    def clear(self) -> None:
+        """Show nothing."""
+        self._image = None
+        self.show_state(None)
+
+    def paintEvent(self, event: QPaintEvent) -> None:  # noqa: N802, ARG002 - Qt's name
+        painter = QPainter(self)
+        painter.setRenderHints(
+            QPainter.RenderHint.Antialiasing | QPainter.RenderHint.SmoothPixmapTransform
+        )
+        painter.fillRect(self.rect(), QColor(theme.current().canvas))
+        if self._image is not None:
+            painter.drawImage(self._place, self._image)
+            if (state := self._state) is not None:
+                self._paint_marks(painter, state)
+            if self._flash.isActive():
+                painter.setBrush(Qt.BrushStyle.NoBrush)
+                painter.setPen(QPen(QColor("#ffffff"), 10))
+                painter.drawRect(self._place.adjusted(5, 5, -5, -5))
+        if self._words:
+            self._paint_words(painter)
+
+    @property
+    def _place(self) -> QRectF:
+        """The rectangle that the image fills."""
+        width, height = self._size
+        scale = min(self.width() / width, self.height() / height)
+        w, h = scale * width, scale * height
+        return QRectF((self.width() - w) / 2, (self.height() - h) / 2, w, h)
+
+    def _to_screen(self, uv: Array) -> Array:
+        place = self._place
+        return (uv + 0.5) * (place.width() / self._size[0]) + [place.x(), place.y()]
+
+    def _paint_marks(self, painter: QPainter, state: CaptureState) -> None:
+        painter.save()
+        painter.setClipRect(self._place)
+        if state.goal is not None:
+            self._paint_goal(painter, self._to_screen(state.goal))
+        if state.corners is not None:
+            uv = self._to_screen(state.corners.uv)
+            draw_rings(painter, uv, theme.PATH, min(3.0, choose_arm_length(uv)))
+        painter.restore()
+
+    def _paint_goal(self, painter: QPainter, goal: Array) -> None:
+        """Draw the lattice of corners (rows, cols, 2) where it is wanted, and its shape filled."""
+        lines = [*goal, *goal.transpose(1, 0, 2)]
+        outline = np.concatenate([goal[0], goal[1:, -1], goal[-1, -2::-1], goal[-2:0:-1, 0]])
+        fill = QColor(theme.REGION)
+        fill.setAlpha(_FILL)
+        painter.setPen(Qt.PenStyle.NoPen)
+        painter.setBrush(fill)
+        painter.drawPolygon(_make_polygon(outline))
+        painter.setBrush(Qt.BrushStyle.NoBrush)
+        fine = QColor(theme.REGION)
+        fine.setAlpha(3 * _FILL)
+        painter.setPen(QPen(fine, 1))
+        for line in lines:
+            painter.drawPolyline(_make_polygon(line))
+        painter.setPen(QPen(theme.REGION, 3))
+        painter.drawPolygon(_make_polygon(outline))
+
+    def _paint_words(self, painter: QPainter) -> None:
+        """Write what to do at the lower edge, on dark ground."""
+        font = theme.make_font(_LETTERS, bold=True)
+        metrics = QFontMetricsF(font)
+        room = QRectF(self.rect()).adjusted(2 * _MARGIN, _MARGIN, -2 * _MARGIN, -_MARGIN)
+        flags = int(Qt.AlignmentFlag.AlignCenter) | int(Qt.TextFlag.TextWordWrap)
+        needed = metrics.boundingRect(room, flags, self._words)
+        card = QRectF(0, 0, needed.width() + 2 * _MARGIN, needed.height() + _MARGIN)
+        card.moveCenter(QPointF(self.width() / 2, self.height() - _MARGIN - card.height() / 2))
+        painter.setPen(Qt.PenStyle.NoPen)
+        painter.setBrush(QColor(0, 0, 0, 170))
+        painter.drawRoundedRect(card, theme.RADIUS, theme.RADIUS)
+        painter.setFont(font)
+        painter.setPen(QColor("#ffffff"))
+        painter.drawText(card, flags, self._words)
+
+
+def _make_polygon(uv: Array) -> QPolygonF:
+    return QPolygonF([QPointF(u, v) for u, v in uv])

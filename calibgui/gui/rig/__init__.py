@@ -1,0 +1,1 @@
+"""The page of a rig: several cameras that photograph one board together."""

@@ -1,0 +1,140 @@
+"""Which photograph was taken when: a column for each camera, a row for each instant."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping
+from statistics import median
+
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtGui import QColor
+from PySide6.QtWidgets import QAbstractItemView, QHeaderView, QTableWidget, QTableWidgetItem
+
+from calibgui.dataset import CornerSet, RigPairing, RigResult, ViewStatus
+from calibgui.gui.widgets import theme
+
+_WIDTH = 88
+"""Least width of a column, device-independent px."""
+_STRONG, _WEAK = 150, 60
+"""Opacity of a cell with three times the usual residuals, and of one where the board was found."""
+
+
+class PairingMatrix(QTableWidget):
+    """Names the photographs, and says of each what was found and how well it fits."""
+
+    instant_chosen = Signal(int, int)
+    """The numbers of the camera and of the instant that the user looks at."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self._pairing: RigPairing | None = None
+        self.setEditTriggers(QAbstractItemView.EditTrigger.NoEditTriggers)
+        self.setSelectionMode(QAbstractItemView.SelectionMode.ExtendedSelection)
+        self.setTextElideMode(Qt.TextElideMode.ElideLeft)
+        self.setFrameShape(QTableWidget.Shape.NoFrame)
+        self.verticalHeader().setDefaultSectionSize(self.fontMetrics().height() + theme.SPACING)
+        self.horizontalHeader().setMinimumSectionSize(_WIDTH)
+        self.horizontalHeader().setSectionResizeMode(QHeaderView.ResizeMode.Stretch)
+        self.setAccessibleName(self.tr("Photographs by cameras and instants"))
+        self.setToolTip(
+            self.tr(
+                "A column for each camera, a row for each instant. Click a camera's name to choose "
+                "all its photographs."
+            )
+        )
+        self.currentCellChanged.connect(self._tell)
+
+    def show_pairing(
+        self,
+        pairing: RigPairing,
+        corner_sets: Mapping[str, CornerSet],
+        result: RigResult | None,
+    ) -> None:
+        """Show which photographs belong together.
+
+        Args:
+            pairing: the cameras and instants.
+            corner_sets: what was found in the photographs, as far as they were searched.
+            result: the rig; None while there is none.
+        """
+        at, chosen = (self.currentRow(), self.currentColumn()), self.list_chosen()
+        self._pairing = pairing
+        self.blockSignals(True)
+        self.clear()
+        self.setRowCount(len(pairing.instants))
+        self.setColumnCount(len(pairing.cameras))
+        self.setVerticalHeaderLabels([_shorten(name) for name in pairing.instants.values()])
+        self.setHorizontalHeaderLabels([camera.name for camera in pairing.cameras])
+        fits = {} if result is None else {(v.camera, v.instant): v for v in result.rig.views}
+        out = set() if result is None else {(v.camera, v.instant) for v in result.rig.left_out}
+        usual = median(view.rms for view in fits.values()) if fits else 0.0
+        for c, camera in enumerate(pairing.cameras):
+            views = corner_sets[camera.name].views if camera.name in corner_sets else ()
+            found = {view.image: view for view in views}
+            for row, instant in enumerate(pairing.instants):
+                item = QTableWidgetItem()
+                self.setItem(row, c, item)
+                file = camera.files.get(instant)
+                if file is None:
+                    item.setText("–")
+                    item.setForeground(QColor(theme.current().muted))
+                    continue
+                item.setText(file.name)
+                item.setToolTip(str(file))
+                view, fit = found.get(str(file)), fits.get((c, instant))
+                if (c, instant) in out:
+                    self._mark(item, theme.current().bad, _STRONG)
+                    item.setText(self.tr("left out"))
+                    item.setToolTip(self.tr("{0}: contradicts the others").format(file))
+                elif fit is not None:
+                    excess = (fit.rms / usual - 1) / 2 if usual else 0.0
+                    strength = round(_STRONG * min(max(excess, 0.0), 1.0))
+                    self._mark(item, theme.current().warning, strength)
+                    item.setText(self.tr("{0} px").format(f"{fit.rms:.2f}"))
+                    item.setToolTip(
+                        self.tr("{0}: {1} corners, {2} px rms; alone {3} px").format(
+                            file, len(fit.residuals), f"{fit.rms:.3f}", f"{fit.alone:.3f}"
+                        )
+                    )
+                elif view is not None and view.status is not ViewStatus.FOUND:
+                    self._mark(item, theme.current().bad, _WEAK)
+                    item.setText(self.tr("no board"))
+                    item.setToolTip(f"{file}: {view.reason}")
+                elif view is not None:
+                    self._mark(item, theme.current().good, _WEAK)
+        self.blockSignals(False)
+        if at[0] >= 0:
+            self.setCurrentCell(min(at[0], self.rowCount() - 1), min(at[1], self.columnCount() - 1))
+        self.choose(chosen)
+
+    def list_chosen(self) -> Mapping[int, list[int]]:
+        """List the instants of the chosen photographs, by the number of the camera."""
+        chosen: dict[int, list[int]] = {}
+        if self._pairing is not None:
+            instants = list(self._pairing.instants)
+            for index in self.selectedIndexes():
+                chosen.setdefault(index.column(), []).append(instants[index.row()])
+        return chosen
+
+    def choose(self, chosen: Mapping[int, Collection[int]]) -> None:
+        """Choose photographs: instants, by the number of the camera."""
+        self.clearSelection()
+        shown = () if self._pairing is None else self._pairing.instants
+        for row, instant in enumerate(shown):
+            for camera, instants in chosen.items():
+                item = self.item(row, camera)
+                if instant in instants and item is not None:
+                    item.setSelected(True)
+
+    def _tell(self, row: int, column: int, *_: int) -> None:
+        if self._pairing is not None and row >= 0:
+            self.instant_chosen.emit(column, list(self._pairing.instants)[row])
+
+    def _mark(self, item: QTableWidgetItem, colour: str, opacity: int) -> None:
+        ground = QColor(colour)
+        ground.setAlpha(opacity)
+        item.setBackground(ground)
+
+
+def _shorten(name: str) -> str:
+    """Return the end of a name, in which names of instants differ."""
+    return name if len(name) <= 8 else f"…{name[-7:]}"
