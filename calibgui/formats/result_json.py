@@ -42,6 +42,7 @@ from calibgui.engine.calibration import (
     Iteration,
     Status,
     Undetermined,
+    is_held,
     make_paper_table,
 )
 from calibgui.engine.camera import (
@@ -93,9 +94,13 @@ def write_result(result: Result, path: str | os.PathLike[str]) -> None:
 def encode_result_with_findings(result: Result) -> dict[str, Any]:
     """Return the content of result.json, with the verdict, what is wrong and whether limits hold.
 
-    All three follow from the rest, which takes its time; they are not read back.
+    All three follow from the rest, which takes its time; they are not read back. A camera that is
+    known from a file is not judged.
     """
-    content = encode_result(result) | encode_verdict(judge_result(result), result)
+    content = encode_result(result)
+    if is_held(result.calibration):
+        return content
+    content |= encode_verdict(judge_result(result), result)
     if result.limits is not None:
         reasons = list_broken_limits(result, result.limits)
         content["acceptance"] = {"passed": not reasons, "reasons": reasons}
@@ -273,7 +278,7 @@ def _decode_calibration(node: Node, used: list[Node]) -> Calibration:
     added = _find_added_coefficients(camera["params"], model)
     residuals = node["residuals"]
     return Calibration(
-        camera=_decode_camera(camera, model, added),
+        camera=decode_camera(camera, model, added),
         sigma=_decode_by_name(camera["sigma"], names, added),
         covariance=_decode_covariance(node["covariance"]["matrix"], names, added),
         noise_covariance=_decode_noise_covariance(node, names, added),
@@ -355,7 +360,8 @@ def _find_added_coefficients(params: Node, model: str) -> dict[str, float]:
     return {name: v for name, v in values if name in lens.held and name not in stored}
 
 
-def _decode_camera(node: Node, model: str, added: Mapping[str, float]) -> Camera:
+def decode_camera(node: Node, model: str, added: Mapping[str, float]) -> Camera:
+    """Return the camera in an object; coefficients that it lacks have the values `added`."""
     params = node["params"]
     for name in ("fx", "fy"):
         if not params[name].number() > 0:

@@ -18,6 +18,7 @@ from threading import Event
 from typing import NamedTuple
 
 from calibgui.app.calibrating.calibration import recall_lens_choice
+from calibgui.app.calibrating.known_camera import locate_with_known
 from calibgui.app.calibrating.redetection import calibrate_twice
 from calibgui.app.calibrating.settings import (
     DEFAULT_MODEL,
@@ -76,11 +77,14 @@ def calibrate_best(
     Yields:
         The first calibration and those that follow, each as soon as it is made and better than the
         one before: the last is the best. It is the only one unless the settings ask for more
-        (``Settings.improve``).
+        (``Settings.improve``). Of a camera that is known it is where the boards are.
 
     Raises:
         CalibrationError, Cancelled: as ``calibrate_twice``, for the first calibration.
     """
+    if settings.known is not None:
+        yield Step("", None, locate_with_known(corner_set, settings.known))
+        return
     begin = settings
     if settings.improve:
         begin = replace(settings, board_shape=settings.board_shape or BoardShapeModel.NOMINAL)
@@ -124,6 +128,8 @@ def calibrate_at_once(corner_set: CornerSet, settings: Settings) -> Result | Non
         The calibration; None if it is all that the settings ask for, or if it cannot be made:
         `calibrate_best` then says why.
     """
+    if settings.known is not None:
+        return None
     at_once = replace(
         settings,
         model=settings.model or DEFAULT_MODEL,

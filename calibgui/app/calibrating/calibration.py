@@ -35,6 +35,7 @@ from calibgui.engine.calibration import (
     Iteration,
     Observation,
     Report,
+    is_held,
 )
 from calibgui.engine.camera import find_common_circle, find_model
 from calibgui.engine.errors import CalibrationError, Cancelled, Progress
@@ -335,7 +336,7 @@ def _make_result(calibration: Calibration, corner_set: CornerSet) -> Result:
     Raises:
         CalibrationError: if all parameters of the camera were held, so that there is no verdict.
     """
-    if len(calibration.fixed) == len(calibration.camera.params):
+    if is_held(calibration):
         raise CalibrationError(
             f"All parameters of the camera are held ({', '.join(calibration.fixed)}), which leaves "
             "nothing to calibrate.",

@@ -104,7 +104,8 @@ class AprilGrid(CodedPattern):
             )
         if self.tag_turn not in (None, 0, 1, 2, 3):
             raise CalibrationError(
-                f"Tags cannot be turned by {self.tag_turn} quarters.", "It is 0, 1, 2 or 3 quarters."
+                f"Tags cannot be turned by {self.tag_turn} quarters.",
+                "It is 0, 1, 2 or 3 quarters.",
             )
 
     @property
