@@ -23,12 +23,13 @@ from __future__ import annotations
 import os
 import re
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import asdict, fields
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from calibgui.dataset import Result, find_orientation
+from calibgui.dataset import LENS_TYPES, UNKNOWN_HARDWARE, Hardware, Result, find_orientation
 from calibgui.dataset.acceptance import list_broken_limits
 from calibgui.dataset.judging import judge_result
 from calibgui.engine.arrays import Array, Size
@@ -152,6 +153,7 @@ def encode_result(result: Result) -> dict[str, Any]:
         "versions": result.versions,
         "lengths_confirmed": result.lengths_confirmed,
         **({} if result.limits is None else {"limits": encode_limits(result.limits)}),
+        **_encode_hardware(result.hardware),
         "inputs_sha256": calibration.digest,
         "target": None if result.board is None else encode_board(result.board),
         "plate": None
@@ -165,6 +167,31 @@ def encode_result(result: Result) -> dict[str, Any]:
         "solve_seconds": calibration.seconds,
         "views": _encode_views(result),
     }
+
+
+def _encode_hardware(hardware: Hardware) -> dict[str, Any]:
+    """Return the member on the camera and the lens that were stated; none if none were."""
+    stated = {name: value for name, value in asdict(hardware).items() if value is not None}
+    return {"hardware": stated} if stated else {}
+
+
+def _decode_hardware(node: Node | None) -> Hardware:
+    """Return the camera and the lens that were stated."""
+    if node is None:
+        return UNKNOWN_HARDWARE
+    stated: dict[str, Any] = {
+        field.name: value.text()
+        for field in fields(Hardware)
+        if field.name not in ("crop", "type") and (value := node.get(field.name)) is not None
+    }
+    if (crop := node.get("crop")) is not None and not crop.number() > 0:
+        crop.fail("a number above 0")
+    kind = node.get("type")
+    return Hardware(
+        **stated,
+        crop=None if crop is None else crop.number(),
+        type=None if kind is None else kind.choice(LENS_TYPES),
+    )
 
 
 def encode_mode(mode: SensorMode) -> dict[str, Any]:
@@ -258,6 +285,7 @@ def decode_result(node: Node) -> Result:
         confirmed.flag() if (confirmed := node.get("lengths_confirmed")) else True,
         limits=decode_limits(node.get("limits")),
         mode=_decode_mode(node.get("sensor_mode"), calibration.camera.size),
+        hardware=_decode_hardware(node.get("hardware")),
     )
 
 

@@ -40,7 +40,7 @@ class KnownCameraChoice(QWidget):
         """Show the camera that is held; None for one that is to be calibrated."""
         self._known = known
         self.name.setText(
-            self.tr("none: calibrated") if known is None else elide_name(known.file, _NAME_LENGTH)
+            self.tr("calibrated") if known is None else elide_name(known.file, _NAME_LENGTH)
         )
         self.name.setToolTip("" if known is None else _describe(known))
         self.button.setText(self.tr("Choose…") if known is None else self.tr("Calibrate again"))

@@ -151,7 +151,7 @@ class SettingsPanel(QWidget):
         label, held = QLabel(self.tr("&Minimise")), QLabel(self.tr("Held at"))
         label.setBuddy(self.cost)
         held.setBuddy(self.values)
-        lens, known = QLabel(self.tr("Lens model")), QLabel(self.tr("Known camera"))
+        lens, known = QLabel(self.tr("Lens model")), QLabel(self.tr("Camera"))
         # In line with the labels of the board's shape, which stand between.
         for each in (label, held, lens, known):
             each.setMinimumWidth(self.board_shape.known.sizeHint().width())

@@ -112,7 +112,7 @@ def test_the_set_up_names_the_camera_and_gives_it_up(
     window: MainWindow, qtbot: QtBot, photographs: Path, tmp_path: Path
 ) -> None:
     choice = window.settings.known
-    assert choice.name.text() == "none: calibrated"
+    assert choice.name.text() == "calibrated"
     drop(window, write_camera(tmp_path / "cam.yaml", "opencv"))
     drop(window, photographs)
     window.header.setup.setChecked(True)
