@@ -18,7 +18,6 @@ from threading import Event
 from typing import NamedTuple
 
 from calibgui.app.calibrating.calibration import recall_lens_choice
-from calibgui.app.calibrating.known_camera import locate_with_known
 from calibgui.app.calibrating.redetection import calibrate_twice
 from calibgui.app.calibrating.settings import (
     DEFAULT_MODEL,
@@ -82,9 +81,6 @@ def calibrate_best(
     Raises:
         CalibrationError, Cancelled: as ``calibrate_twice``, for the first calibration.
     """
-    if settings.known is not None:
-        yield Step("", None, locate_with_known(corner_set, settings.known))
-        return
     begin = settings
     if settings.improve:
         begin = replace(settings, board_shape=settings.board_shape or BoardShapeModel.NOMINAL)
@@ -92,6 +88,7 @@ def calibrate_best(
     yield Step("", None, result)
     calibration = result.calibration
     is_final = calibration.status is not Status.CONVERGED or calibration.diagnosis is not None
+    is_final |= settings.known is not None
     if is_final or not settings.improve or not takes_remedies(settings):
         return
     verdict = judge_result(result, check)

@@ -134,6 +134,24 @@ def test_the_set_up_names_the_camera_and_gives_it_up(
     assert not is_held(window.session.result.calibration)
 
 
+def test_leaving_a_photograph_out_keeps_the_camera(
+    window: MainWindow, qtbot: QtBot, few: Path, tmp_path: Path
+) -> None:
+    window.settings.choose_model("pinhole", ())
+    drop(window, few, write_camera(tmp_path / "cam.yaml", "opencv"))
+    window.calibrate.click()
+    qtbot.waitUntil(is_located(window), timeout=60_000)
+    first = window.session.result
+    window.images.follows.setChecked(True)
+    window.images.exclude([window.session.project.views[0].image])
+    qtbot.waitUntil(lambda: window.session.result is not first, timeout=20_000)
+    result = window.session.result
+    assert result is not None and first is not None
+    assert len(result.used) == 1
+    assert is_held(result.calibration)
+    np.testing.assert_array_equal(result.calibration.camera.params, first.calibration.camera.params)
+
+
 def test_photographs_of_half_the_size_are_a_mode_of_the_camera(
     window: MainWindow, qtbot: QtBot, few: Path, tmp_path: Path
 ) -> None:
