@@ -32,7 +32,6 @@ from calibgui.engine.calibration import make_observation
 from calibgui.engine.errors import parse_choice
 from calibgui.engine.images import Field
 from calibgui.formats.corner_import import SUFFIXES, read_corner_file
-from calibgui.formats.result_json import read_result
 from calibgui.scripting.calibrated_camera import CalibratedCamera
 
 File = str | os.PathLike[str]
@@ -156,7 +155,7 @@ def load(path: File) -> CalibratedCamera:
     Raises:
         CalibrationError: if the file cannot be read, or is not a result.json.
     """
-    return CalibratedCamera(read_result(path))
+    return CalibratedCamera.load(path)
 
 
 def _calibrate(

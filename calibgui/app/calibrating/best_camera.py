@@ -78,7 +78,7 @@ def calibrate_best(
     Yields:
         The first calibration and those that follow, each as soon as it is made and better than the
         one before: the last is the best. It is the only one unless the settings ask for more
-        (``Settings.improve``).
+        (``Settings.improve``). Of a camera that is known it is where the boards are.
 
     Raises:
         CalibrationError, Cancelled: as ``calibrate_twice``, for the first calibration.
@@ -90,6 +90,7 @@ def calibrate_best(
     yield Step("", None, result)
     calibration = result.calibration
     is_final = calibration.status is not Status.CONVERGED or calibration.diagnosis is not None
+    is_final |= settings.known is not None
     if is_final or not settings.improve or not takes_remedies(settings):
         return
     verdict = judge_result(result, check)
@@ -126,6 +127,8 @@ def calibrate_at_once(corner_set: CornerSet, settings: Settings) -> Result | Non
         The calibration; None if it is all that the settings ask for, or if it cannot be made:
         `calibrate_best` then says why.
     """
+    if settings.known is not None:
+        return None
     at_once = replace(
         settings,
         model=settings.model or DEFAULT_MODEL,

@@ -19,7 +19,7 @@ from calibgui.app.photographs.detection import (
     infer_pattern,
     measure_largest_part,
 )
-from calibgui.dataset import DEFAULT_SQUARE, CornerSet, Result, View, ViewStatus
+from calibgui.dataset import DEFAULT_SQUARE, CornerSet, KnownCamera, Result, View, ViewStatus
 from calibgui.dataset.details import NO_DETAILS, Details
 from calibgui.dataset.limits import Limits
 from calibgui.engine.arrays import GridSize, Size
@@ -178,6 +178,11 @@ def set_grid_size(project: Project, grid_size: GridSize | None) -> Project:
 
     views = (view if fits(view) else _reset_search(view) for view in project.views)
     return replace(project, grid_size=grid_size, views=tuple(views))
+
+
+def hold_known(project: Project, known: KnownCamera | None) -> Project:
+    """Return the project with a camera that is held; None for one that is to be calibrated."""
+    return replace(project, settings=replace(project.settings, known=known))
 
 
 def set_method(project: Project, method: str) -> Project:

@@ -16,7 +16,9 @@
                         freed, fixed (names, or an object of them with their values or null); plate
                         (the board's shape: a model, "auto" or a shape as in
                         ``board_shape_json.py``), prior_mm (in the plane and out of it, or null),
-                        robust; weigh_views, once and improve (false where missing)
+                        robust; weigh_views, once and improve (false where missing); camera, where
+                        one is held: the file that it is from with the title of its format, model,
+                        size, params, covariance (or null) and circle (where it has one)
     views               as in ``views_json.py``, and sha256 of the image file where known
     results             by name, each as a result.json is (``result_json.py``)
     verdicts            by name, each as in ``verdict_json.py``, of the results that were judged
@@ -49,7 +51,7 @@ from calibgui.app.calibrating.settings import (
 )
 from calibgui.app.photographs.paths import is_remote
 from calibgui.app.projects.project import GRID_LINES, Project, Unit, relocate_images
-from calibgui.dataset import Result, View
+from calibgui.dataset import KnownCamera, Result, View
 from calibgui.dataset.details import Details
 from calibgui.dataset.judging import keep_verdict, recall_verdict
 from calibgui.engine.arrays import GridSize
@@ -64,7 +66,12 @@ from calibgui.formats.json_document import JsonWriter, are_same_values, check_fo
 from calibgui.formats.limits_toml import decode_limits, encode_limits
 from calibgui.formats.node import Node
 from calibgui.formats.pattern_json import decode_pattern, decode_square_sigma, encode_pattern
-from calibgui.formats.result_json import decode_result, encode_result
+from calibgui.formats.result_json import (
+    decode_camera,
+    decode_model,
+    decode_result,
+    encode_result,
+)
 from calibgui.formats.verdict_json import decode_verdict, encode_verdict
 from calibgui.formats.views_json import decode_field, decode_views, encode_view
 
@@ -177,7 +184,21 @@ def _encode_settings(settings: Settings) -> dict[str, Any]:
         "weigh_views": settings.weigh_views,
         "improve": settings.improve,
         "once": settings.once,
+        **({} if settings.known is None else {"camera": _encode_known(settings.known)}),
     }
+
+
+def _encode_known(known: KnownCamera) -> dict[str, Any]:
+    """Encode a camera that is held."""
+    camera = known.camera
+    return {
+        "file": known.file,
+        "title": known.title,
+        "model": camera.model,
+        "size": camera.size,
+        "params": dict(zip(camera.names, camera.params, strict=True)),
+        "covariance": known.covariance,
+    } | ({} if camera.circle is None else {"circle": camera.circle})
 
 
 def is_project(path: Path) -> bool:
@@ -303,6 +324,21 @@ def _decode_settings(node: Node) -> Settings:
         weigh_views=weigh.flag() if (weigh := node.get("weigh_views")) else False,
         once=once.flag() if (once := node.get("once")) else False,
         improve=improve.flag() if (improve := node.get("improve")) else False,
+        known=_decode_known(node.get("camera")),
+    )
+
+
+def _decode_known(node: Node | None) -> KnownCamera | None:
+    """Decode the camera that is held; None for one that is to be calibrated."""
+    if node is None:
+        return None
+    camera = decode_camera(node, decode_model(node["model"]), {})
+    count, covariance = len(camera.params), node.get("covariance")
+    return KnownCamera(
+        camera,
+        node["file"].text(),
+        node["title"].text(),
+        None if covariance is None else covariance.covariances(count, count),
     )
 
 

@@ -18,7 +18,7 @@ from calibgui.dataset import Result, ViewStatus
 from calibgui.dataset.judging import judge_result, recall_verdict
 from calibgui.engine.arrays import Array
 from calibgui.engine.assessment import Action, ActionKind, Cause, Finding, Grade, Verdict
-from calibgui.engine.calibration import METHODS, Status
+from calibgui.engine.calibration import METHODS, Status, is_held
 from calibgui.engine.uncertainty import estimate_projection_uncertainty
 from calibgui.gui.jobs.job import Job
 from calibgui.gui.panels.latest import Latest
@@ -160,7 +160,8 @@ class VerdictBar(QWidget):
 
         Until then the last verdict stays.
         """
-        if result is None or self._session.document is not self._document:
+        is_held_camera = result is not None and is_held(result.calibration)
+        if result is None or is_held_camera or self._session.document is not self._document:
             self._judged, self._document = None, self._session.document
         last, self._result = self._result, result
         self.verdict = None if result is None else recall_verdict(result)
@@ -175,7 +176,7 @@ class VerdictBar(QWidget):
             self._judged = result
         self._work.cancel()
         # What makes the camera better may have judged it already; the panels wait to be told.
-        if result is not None and self._glass is None and not self._is_running:
+        if result and not is_held_camera and self._glass is None and not self._is_running:
             self._work.start(
                 "" if self.verdict else self.tr("Judging the calibration"),
                 partial(_judge_with_glass, result),
@@ -240,6 +241,8 @@ class VerdictBar(QWidget):
         """Say in capitals what goes on while there is no verdict at all."""
         if self._result is None:
             return self.tr("CALIBRATING…") if self._is_running else self.tr("NOT CALIBRATED")
+        if is_held(self._result.calibration):
+            return self.tr("KNOWN CAMERA")
         return self.tr("FIRST FIT") if self._is_running else self.tr("JUDGING…")
 
     def _show_reason(self) -> None:
@@ -252,6 +255,8 @@ class VerdictBar(QWidget):
             reason = self.tr("Of {0} photographs. {1}").format(
                 len(self._judged.used), self._describe_work()
             )
+        elif is_held(result.calibration):
+            reason = f"{self._age} {' '.join(result.calibration.warnings)}".lstrip()
         elif verdict is None:
             reason = self._describe_work()
         else:
@@ -398,8 +403,9 @@ def _judge_with_glass(result: Result, job: Job) -> tuple[Verdict, Mapping[str, f
 
 
 def _map_errors(result: Result) -> Array | None:
-    """Map the calibration's own uncertainty; None where the views do not determine the camera."""
-    if result.calibration.diagnosis is not None:
+    """Map the calibration's own uncertainty; None where the views do not determine the camera, or
+    it is known from a file."""
+    if result.calibration.diagnosis is not None or is_held(result.calibration):
         return None
     views = result.observations()
     return estimate_projection_uncertainty(result.calibration, views).worst_direction

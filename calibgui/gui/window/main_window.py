@@ -187,6 +187,7 @@ class MainWindow(QMainWindow):
             lambda label: refitter.refit(label) if self.images.follows.isChecked() else None
         )
         self.board.search_wanted.connect(self.detector.search)
+        self.settings.known.file_wanted.connect(self.files.ask_for_camera)
         self.calibrate.clicked.connect(self._calibrate)
         self.calibrator.began.connect(self._show_beginning)
         self.calibrator.advanced.connect(lambda step: self.need_analysis().show_iteration(step))

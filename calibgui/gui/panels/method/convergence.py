@@ -67,6 +67,9 @@ class ConvergencePanel(Panel):
         calibration = result.calibration
         self._iterations = [*calibration.history]
         self._draw()
+        if not calibration.history:
+            self.words.setText(self.tr("The camera is known from a file: nothing was solved."))
+            return
         last = calibration.history[-1]
         self._state_unit(calibration.cost)
         is_weighted = any(view.cov is not None for view in result.observations())
