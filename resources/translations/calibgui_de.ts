@@ -473,6 +473,10 @@ Farben: quer zur Ebene; Rot ist von der Kamera weg.</translation>
         <translation>Kalibrierung</translation>
     </message>
     <message>
+        <source>Known camera</source>
+        <translation>Bekannte Kamera</translation>
+    </message>
+    <message>
         <source>No board is marked yet, and the search is off.</source>
         <translation>Noch ist kein Brett markiert, und die Suche ist aus.</translation>
     </message>
@@ -1081,6 +1085,10 @@ Ergebnisse aus denselben Bildern teilen ihre Fehler: dann ist schon 1 viel.</tra
         <translation>Kalibrieren: Iteration {0}, RMS-Residuum {1:.4f} {2}</translation>
     </message>
     <message>
+        <source>The camera is known from a file: nothing was solved.</source>
+        <translation>Die Kamera ist aus einer Datei bekannt: nichts wurde gelöst.</translation>
+    </message>
+    <message>
         <source>Weighted RMS residual {0:.4f} {1}; {2}.</source>
         <translation>Gewichtetes RMS-Residuum {0:.4f} {1}; {2}.</translation>
     </message>
@@ -1511,6 +1519,14 @@ nach der Drehung, die beide dort am nächsten zusammenbringt, wo Ecken (Punkte) 
         <translation>Nur das Projekt {0} wird geöffnet, ohne die {1} anderen Dateien.</translation>
     </message>
     <message>
+        <source>Camera file</source>
+        <translation>Kameradatei</translation>
+    </message>
+    <message>
+        <source>Camera files (*)</source>
+        <translation>Kameradateien (*)</translation>
+    </message>
+    <message>
         <source>Not added, as no image can be read there: {0}.</source>
         <translation>Nicht hinzugefügt, da dort kein Bild zu lesen ist: {0}.</translation>
     </message>
@@ -1565,6 +1581,14 @@ nach der Drehung, die beide dort am nächsten zusammenbringt, wo Ecken (Punkte) 
     <message>
         <source>Discard the changes without a copy?</source>
         <translation>Die Änderungen ohne Kopie verwerfen?</translation>
+    </message>
+    <message>
+        <source>There is no report on a camera that is known from a file.</source>
+        <translation>Zu einer Kamera aus einer Datei gibt es keinen Bericht.</translation>
+    </message>
+    <message>
+        <source>Calibrate it (Set-up, Lens), or write the report on its own result.</source>
+        <translation>Sie kalibrieren (Einrichtung, Linse) oder den Bericht zu ihrem eigenen Ergebnis schreiben.</translation>
     </message>
     <message>
         <source>Folder that holds the missing images</source>
@@ -2154,6 +2178,44 @@ Links abgelegt kommen sie ins Projekt.</translation>
     <message>
         <source>Photographs of an instant</source>
         <translation>Fotos eines Zeitpunkts</translation>
+    </message>
+</context>
+<context>
+    <name>KnownCameraChoice</name>
+    <message>
+        <source>calibrated</source>
+        <translation>kalibriert</translation>
+    </message>
+    <message>
+        <source>Choose…</source>
+        <translation>Wählen…</translation>
+    </message>
+    <message>
+        <source>Calibrate again</source>
+        <translation>Neu kalibrieren</translation>
+    </message>
+    <message>
+        <source>Hold the camera of a file of this or another program, and locate the board in photographs with it. Such a file can also be dropped on the window.</source>
+        <translation>Die Kamera aus einer Datei dieses oder eines anderen Programms festhalten und das Brett in Fotos mit ihr verorten. Eine solche Datei lässt sich auch auf dem Fenster ablegen.</translation>
+    </message>
+    <message>
+        <source>Give the camera of the file up: calibrate one from the photographs.</source>
+        <translation>Die Kamera der Datei aufgeben: eine aus den Fotos kalibrieren.</translation>
+    </message>
+</context>
+<context>
+    <name>KnownCameras</name>
+    <message>
+        <source>Known camera</source>
+        <translation>Bekannte Kamera</translation>
+    </message>
+    <message>
+        <source>The camera of {0} ({1}) is held: Calibrate locates the board in each photograph with it. Set-up gives it up again.</source>
+        <translation>Die Kamera aus {0} ({1}) wird festgehalten: Kalibrieren verortet mit ihr das Brett in jedem Foto. Die Einrichtung gibt sie wieder auf.</translation>
+    </message>
+    <message>
+        <source>Of {0} camera files it is the first.</source>
+        <translation>Von {0} Kameradateien ist es die erste.</translation>
     </message>
 </context>
 <context>
@@ -4583,6 +4645,10 @@ Die Farben: wo die eigene Unsicherheit der Kalibrierung klein (dunkel) und groß
         <translation>Ist die Kamera bekannt, werden Bilder ohne Brett und teils gefundene Bretter neu abgesucht, und aus dem Gewinn wird kalibriert.</translation>
     </message>
     <message>
+        <source>Calibrate again</source>
+        <translation>Neu kalibrieren</translation>
+    </message>
+    <message>
         <source>automatic</source>
         <translation>automatisch</translation>
     </message>
@@ -4609,6 +4675,10 @@ Die Farben: wo die eigene Unsicherheit der Kalibrierung klein (dunkel) und groß
     <message>
         <source>Held at</source>
         <translation>Fest bei</translation>
+    </message>
+    <message>
+        <source>Camera</source>
+        <translation>Kamera</translation>
     </message>
     <message>
         <source>Method</source>
@@ -5315,6 +5385,10 @@ gleicher Maßstab behält die Größe der Mitte; Bildwinkel zeigt einen Winkel I
     <message>
         <source>NOT CALIBRATED</source>
         <translation>NICHT KALIBRIERT</translation>
+    </message>
+    <message>
+        <source>KNOWN CAMERA</source>
+        <translation>BEKANNTE KAMERA</translation>
     </message>
     <message>
         <source>FIRST FIT</source>

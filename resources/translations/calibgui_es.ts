@@ -473,6 +473,10 @@ Colores: fuera del plano; rojo se aleja de la cámara.</translation>
         <translation>Calibración</translation>
     </message>
     <message>
+        <source>Known camera</source>
+        <translation>Cámara conocida</translation>
+    </message>
+    <message>
         <source>No board is marked yet, and the search is off.</source>
         <translation>Aún no hay ningún tablero marcado, y la búsqueda está desactivada.</translation>
     </message>
@@ -1081,6 +1085,10 @@ Los resultados de las mismas imágenes comparten errores: entonces incluso 1 es 
         <translation>Calibrando: iteración {0}, residuo RMS {1:.4f} {2}</translation>
     </message>
     <message>
+        <source>The camera is known from a file: nothing was solved.</source>
+        <translation>La cámara se conoce por un archivo: no se resolvió nada.</translation>
+    </message>
+    <message>
         <source>Weighted RMS residual {0:.4f} {1}; {2}.</source>
         <translation>Residuo RMS ponderado {0:.4f} {1}; {2}.</translation>
     </message>
@@ -1511,6 +1519,14 @@ tras el giro que más las acerca donde se vieron esquinas (puntos).</translation
         <translation>Solo se abre el proyecto {0}, sin los otros {1} archivos.</translation>
     </message>
     <message>
+        <source>Camera file</source>
+        <translation>Archivo de cámara</translation>
+    </message>
+    <message>
+        <source>Camera files (*)</source>
+        <translation>Archivos de cámara (*)</translation>
+    </message>
+    <message>
         <source>Not added, as no image can be read there: {0}.</source>
         <translation>No añadido, pues allí no se puede leer ninguna imagen: {0}.</translation>
     </message>
@@ -1565,6 +1581,14 @@ tras el giro que más las acerca donde se vieron esquinas (puntos).</translation
     <message>
         <source>Discard the changes without a copy?</source>
         <translation>¿Descartar los cambios sin copia?</translation>
+    </message>
+    <message>
+        <source>There is no report on a camera that is known from a file.</source>
+        <translation>No hay informe de una cámara conocida por un archivo.</translation>
+    </message>
+    <message>
+        <source>Calibrate it (Set-up, Lens), or write the report on its own result.</source>
+        <translation>Calíbrela (Ajustes, Lente), o escriba el informe de su propio resultado.</translation>
     </message>
     <message>
         <source>Folder that holds the missing images</source>
@@ -2154,6 +2178,44 @@ Soltadas a la izquierda entran en el proyecto.</translation>
     <message>
         <source>Photographs of an instant</source>
         <translation>Fotos de un instante</translation>
+    </message>
+</context>
+<context>
+    <name>KnownCameraChoice</name>
+    <message>
+        <source>calibrated</source>
+        <translation>calibrada</translation>
+    </message>
+    <message>
+        <source>Choose…</source>
+        <translation>Elegir…</translation>
+    </message>
+    <message>
+        <source>Calibrate again</source>
+        <translation>Calibrar de nuevo</translation>
+    </message>
+    <message>
+        <source>Hold the camera of a file of this or another program, and locate the board in photographs with it. Such a file can also be dropped on the window.</source>
+        <translation>Fijar la cámara de un archivo de este u otro programa, y ubicar con ella el tablero en las fotos. Un archivo así también se puede soltar en la ventana.</translation>
+    </message>
+    <message>
+        <source>Give the camera of the file up: calibrate one from the photographs.</source>
+        <translation>Renunciar a la cámara del archivo: calibrar una con las fotos.</translation>
+    </message>
+</context>
+<context>
+    <name>KnownCameras</name>
+    <message>
+        <source>Known camera</source>
+        <translation>Cámara conocida</translation>
+    </message>
+    <message>
+        <source>The camera of {0} ({1}) is held: Calibrate locates the board in each photograph with it. Set-up gives it up again.</source>
+        <translation>Se fija la cámara de {0} ({1}): Calibrar ubica con ella el tablero en cada foto. Los Ajustes la sueltan.</translation>
+    </message>
+    <message>
+        <source>Of {0} camera files it is the first.</source>
+        <translation>De {0} archivos de cámara es el primero.</translation>
     </message>
 </context>
 <context>
@@ -4583,6 +4645,10 @@ Los colores: dónde es pequeña (oscuro) y grande la incertidumbre de la propia 
         <translation>Conocida la cámara, buscar otra vez en imágenes sin tablero y en tableros hallados en parte, y calibrar con lo que se gana.</translation>
     </message>
     <message>
+        <source>Calibrate again</source>
+        <translation>Calibrar de nuevo</translation>
+    </message>
+    <message>
         <source>automatic</source>
         <translation>automático</translation>
     </message>
@@ -4609,6 +4675,10 @@ Los colores: dónde es pequeña (oscuro) y grande la incertidumbre de la propia 
     <message>
         <source>Held at</source>
         <translation>Fijo en</translation>
+    </message>
+    <message>
+        <source>Camera</source>
+        <translation>Cámara</translation>
     </message>
     <message>
         <source>Method</source>
@@ -5315,6 +5385,10 @@ misma escala conserva el tamaño del centro; campo de visión muestra el ángulo
     <message>
         <source>NOT CALIBRATED</source>
         <translation>SIN CALIBRAR</translation>
+    </message>
+    <message>
+        <source>KNOWN CAMERA</source>
+        <translation>CÁMARA CONOCIDA</translation>
     </message>
     <message>
         <source>FIRST FIT</source>

@@ -473,6 +473,10 @@ Colours: out of the plane; red is away from the camera.</source>
         <translation>标定</translation>
     </message>
     <message>
+        <source>Known camera</source>
+        <translation>已知相机</translation>
+    </message>
+    <message>
         <source>No board is marked yet, and the search is off.</source>
         <translation>还没有标记标定板，而搜索已关闭。</translation>
     </message>
@@ -1081,6 +1085,10 @@ Results from the same images share their errors: even 1 is much then.</source>
         <translation>正在标定：第 {0} 次迭代，RMS 残差 {1:.4f} {2}</translation>
     </message>
     <message>
+        <source>The camera is known from a file: nothing was solved.</source>
+        <translation>相机来自文件：没有求解。</translation>
+    </message>
+    <message>
         <source>Weighted RMS residual {0:.4f} {1}; {2}.</source>
         <translation>加权 RMS 残差 {0:.4f} {1}；{2}。</translation>
     </message>
@@ -1511,6 +1519,14 @@ after the rotation that brings the two closest where corners (dots) were seen.</
         <translation>只打开项目 {0}，不含其他 {1} 个文件。</translation>
     </message>
     <message>
+        <source>Camera file</source>
+        <translation>相机文件</translation>
+    </message>
+    <message>
+        <source>Camera files (*)</source>
+        <translation>相机文件 (*)</translation>
+    </message>
+    <message>
         <source>Not added, as no image can be read there: {0}.</source>
         <translation>未添加，因为其中没有可读的图像：{0}。</translation>
     </message>
@@ -1565,6 +1581,14 @@ after the rotation that brings the two closest where corners (dots) were seen.</
     <message>
         <source>Discard the changes without a copy?</source>
         <translation>不留副本就放弃更改吗？</translation>
+    </message>
+    <message>
+        <source>There is no report on a camera that is known from a file.</source>
+        <translation>来自文件的相机没有报告。</translation>
+    </message>
+    <message>
+        <source>Calibrate it (Set-up, Lens), or write the report on its own result.</source>
+        <translation>请标定它（设置，镜头），或为其自身的结果写报告。</translation>
     </message>
     <message>
         <source>Folder that holds the missing images</source>
@@ -2154,6 +2178,44 @@ Dropped on the left they join the project.</source>
     <message>
         <source>Photographs of an instant</source>
         <translation>同一时刻的照片</translation>
+    </message>
+</context>
+<context>
+    <name>KnownCameraChoice</name>
+    <message>
+        <source>calibrated</source>
+        <translation>已标定</translation>
+    </message>
+    <message>
+        <source>Choose…</source>
+        <translation>选择…</translation>
+    </message>
+    <message>
+        <source>Calibrate again</source>
+        <translation>重新标定</translation>
+    </message>
+    <message>
+        <source>Hold the camera of a file of this or another program, and locate the board in photographs with it. Such a file can also be dropped on the window.</source>
+        <translation>固定本程序或其他程序文件中的相机，并用它在照片中定位标定板。此类文件也可拖放到窗口。</translation>
+    </message>
+    <message>
+        <source>Give the camera of the file up: calibrate one from the photographs.</source>
+        <translation>放弃文件中的相机：用照片标定。</translation>
+    </message>
+</context>
+<context>
+    <name>KnownCameras</name>
+    <message>
+        <source>Known camera</source>
+        <translation>已知相机</translation>
+    </message>
+    <message>
+        <source>The camera of {0} ({1}) is held: Calibrate locates the board in each photograph with it. Set-up gives it up again.</source>
+        <translation>已固定 {0} ({1}) 的相机：“标定”用它在每张照片中定位标定板。可在设置中取消。</translation>
+    </message>
+    <message>
+        <source>Of {0} camera files it is the first.</source>
+        <translation>它是 {0} 个相机文件中的第一个。</translation>
     </message>
 </context>
 <context>
@@ -4583,6 +4645,10 @@ The colours: where the calibration&apos;s own uncertainty is small (dark) and la
         <translation>相机已知后，再次搜索没有标定板和只找到一部分的图像，并用所得重新标定。</translation>
     </message>
     <message>
+        <source>Calibrate again</source>
+        <translation>重新标定</translation>
+    </message>
+    <message>
         <source>automatic</source>
         <translation>自动</translation>
     </message>
@@ -4609,6 +4675,10 @@ The colours: where the calibration&apos;s own uncertainty is small (dark) and la
     <message>
         <source>Held at</source>
         <translation>固定在</translation>
+    </message>
+    <message>
+        <source>Camera</source>
+        <translation>相机</translation>
     </message>
     <message>
         <source>Method</source>
@@ -5315,6 +5385,10 @@ same scale keeps the size of the middle; field of view shows an angle of your ch
     <message>
         <source>NOT CALIBRATED</source>
         <translation>未标定</translation>
+    </message>
+    <message>
+        <source>KNOWN CAMERA</source>
+        <translation>已知相机</translation>
     </message>
     <message>
         <source>FIRST FIT</source>
