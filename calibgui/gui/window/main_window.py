@@ -514,7 +514,7 @@ class MainWindow(QMainWindow):
         """Return whether what was dropped is of several cameras; ask if folders may be."""
         if self.rig is not None and self.pages.currentWidget() is self.rig:
             return True
-        if len(names) == 1 and is_own(names[0], RIG):
+        if len(names) == 1 and Path(names[0]).is_file() and is_own(names[0], RIG):
             return True
         if len(names) < 2 or not all(Path(name).is_dir() for name in names):
             return False
