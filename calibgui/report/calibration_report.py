@@ -227,7 +227,7 @@ def _list_tiles(result: Result) -> Iterator[tuple[str, str]]:
         f"RMS of {format_count(figures.corners, name_point(result.board))}",
     )
     yield f"{figures.views} of {len(result.views)}", "photographs used"
-    yield f"{100 * figures.coverage:.0f} %", "of the sensor covered"
+    yield f"{100 * figures.coverage:.0f} %", "of the sensor with corners"
 
 
 def _judge_limits(result: Result, reasons: Sequence[str]) -> list[Block]:

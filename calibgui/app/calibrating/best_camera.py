@@ -17,6 +17,8 @@ from dataclasses import replace
 from threading import Event
 from typing import NamedTuple
 
+import numpy as np
+
 from calibgui.app.calibrating.calibration import recall_lens_choice
 from calibgui.app.calibrating.redetection import calibrate_twice
 from calibgui.app.calibrating.settings import (
@@ -206,10 +208,11 @@ def _describe_step(finding: Finding, following: Result, gain: float) -> str:
     """Describe what was done about a finding, what it gained, and what views left out are for."""
     assert finding.action is not None
     shape = following.calibration.board_shape
-    extent = ""
-    if finding.action.kind is ActionKind.ESTIMATE_BOARD_SHAPE and shape is not None:
-        extent = f" ({shape.rms:.2g} mm)"
     message = finding.message.removesuffix(".")
-    said = f"{message}{extent}: {_DONE[finding.action.kind]}; errors {gain:.1f} times smaller."
+    if finding.action.kind is ActionKind.ESTIMATE_BOARD_SHAPE and shape is not None:
+        across, off_plane = shape.deviation[:, :2], shape.deviation[:, 2]
+        is_flat = np.sum(across**2) > np.sum(off_plane**2)
+        message = f"Your board is not {'printed true' if is_flat else 'flat'} ({shape.rms:.2g} mm)"
+    said = f"{message}: {_DONE[finding.action.kind]}; errors {gain:.1f} times smaller."
     is_of_views = finding.action.kind is ActionKind.LEAVE_OUT_VIEWS
     return f"{said} {finding.remedy}" if is_of_views else said

@@ -21,6 +21,7 @@ from calibgui.app.photographs.detection import (
 )
 from calibgui.dataset import DEFAULT_SQUARE, CornerSet, KnownCamera, Result, View, ViewStatus
 from calibgui.dataset.details import NO_DETAILS, Details
+from calibgui.dataset.limits import Limits
 from calibgui.engine.arrays import GridSize, Size
 from calibgui.engine.boards import CHECKERBOARD, Board, Pattern
 from calibgui.engine.errors import CalibrationError
@@ -69,6 +70,8 @@ class Project:
     """What a person states of the calibration, for its report."""
     lengths_confirmed: bool = False
     """True once the user has stated the side of a square, or confirmed it."""
+    limits: Limits | None = None
+    """What is demanded of the camera; None if nothing is."""
     settings: Settings = field(default_factory=Settings)
     results: Mapping[str, Result] = field(default_factory=lambda: MappingProxyType({}))
     """Results by name, the oldest first."""
@@ -206,6 +209,12 @@ def _reset_search(view: View) -> View:
     return replace(view, status=ViewStatus.WAITING, reason="", corners=None)
 
 
+def set_limits(project: Project, limits: Limits | None) -> Project:
+    """Return the project with other demands on its camera, in its results too."""
+    results = {name: replace(result, limits=limits) for name, result in project.results.items()}
+    return replace(project, limits=limits, results=MappingProxyType(results))
+
+
 def add_images(project: Project, images: Iterable[str]) -> Project:
     """Return the project with views of those `images` that it lacks, in the order given."""
     known = {view.image for view in project.views}
@@ -247,7 +256,7 @@ def record_result(project: Project, name: str, inputs: Sequence[View], result: R
     if screened:
         views = tuple(screened.get(id(view), view) for view in project.views)
         project = replace(project, views=views)
-    result = replace(result, lengths_confirmed=project.lengths_confirmed)
+    result = replace(result, lengths_confirmed=project.lengths_confirmed, limits=project.limits)
     project = add_result(project, name, result)
     settings = {**project.settings_of_results, name: project.settings}
     return replace(project, settings_of_results=MappingProxyType(settings))

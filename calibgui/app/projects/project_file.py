@@ -10,6 +10,7 @@
     size                width and height of the images, px
     details             texts on operator, place and so on, for a report (``dataset/details.py``);
                         what is empty may be missing
+    limits              what is demanded of the camera, as in ``limits_toml.py`` (missing: nothing)
     by_hand             whether the user marks every board (false where missing)
     settings            cost, model (of the lens; "auto" if it is chosen automatically), method,
                         freed, fixed (names, or an object of them with their values or null); plate
@@ -62,6 +63,7 @@ from calibgui.engine.features import METHODS
 from calibgui.engine.files import open_regular
 from calibgui.formats.board_shape_json import decode_board_shape, decode_prior, encode_board_shape
 from calibgui.formats.json_document import JsonWriter, are_same_values, check_format, read_json
+from calibgui.formats.limits_toml import decode_limits, encode_limits
 from calibgui.formats.node import Node
 from calibgui.formats.pattern_json import decode_pattern, decode_square_sigma, encode_pattern
 from calibgui.formats.result_json import (
@@ -137,6 +139,7 @@ def encode_project(project: Project, folder: Path) -> dict[str, Any]:
         square["square_sigma_mm"] = project.square_sigma
     pattern = {"pattern": encode_pattern(project.pattern), "corners": project.method}
     field = {} if project.field is None else {"field": project.field}
+    limits = {} if project.limits is None else {"limits": encode_limits(project.limits)}
     return {
         "format": FORMAT,
         "version": VERSION,
@@ -145,6 +148,7 @@ def encode_project(project: Project, folder: Path) -> dict[str, Any]:
         "lengths_confirmed": project.lengths_confirmed,
         "size": project.size,
         "details": {name: text for name, text in asdict(project.details).items() if text},
+        **limits,
         "by_hand": project.by_hand,
         "settings": _encode_settings(project.settings),
         "views": [_encode_view(view, project, board) for view in project.views],
@@ -275,6 +279,7 @@ def _decode_project(node: Node) -> Project:
         square=square.number(),
         square_sigma=decode_square_sigma(board),
         details=_decode_details(node.get("details")),
+        limits=decode_limits(node.get("limits")),
         by_hand=by_hand.flag() if (by_hand := node.get("by_hand")) else False,
         unit=Unit(board["unit"].choice(list(Unit))),
         lengths_confirmed=bool(node["results"].value) if confirmed is None else confirmed.flag(),

@@ -25,13 +25,16 @@ from calibgui.gui.panels.latest import Latest
 from calibgui.gui.session.session import Session
 from calibgui.gui.verdict.findings_list import FindingsList
 from calibgui.gui.verdict.grade_icon import GradeIcon, get_colour
+from calibgui.gui.verdict.limits_row import LimitsRow
 from calibgui.gui.verdict.remedy_runner import CarriedOut, RemedyRunner
 from calibgui.gui.verdict.sensor_figure import SensorFigure
+from calibgui.gui.verdict.sentences import translate_sentences
 from calibgui.gui.verdict.square_row import SquareRow
-from calibgui.gui.verdict.texts import describe_button, describe_fit, describe_grade
+from calibgui.gui.verdict.texts import describe_button, describe_grade
 from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.buttons import Button, Kind
 from calibgui.gui.widgets.elided import elide_name
+from calibgui.gui.widgets.fit_text import describe_fit
 from calibgui.gui.widgets.lengths import state_condition
 from calibgui.gui.widgets.pattern_texts import list_pattern_texts
 from calibgui.gui.widgets.reserved_label import ReservedLabel
@@ -91,6 +94,7 @@ class VerdictBar(QWidget):
         # It must not push aside what stands beside the verdict below the strip.
         self.headline.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
         self.reason = ReservedLabel(_LINES)
+        self.limits = LimitsRow(session)
         self.figures = SensorFigure()
         self._fit = ""
         """The words on the residuals, which are made once for each calibration."""
@@ -136,6 +140,7 @@ class VerdictBar(QWidget):
         column.addWidget(self.reason)
         column.addWidget(self.square)
         column.addWidget(self.figures)
+        column.addWidget(self.limits)
         self.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Fixed)
 
     def show_running(self, running: bool) -> None:
@@ -255,7 +260,8 @@ class VerdictBar(QWidget):
         elif verdict is None:
             reason = self._describe_work()
         else:
-            reason = f"{self._age} {_describe_reason(verdict, result)}".lstrip()
+            said = translate_sentences(_describe_reason(verdict, result))
+            reason = f"{self._age} {said}".lstrip()
         self.reason.setText(reason)
         colours = theme.current()
         plain = colours.muted if self._is_dimmed else colours.text
@@ -406,10 +412,15 @@ def _map_errors(result: Result) -> Array | None:
 
 
 def _describe_reason(verdict: Verdict, result: Result) -> str:
-    """Say why a result has its grade."""
+    """Say what to do next about a result, if no button does it, and why it has its grade."""
     if (diagnosis := result.calibration.diagnosis) is not None:
         return f"{diagnosis.message} {describe_lost_images(result) or diagnosis.hint}"
-    return describe_reason(verdict, result)
+    reason = describe_reason(verdict, result)
+    for finding in verdict.findings[:1]:
+        has_button = finding.action is not None and finding.action.change is not None
+        if reason == finding.message and not has_button:
+            return f"{finding.remedy} {reason}"
+    return reason
 
 
 def _choose_proof(cause: Cause) -> str:

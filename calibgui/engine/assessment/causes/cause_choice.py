@@ -333,7 +333,7 @@ def _describe_check(case: Case, check: NoiseCheck) -> Finding | None:
         return None
     is_open = tested.cause is Cause.DISAGREEMENT
     evidence = (
-        f"{'Smooth displacements, others in each view, explain' if is_open else 'It explains'} "
+        f"{'Distortions, others in each view, explain' if is_open else 'It explains'} "
         f"{100 * check.share:.0f} % of the squared residuals of {case.rms:.3g} px RMS"
     )
     if tested.cause is Cause.BOARD_SHAPE and case.calibration.board_shape_error > 0:

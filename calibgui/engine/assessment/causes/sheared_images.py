@@ -89,7 +89,7 @@ def find_shear(case: Case, explained: float) -> Finding | None:
         )
     return Finding(
         Cause.SHEARED_IMAGES,
-        "All images are sheared alike: each row is shifted sideways against the next.",
+        "All images are sheared alike: each row is displaced against the next.",
         f"With a skew of {degrees:.2g} degrees {after:.2g} px are left of {case.rms:.3g} px RMS, "
         f"and neither a lens nor a board explains it better; {describe_harm(harm)}.",
         "Photograph again with camera and board on a stand, if the camera moved while a rolling "

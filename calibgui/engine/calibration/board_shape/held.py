@@ -94,7 +94,7 @@ def describe_held_shape(shape: BoardShape, views: Sequence[str]) -> tuple[str, .
     sentences = []
     if shape.covariance is None and shape.sigma.any():
         sentences.append(
-            "The given board shape does not say how the errors of its corners hang together, as "
+            "The given board shape does not say how the errors of its corners are correlated, as "
             "files of earlier versions do not: every ± takes them for independent, and may be "
             "several times too small. Estimate the shape again and save it."
         )

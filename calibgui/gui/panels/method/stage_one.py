@@ -107,8 +107,7 @@ class StageOnePanel(Panel):
         row = self._rows[max(k, 0)]
         g = evaluate_cosines_equation(row.backward, _SEARCHED, is_paper)
         self._curve.setData(_SEARCHED, g, connect="finite")
-        has_values = bool(np.isfinite(g).any())
-        self.equation.area.show_numbers(has_values)
+        self.equation.area.show_numbers(bool(np.isfinite(g).any()))
         known = np.isfinite(row.aspect)
         self._root.setData([row.aspect] if known else [], [0.0] if known else [])
         self._current.setData([max(k, 0) + 1] if known else [], [row.aspect] if known else [])
@@ -116,9 +115,7 @@ class StageOnePanel(Panel):
         self.equation.set_title(
             self.tr("{0}<br>r = {1:.4f}").format(name, row.aspect)
             if known
-            else self.tr("{0}<br>aspect ratio not determined").format(name)
-            if has_values
-            else self.tr("{0}<br>no curve: its tilt does not determine r").format(name)
+            else self.tr("{0}<br>r is not determined").format(name)
         )
 
     def _list_columns(self) -> list[Column]:
