@@ -18,6 +18,7 @@ from calibgui.engine.assessment.causes.input_errors import (
 from calibgui.engine.assessment.causes.two_pictures import find_two_pictures
 from calibgui.engine.assessment.changes.comparison import compare_cameras
 from calibgui.engine.assessment.finding import Cause, Finding
+from calibgui.engine.assessment.residuals.residual_statistics import summarise_residuals
 from calibgui.engine.calibration.calibrate import calibrate
 from calibgui.engine.calibration.observations import Observation
 from calibgui.engine.camera.camera import Camera
@@ -159,9 +160,13 @@ def test_corners_are_misplaced_on_a_rough_board_and_both_are_named(roughness: fl
     uv = np.array(uv)
     uv[row[:-1]] = uv[row[1:]]
     views[3] = Observation(uv, xy)
-    first, second = found(views)
+    calibration = calibrate(views, VGA)
+    first, second = list_findings(calibration, views)
     assert (first.cause, second.cause) == (Cause.MISPLACED_CORNERS, Cause.BOARD_SHAPE)
     assert 3 in first.views
+    shown = summarise_residuals(calibration.residuals).rms
+    assert f"of {shown:.3g} px RMS;" in first.evidence
+    assert f" px RMS ({shown:.3g} px with the corners that do not fit)" in second.evidence
 
 
 def test_corners_are_misplaced_where_other_views_have_motion_and_long_tails() -> None:
