@@ -14,7 +14,7 @@ from functools import partial
 from pathlib import Path
 
 from calibgui.app.calibrating.settings import AUTO_MODEL, Settings, resolve_model_choice
-from calibgui.app.outputs.output_files import check_outputs
+from calibgui.app.outputs.output_files import check_outputs, check_suffix
 from calibgui.app.photographs.detection import Detection
 from calibgui.app.rig.calibrating import calibrate_photographs, search_cameras
 from calibgui.app.rig.frames import write_frames
@@ -125,8 +125,8 @@ def configure(parser: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace, console: Console) -> None:
     """Pair, search, calibrate, write and print."""
     output = console.take_output(options.output)
-    if output and output.suffix.lower() != ".json":
-        raise CalibrationError(f"{output} is not named as JSON.", "Give it the suffix .json.")
+    if output:
+        check_suffix(output, (".json",), "JSON")
     pairing, times = _pair(options, console, output)
     if options.times:
         times = read_times(options.times, {camera.name for camera in pairing.cameras})
