@@ -1,4 +1,4 @@
-"""Where the camera was at each photograph, for programs that reconstruct scenes.
+"""Programs that reconstruct scenes are told where the camera was at each photograph.
 
 The world is the board. Its axes, and the camera's, are either those of the array frame (X right, Y
 down, Z ahead, into the board), or those of OpenGL and Blender, which turn both by half about X: X

@@ -42,7 +42,7 @@ that is not known). It may raise an error to abandon the work."""
 
 
 class Choices(TypedDict, total=False):
-    """What may be stated of a calibration; all else is as the photographs demand."""
+    """The choices that may be stated of a calibration; all else is as the photographs demand."""
 
     model: str
     """The lens model; "auto", the default, for the one that the photographs demand."""

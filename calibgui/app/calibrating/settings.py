@@ -1,4 +1,4 @@
-"""How to calibrate, as the window keeps it and the command line is given it."""
+"""Settings say how to calibrate, as the window keeps them and the command line is given them."""
 
 from __future__ import annotations
 

@@ -45,7 +45,7 @@ _LONG_SIDE_PX, _JPEG_QUALITY = 220, 70
 
 @dataclass(frozen=True, slots=True)
 class ReportStyle:
-    """How a report is laid out."""
+    """The layout of a report."""
 
     layout: Layout = Layout.REPORT
     paper: str = "a4"

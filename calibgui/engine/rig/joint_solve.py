@@ -81,7 +81,7 @@ class CameraProblem:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class RigProblem:
-    """What the joint solve is asked for."""
+    """The problem that the joint solve is given."""
 
     cameras: tuple[CameraProblem, ...]
     layout: Layout

@@ -1,4 +1,4 @@
-"""How fast the board moves in each view, for cameras whose clocks do not agree.
+"""The speed of the board in each view tells how far the clocks of the cameras are apart.
 
 A camera that is late by t sees the board where it will be t later than the others see it. How fast
 it moves each camera knows by itself, from its views before and after: with the pose (R, T)
@@ -31,7 +31,7 @@ from calibgui.engine.rig.records import RigCamera
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Motion:
-    """How the board moves in a camera's views."""
+    """The motion of the board in a camera's views."""
 
     velocity: Array
     """(K, 6) omega and v, rad/s and mm/s."""

@@ -1,4 +1,4 @@
-"""How far a camera's pixels are uncertain, beside a rotation that makes up for part of it.
+"""A camera's pixels are uncertain, beside a rotation that makes up for part of that.
 
 An error dc of the camera moves the pixels of directions by q_c dc, and a rotation w of the camera
 by q_p B w (``uncertainty/projection_uncertainty.py``). As ``comparison.py`` brings two cameras
