@@ -13,7 +13,7 @@ from collections.abc import Mapping, Sequence
 from functools import partial
 from pathlib import Path
 
-from calibgui.app.calibrating.settings import AUTO_MODEL, Settings, resolve_model_choice
+from calibgui.app.calibrating.settings import Settings
 from calibgui.app.outputs.output_files import check_outputs, check_suffix
 from calibgui.app.photographs.detection import Detection
 from calibgui.app.rig.calibrating import calibrate_photographs, search_cameras
@@ -23,6 +23,7 @@ from calibgui.cli.arguments import (
     add_corner_method,
     add_grid_size_option,
     add_square_option,
+    parse_model,
     require_board,
     search_images,
 )
@@ -59,7 +60,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     add_square_option(parser, f"all lengths depend on it ({DEFAULT_SQUARE:g} if left out)")
     parser.add_argument(
         "--model",
-        type=_parse_model,
+        type=parse_model,
         metavar="NAME",
         help="the lens model of all cameras; if left out, each has the one that its photographs "
         "demand",
@@ -234,16 +235,6 @@ def _write(result: RigResult, options: argparse.Namespace, output: Path | None) 
         messages.append(f"Wrote {output}.")
     messages += [RIG_EXPORTERS[name].write(result, path, pair) for name, path in options.export]
     return messages
-
-
-def _parse_model(text: str) -> str | None:
-    """Return the name of a lens model, None for one that is chosen automatically."""
-    if text == AUTO_MODEL:
-        return None
-    try:
-        return resolve_model_choice(text)
-    except CalibrationError as error:
-        raise argparse.ArgumentTypeError(str(error)) from error
 
 
 def _parse_known(text: str) -> tuple[str, Path]:

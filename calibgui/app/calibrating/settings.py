@@ -119,6 +119,11 @@ def change_settings(settings: Settings, model: str, change: Change) -> Settings:
     )
 
 
+def read_model_choice(text: str) -> str | None:
+    """Read the name of a lens model as `resolve_model_choice` does; None for `AUTO_MODEL`."""
+    return None if text == AUTO_MODEL else resolve_model_choice(text)
+
+
 def resolve_model_choice(model: str) -> str:
     """Return the present name of a lens model that the user can choose.
 
