@@ -125,12 +125,15 @@ def estimate_velocities(
 
 
 def _find_lags(
-    instants: Sequence[int], own: Mapping[int, float], first: Mapping[int, float]
+    instants: Sequence[int], times: Mapping[int, float], first_times: Mapping[int, float]
 ) -> Array:
     """Find by how much a camera's clock says that it was later than the first one, s, at instants.
 
     It is 0 at an instant that the first camera has no time of, and where times are not known.
     """
     return np.array(
-        [own[each] - first[each] if each in own and each in first else 0.0 for each in instants]
+        [
+            times[each] - first_times[each] if each in times and each in first_times else 0.0
+            for each in instants
+        ]
     )
