@@ -27,7 +27,7 @@ import numpy as np
 from calibgui.engine.arrays import Array
 from calibgui.engine.assessment.causes.mixed_views import Split, find_two_kinds
 from calibgui.engine.assessment.causes.rival_lens import Rival, fit_rival
-from calibgui.engine.assessment.changes.camera_uncertainty import estimate_camera_uncertainty
+from calibgui.engine.assessment.changes.camera_uncertainty import split_camera_uncertainty
 from calibgui.engine.assessment.changes.comparison import find_covered_pixels
 from calibgui.engine.assessment.finding import MIN_VIEWS_TO_JUDGE
 from calibgui.engine.assessment.residuals.residual_checks import NoiseReport, check_residuals
@@ -129,13 +129,11 @@ def prepare_case(
 ) -> Case:
     """Prepare a case: find out how well pixels are known, by everything and by noise alone."""
     check()
-    total = estimate_camera_uncertainty(calibration, views)
+    total, by_noise = split_camera_uncertainty(calibration, views)
     over_image = total.worst_direction
     known = over_image[np.isfinite(over_image)]  # a lens may image nothing in the corners
     if not known.size:
         known = np.array(calibration.camera.size)
-    noise_only = replace(calibration, covariance=calibration.noise_covariance)
-    by_noise = estimate_camera_uncertainty(noise_only, views)
     noise = by_noise.worst_direction[np.isfinite(over_image)]
     covered = find_covered_pixels(make_mesh(total.u, total.v), views)
     rms = summarise_residuals(calibration.residuals).rms
