@@ -36,6 +36,7 @@ from calibgui.engine.assessment.residuals.systematic_errors import prepare_fit
 from calibgui.engine.calibration.observations import Observation
 from calibgui.engine.calibration.result import Calibration
 from calibgui.engine.images.sampling import make_mesh
+from calibgui.engine.numbers import format_two_digits
 from calibgui.engine.uncertainty.projection_uncertainty import compute_worst_sigma
 
 
@@ -98,7 +99,7 @@ class Case:
 
     def describe_rms(self) -> str:
         """Describe the residuals by their RMS, beside that which the user sees if it is another."""
-        own, shown = (f"{rms:.3g} px" for rms in (self.rms, self.shown_rms))
+        own, shown = (f"{format_two_digits(rms)} px" for rms in (self.rms, self.shown_rms))
         return f"{own} RMS" if own == shown else f"{own} RMS ({shown} {self.how_shown})"
 
     def measure_harm(self, share: float = 0.0) -> float:

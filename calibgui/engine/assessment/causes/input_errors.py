@@ -255,7 +255,7 @@ def describe_misplaced_corners(case: Case, screening: Screening) -> Finding | No
     return Finding(
         Cause.MISPLACED_CORNERS,
         f"Corners are not where the others say, in {listed}{more}.",
-        f"Without them {after:.3g} px are left of {case.describe_rms()}; {describe_harm(harm)}.",
+        f"Without them {after:.2g} px are left of {case.describe_rms()}; {describe_harm(harm)}.",
         "Leave outliers out, or look at the corners of these views.",
         harm,
         chosen,

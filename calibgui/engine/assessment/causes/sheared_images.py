@@ -80,8 +80,8 @@ def find_shear(case: Case, explained: float) -> Finding | None:
         return Finding(
             Cause.DISAGREEMENT,
             "Either all images or the board are sheared, and these views do not tell which.",
-            f"A skew of {degrees:.2g} degrees leaves {after:.3g} px of {case.describe_rms()}, a "
-            f"board of unequal or oblique squares {by_board:.3g} px; {describe_harm(harm)}.",
+            f"A skew of {degrees:.2g} degrees leaves {after:.2g} px of {case.describe_rms()}, a "
+            f"board of unequal or oblique squares {by_board:.2g} px; {describe_harm(harm)}.",
             "Measure whether the board's two diagonals are equally long, and add views with the "
             "board turned by 90 degrees in its plane.",
             harm,

@@ -24,6 +24,7 @@ from calibgui.engine.calibration.observations import Observation
 from calibgui.engine.camera.camera import Camera
 from calibgui.engine.errors import CalibrationError, Cancelled
 from calibgui.engine.geometry.pose import Pose
+from calibgui.engine.numbers import format_two_digits
 from tests.engine.scenes import VGA, barrel, looking, scene, scene_in_the_middle, seen
 from tests.faults.campaign import inject_fault
 from tests.faults.sets import draw_rendered_set, photograph
@@ -164,9 +165,9 @@ def test_corners_are_misplaced_on_a_rough_board_and_both_are_named(roughness: fl
     first, second = list_findings(calibration, views)
     assert (first.cause, second.cause) == (Cause.MISPLACED_CORNERS, Cause.BOARD_SHAPE)
     assert 3 in first.views
-    shown = summarise_residuals(calibration.residuals).rms
-    assert f"of {shown:.3g} px RMS;" in first.evidence
-    assert f" px RMS ({shown:.3g} px with the corners that do not fit)" in second.evidence
+    shown = format_two_digits(summarise_residuals(calibration.residuals).rms)
+    assert f"of {shown} px RMS;" in first.evidence
+    assert f" px RMS ({shown} px with the corners that do not fit)" in second.evidence
 
 
 def test_corners_are_misplaced_where_other_views_have_motion_and_long_tails() -> None:
