@@ -22,7 +22,6 @@ from calibgui.app.calibrating.settings import (
     get_own_model,
     parse_fixed,
     parse_names,
-    resolve_model_choice,
 )
 from calibgui.app.calibrating.true_board import GLASS, list_gains, measure_gain_of_glass
 from calibgui.app.system.limit_presets import find_camera_limits
@@ -32,6 +31,7 @@ from calibgui.cli.arguments import (
     add_hardware_option,
     add_reader_option,
     is_corners_file,
+    parse_model,
     parse_positive,
     read_hardware_options,
 )
@@ -121,7 +121,7 @@ def add_settings_options(parser: argparse.ArgumentParser, is_automatic: bool = F
     )
     group.add_argument(
         "--model",
-        type=_parse_model,
+        type=parse_model,
         default=argparse.SUPPRESS,  # None is the automatic choice
         metavar="NAME",
         help=f"the lens model to estimate; if left out, {'auto, or ' * is_automatic}the "
@@ -359,16 +359,6 @@ def _check_usage(options: argparse.Namespace, settings: Settings) -> None:
     in_mm = "--prior" if options.prior else "--save-board-shape" if options.save_board_shape else ""
     if in_mm and options.square is None and not is_corners_file(options.paths):
         options.usage_error(f"{in_mm} is in mm: add --square MM")
-
-
-def _parse_model(text: str) -> str | None:
-    """Return the name of a lens model, None for one that is chosen automatically."""
-    if text == AUTO_MODEL:
-        return None
-    try:
-        return resolve_model_choice(text)
-    except CalibrationError as error:
-        raise argparse.ArgumentTypeError(str(error)) from error
 
 
 def _describe_models(default: str) -> str:

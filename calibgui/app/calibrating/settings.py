@@ -1,4 +1,4 @@
-"""How to calibrate, as the window keeps it and the command line is given it."""
+"""Settings say how to calibrate, as the window keeps them and the command line is given them."""
 
 from __future__ import annotations
 
@@ -121,6 +121,11 @@ def change_settings(settings: Settings, model: str, change: Change) -> Settings:
         robust=settings.robust or change.leaves_out_corners,
         weigh_views=settings.weigh_views or change.weighs_views,
     )
+
+
+def read_model_choice(text: str) -> str | None:
+    """Read the name of a lens model as `resolve_model_choice` does; None for `AUTO_MODEL`."""
+    return None if text == AUTO_MODEL else resolve_model_choice(text)
 
 
 def resolve_model_choice(model: str) -> str:

@@ -93,7 +93,7 @@ class FleetFolder:
 
 
 class Work(NamedTuple):
-    """What a worker is sent."""
+    """The work that a worker is sent."""
 
     task: CameraTask
     known: FleetCamera | None

@@ -28,10 +28,9 @@ from pathlib import Path
 from typing import Any
 
 from calibgui.app.calibrating.settings import (
-    AUTO_MODEL,
     Settings,
     check_settings,
-    resolve_model_choice,
+    read_model_choice,
 )
 from calibgui.app.fleet.photographs import check_address
 from calibgui.app.photographs.paths import is_remote
@@ -252,8 +251,7 @@ def read_board_words(text: str, board: BoardSought, folder: Path = Path()) -> Bo
 def _read_model(text: str, settings: Settings) -> Settings:
     if not text:
         return settings
-    model = None if text == AUTO_MODEL else resolve_model_choice(text)
-    changed = replace(settings, model=model)
+    changed = replace(settings, model=read_model_choice(text))
     check_settings(changed)
     return changed
 

@@ -105,7 +105,7 @@ class Project:
 
     @cached_property
     def grid_size_doubt(self) -> CalibrationError | None:
-        """Why it is not known how many rows and columns the board has, of which parts are seen;
+        """The doubt about how many rows and columns a board has of which parts are seen;
         None if it is stated or seen, or no board is found. The board counts as its largest part
         for what is shown, and nothing is calibrated."""
         if self.grid_size is not None:

@@ -47,7 +47,7 @@ from calibgui.app.calibrating.settings import (
     MODEL_CHOICES,
     Settings,
     list_parameters,
-    resolve_model_choice,
+    read_model_choice,
 )
 from calibgui.app.photographs.paths import is_remote
 from calibgui.app.projects.project import GRID_LINES, Project, Unit, relocate_images
@@ -358,10 +358,8 @@ def _decode_settings_of_results(node: Node, now: Settings) -> dict[str, Settings
 
 def _decode_model(node: Node) -> str | None:
     """Return the name of the lens model to estimate, None for one that is chosen automatically."""
-    if node.text() == AUTO_MODEL:
-        return None
     try:
-        return resolve_model_choice(node.text())
+        return read_model_choice(node.text())
     except CalibrationError:
         node.choice([AUTO_MODEL, *MODEL_CHOICES])  # names the place, and the choices
         raise

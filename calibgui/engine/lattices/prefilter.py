@@ -97,7 +97,7 @@ _MOST = 0.5
 
 @dataclass(frozen=True, slots=True)
 class Refusal:
-    """Why a lattice is no board."""
+    """The reasons why a lattice is no board."""
 
     shape: tuple[int, int]
     """Rows and columns of the lattice."""

@@ -48,7 +48,7 @@ class Calibrator(QObject):
         self._views: tuple[View, ...] = ()
         """The views that the next answer is made from."""
         self._is_recording = False
-        """Whether the project changes by an answer, which makes the calibration no less needed."""
+        """True if the project changes by an answer, which makes the calibration no less needed."""
         self._question: Hashable = None
         """What the calibration under way answers."""
         detector.finished.connect(self._searched)

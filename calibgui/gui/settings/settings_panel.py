@@ -1,4 +1,4 @@
-"""How to calibrate: method, lens model, what is minimised and estimated, and the board's shape."""
+"""The settings panel asks for method, lens model, cost, estimated parameters and board shape."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What was done to get the camera: a line each, with undo where that is possible, or why."""
+"""The steps that led to the camera take a line each, with undo or the reason why there is none."""
 
 from __future__ import annotations
 

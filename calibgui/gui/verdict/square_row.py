@@ -25,7 +25,7 @@ class SquareRow(QWidget):
         super().__init__()
         self._session = session
         self._has_asked = False
-        """Whether the question was put since a board was first found."""
+        """True if the question was put since a board was first found."""
         self.counted = ReservedLabel(1)
         self.square = QDoubleSpinBox(decimals=3, minimum=0.001, maximum=100_000.0)
         self.square.setFixedWidth(120)

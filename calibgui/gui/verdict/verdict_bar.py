@@ -319,7 +319,7 @@ class VerdictBar(QWidget):
 
     @property
     def _action(self) -> Action | None:
-        """What is to be done first: about the most harmful finding, or to add views."""
+        """The action to do first: on the most harmful finding, or to add views."""
         verdict, result = self.verdict, self._result
         if verdict is None or result is None:
             return None

@@ -18,7 +18,7 @@ _LINE = 1.6
 
 
 class Icon(Enum):
-    """What an icon shows: its lines, each through points of the grid."""
+    """The drawing of an icon: its lines, each through points of the grid."""
 
     FOLDER = (((3, 19), (3, 5), (9, 5), (11, 8), (21, 8), (21, 19), (3, 19)), ((3, 11), (21, 11)))
     PICTURE = (

@@ -62,11 +62,11 @@ class Column:
     tip: str = ""
     """What the column means, with its unit."""
     hidden: bool = False
-    """Whether only copies and files hold it."""
+    """True if only copies and files hold it."""
     optional: bool = False
-    """Whether it is left out where there is no room for all."""
+    """True if it is left out where there is no room for all."""
     expendable: bool = False
-    """Whether it is left out where even a narrow first column leaves no room for the others."""
+    """True if it is left out where even a narrow first column leaves no room for the others."""
     heading: str = ""
     """What stands over the texts, if not the title: with the unit that only they are in."""
     tips: Sequence[str] = ()

@@ -1,4 +1,4 @@
-"""What the errors of a held board shape add to the uncertainty of a calibration.
+"""The errors of a held board shape add to the uncertainty of a calibration.
 
 A shape that was estimated before has errors e of the corners' places, of covariance C
 (``boards/shape.py``). Camera and poses theta that fit best for the held shape follow it: with the

@@ -19,7 +19,12 @@ from calibgui.engine import opencv
 from calibgui.engine.arrays import Array, GreyImage, GridSize, IntArray
 from calibgui.engine.boards.april_grid import AprilGrid, TagLayout
 from calibgui.engine.boards.apriltags import load_family
-from calibgui.engine.detection.apriltags.tag_places import MAX_COLS, MIN_TAGS, list_layouts
+from calibgui.engine.detection.apriltags.tag_places import (
+    MAX_COLS,
+    MIN_TAGS,
+    list_layouts,
+    list_layouts_of_columns,
+)
 from calibgui.engine.detection.apriltags.tag_reader import (
     TagPrint,
     TagReader,
@@ -346,13 +351,7 @@ def _list_likely_layouts(numbers: IntArray, corners: Array) -> list[TagLayout]:
     centre = corners.mean(axis=1)
     side = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2).max(axis=1)
     near = np.linalg.norm(centre - centre[:, None], axis=2) < _NEIGHBOUR_DISTANCE * side
-    between = np.unique(np.abs(np.subtract.outer(numbers, numbers))[near])
-    return [
-        layout
-        for cols in between.tolist()
-        if 0 < cols <= MAX_COLS
-        for layout in list_layouts(cols, None)
-    ]
+    return list_layouts_of_columns(numbers, near)
 
 
 def _is_wholly_read(tags: Markers[TagLayout]) -> bool:

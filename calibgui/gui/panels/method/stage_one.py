@@ -180,7 +180,7 @@ class StageOnePanel(Panel):
         marked: dict[int, list[str]] = {}
         for name in ("xp", "yp", "k1", "fx", "rms"):
             values = np.array([getattr(row, name) for row in rows])
-            for k in np.flatnonzero(_far(values)).tolist() if np.isfinite(values).any() else ():
+            for k in np.flatnonzero(_are_far(values)).tolist() if np.isfinite(values).any() else ():
                 marked.setdefault(k, []).append(name)
         for k, row in enumerate(rows):
             if not row.converged:
@@ -198,8 +198,8 @@ def _power(values: Sequence[float]) -> int:
     return int(np.floor(np.log10(np.median(known)))) if known.size else 0
 
 
-def _far(values: Array) -> BoolArray:
-    """Which values are far outside the quartiles of all."""
+def _are_far(values: Array) -> BoolArray:
+    """Return which values are far outside the quartiles of all."""
     low, high = np.nanquantile(values, [0.25, 0.75])
     reach = _OUTLYING * (high - low)
     return np.asarray((values < low - reach) | (values > high + reach))
