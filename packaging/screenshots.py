@@ -102,7 +102,7 @@ class Hand:
                 image = render_view(_LIVE, pose, _BOARD, blur=0.7, noise=4.0, seed=count)
                 yield Frame(np.repeat(image[:, :, None], 3, axis=2), count / 25)
                 pause_in_thread()
-            page = self._window.live
+            page = self._window.own_pages.live
             session = None if page is None else page.session
             if session is not None and session.goal is not None:
                 corners = session.goal.reshape(-1, 2), _BOARD.points()
@@ -335,8 +335,8 @@ class Photographer:
         """Photograph a rendered board live, up to a place where it is wanted."""
         window = self.window
         with mock.patch.object(live_page, "open_source", lambda *_: Hand(window)):
-            window.photograph_live()
-            page = window.live
+            window.own_pages.photograph_live()
+            page = window.own_pages.live
             assert page is not None
             with tempfile.TemporaryDirectory() as folder:
                 page.folder = Path(folder) / "pictures"
@@ -362,8 +362,8 @@ class Photographer:
                     seen = Pose(vector_from_rotation(turn), R @ board.tvec + pose.tvec)
                     image = render_view(_LIVE, seen, _BOARD, blur=0.7, noise=4.0, seed=k)
                     write_image(place / f"{k + 1:02}.png", image)
-            window.show_rig(list(map(str, cameras)))
-            page = window.rig
+            window.own_pages.show_rig(list(map(str, cameras)))
+            page = window.own_pages.rig
             assert page is not None
             wait(lambda: page.pairing is not None)
             page.square.setValue(_BOARD.square)

@@ -2671,14 +2671,6 @@ nur ihre Lagen angepasst</translation>
         <source>Untitled</source>
         <translation>Ohne Namen</translation>
     </message>
-    <message>
-        <source>Several folders</source>
-        <translation>Mehrere Ordner</translation>
-    </message>
-    <message>
-        <source>Are these the photographs of several cameras that stand fast to each other, a folder for each? No: all are of one camera.</source>
-        <translation>Sind das die Fotos mehrerer Kameras, die fest zueinander stehen, ein Ordner für jede? Nein: alle sind von einer Kamera.</translation>
-    </message>
 </context>
 <context>
     <name>ManualDialog</name>
@@ -3084,6 +3076,17 @@ wo die äußerste Ecke liegt; negativ zur Mitte hin</translation>
     <message>
         <source>What was found</source>
         <translation>Was gefunden wurde</translation>
+    </message>
+</context>
+<context>
+    <name>OwnPages</name>
+    <message>
+        <source>Several folders</source>
+        <translation>Mehrere Ordner</translation>
+    </message>
+    <message>
+        <source>Are these the photographs of several cameras that stand fast to each other, a folder for each? No: all are of one camera.</source>
+        <translation>Sind das die Fotos mehrerer Kameras, die fest zueinander stehen, ein Ordner für jede? Nein: alle sind von einer Kamera.</translation>
     </message>
 </context>
 <context>

@@ -2671,14 +2671,6 @@ ajustando solo sus poses</translation>
         <source>Untitled</source>
         <translation>Sin nombre</translation>
     </message>
-    <message>
-        <source>Several folders</source>
-        <translation>Varias carpetas</translation>
-    </message>
-    <message>
-        <source>Are these the photographs of several cameras that stand fast to each other, a folder for each? No: all are of one camera.</source>
-        <translation>¿Son las fotos de varias cámaras fijas entre sí, una carpeta por cada una? No: todas son de una cámara.</translation>
-    </message>
 </context>
 <context>
     <name>ManualDialog</name>
@@ -3084,6 +3076,17 @@ donde está la esquina más alejada; negativo hacia él</translation>
     <message>
         <source>What was found</source>
         <translation>Lo que se encontró</translation>
+    </message>
+</context>
+<context>
+    <name>OwnPages</name>
+    <message>
+        <source>Several folders</source>
+        <translation>Varias carpetas</translation>
+    </message>
+    <message>
+        <source>Are these the photographs of several cameras that stand fast to each other, a folder for each? No: all are of one camera.</source>
+        <translation>¿Son las fotos de varias cámaras fijas entre sí, una carpeta por cada una? No: todas son de una cámara.</translation>
     </message>
 </context>
 <context>

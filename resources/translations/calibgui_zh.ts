@@ -2671,14 +2671,6 @@ with only their poses fitted</source>
         <source>Untitled</source>
         <translation>未命名</translation>
     </message>
-    <message>
-        <source>Several folders</source>
-        <translation>多个文件夹</translation>
-    </message>
-    <message>
-        <source>Are these the photographs of several cameras that stand fast to each other, a folder for each? No: all are of one camera.</source>
-        <translation>这些是彼此固定的多台相机的照片，每台一个文件夹吗？否：都来自一台相机。</translation>
-    </message>
 </context>
 <context>
     <name>ManualDialog</name>
@@ -3084,6 +3076,17 @@ where the outermost corner lies; negative towards it</source>
     <message>
         <source>What was found</source>
         <translation>找到的内容</translation>
+    </message>
+</context>
+<context>
+    <name>OwnPages</name>
+    <message>
+        <source>Several folders</source>
+        <translation>多个文件夹</translation>
+    </message>
+    <message>
+        <source>Are these the photographs of several cameras that stand fast to each other, a folder for each? No: all are of one camera.</source>
+        <translation>这些是彼此固定的多台相机的照片，每台一个文件夹吗？否：都来自一台相机。</translation>
     </message>
 </context>
 <context>

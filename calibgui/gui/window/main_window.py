@@ -3,10 +3,8 @@
 from __future__ import annotations
 
 import gc
-from collections.abc import Sequence
 from importlib import import_module
 from itertools import pairwise
-from pathlib import Path
 from traceback import extract_tb
 from typing import TYPE_CHECKING
 
@@ -21,7 +19,6 @@ from calibgui.dataset import Result
 from calibgui.engine.calibration import Cost
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.kernels import are_all_kept
-from calibgui.formats.origin import RIG, is_own
 from calibgui.gui.canvas.image_page import ImagePage
 from calibgui.gui.dialogs.files import Files
 from calibgui.gui.images.film_strip import FilmStrip
@@ -37,12 +34,10 @@ from calibgui.gui.settings.limits_choice import LimitsChoice
 from calibgui.gui.settings.settings_panel import SettingsPanel
 from calibgui.gui.verdict.check_sheet import CheckSheet
 from calibgui.gui.verdict.verdict_bar import VerdictBar
-from calibgui.gui.widgets import questions
 from calibgui.gui.widgets.actions import show_dialog
 from calibgui.gui.widgets.buttons import Button
 from calibgui.gui.widgets.kept_settings import keep, read_kept_bytes
 from calibgui.gui.widgets.overlay import Overlay
-from calibgui.gui.widgets.questions import Answer
 from calibgui.gui.window.banner import Banner
 from calibgui.gui.window.body import Body
 from calibgui.gui.window.commands import Commands
@@ -50,6 +45,7 @@ from calibgui.gui.window.header import Header
 from calibgui.gui.window.inspector import Inspector
 from calibgui.gui.window.menus import Menus
 from calibgui.gui.window.offers import Offers
+from calibgui.gui.window.own_pages import OwnPages
 from calibgui.gui.window.palette import Palette
 from calibgui.gui.window.progress import Progress
 from calibgui.gui.window.setup_sheet import SetupSheet
@@ -57,9 +53,7 @@ from calibgui.gui.window.tour import Parts, Tour
 from calibgui.gui.window.welcome import Welcome
 
 if TYPE_CHECKING:
-    from calibgui.gui.live.live_page import LivePage
     from calibgui.gui.panels.analysis import Analysis
-    from calibgui.gui.rig.rig_page import RigPage
 
 
 class MainWindow(QMainWindow):
@@ -85,8 +79,6 @@ class MainWindow(QMainWindow):
         self.settings.hide()
         self.analysis: Analysis | None = None
         self._tour: Tour | None = None
-        self.live: LivePage | None = None
-        self.rig: RigPage | None = None
         self._empty = True
         self._bugs: set[tuple[object, ...]] = set()
         """Bugs that were shown: what was raised, and where."""
@@ -95,6 +87,7 @@ class MainWindow(QMainWindow):
         self._at = (self.session.document, 0)
         self.welcome = Welcome(self.session.jobs)
         self.pages = QStackedWidget()
+        self.own_pages = OwnPages(self.pages, self.session.jobs)
         self.banner = Banner()
         # Over the picture: what one points at must not move when a message comes.
         Overlay(self.banner, self.pages, is_on_top=True)
@@ -162,8 +155,8 @@ class MainWindow(QMainWindow):
                 self._list_pages,
                 lambda: show_dialog(Palette(menus, self)),
                 self.take_tour,
-                self.photograph_live,
-                self.show_rig,
+                self.own_pages.photograph_live,
+                self.own_pages.show_rig,
             ),
         )
         # Another result to be shown changes nothing here, unless the project has changed as well.
@@ -196,9 +189,12 @@ class MainWindow(QMainWindow):
         for changed in (self.session.jobs.changed, self.calibrator.began, self.calibrator.ended):
             changed.connect(self._show_calibrate)
         self.files.saver.opened.connect(self.images.thumbnails.look_for_changes)
+        self.own_pages.shown.connect(self._make_room)
+        self.own_pages.left.connect(lambda: self._show_parts(self._empty))
+        self.own_pages.pictures_taken.connect(self._take_pictures)
         self.welcome.folder_wanted.connect(self.files.ask_for_folder)
         self.welcome.images_wanted.connect(self.files.ask_for_images)
-        self.welcome.camera_wanted.connect(self.photograph_live)
+        self.welcome.camera_wanted.connect(self.own_pages.photograph_live)
         self.welcome.sample_wanted.connect(self.files.open_sample)
         self.welcome.tour_wanted.connect(self.take_tour)
         self.welcome.board_wanted.connect(self.files.print_board)
@@ -251,40 +247,10 @@ class MainWindow(QMainWindow):
             self.session.select(image)
         self.show_mode(Mode.PHOTOGRAPHS)
 
-    def photograph_live(self) -> None:
-        """Show the page on which a camera takes the photographs, and nothing else."""
-        if self.live is None:
-            from calibgui.gui.live.live_page import LivePage
-
-            self.live = LivePage(self.session.jobs)
-            self.live.pictures_wanted.connect(self._take_pictures)
-            self._add_page(self.live)
-        if self.pages.currentWidget() is not self.live:
-            self.live.offer()
-        self._show_page_alone(self.live)
-
-    def show_rig(self, names: Sequence[str] = ()) -> None:
-        """Show the page of several cameras, with these folders or this saved rig."""
-        if self.rig is None:
-            from calibgui.gui.rig.rig_page import RigPage
-
-            self.rig = RigPage(self.session.jobs)
-            self._add_page(self.rig)
-        self._show_page_alone(self.rig)
-        if len(names) == 1 and Path(names[0]).is_file():
-            self.rig.open_rig(Path(names[0]))
-        elif names:
-            self.rig.open_folders(names)
-
-    def _add_page(self, page: LivePage | RigPage) -> None:
-        """Add a page that takes the whole desk until it is left."""
-        page.left.connect(lambda: self._show_parts(self._empty))
-        self.pages.addWidget(page)
-
-    def _show_page_alone(self, page: QWidget) -> None:
+    def _make_room(self) -> None:
+        """Leave the desk to a page of its own."""
         self.body.show_parts(empty=True)
         self.header.show_modes(False)
-        self.pages.setCurrentWidget(page)
 
     def _take_pictures(self, files: list[str]) -> None:
         """Calibrate from pictures that were taken live."""
@@ -504,31 +470,11 @@ class MainWindow(QMainWindow):
         self.inspector.invite(False)
         if checks:
             self.check.check(names)
-        elif self._are_of_rig(names):
-            self.show_rig(names)
+        elif self.own_pages.are_of_rig(names):
+            self.own_pages.show_rig(names)
         else:
             self.files.open_paths(names)
         _accept_copy(event)
-
-    def _are_of_rig(self, names: Sequence[str]) -> bool:
-        """Return whether what was dropped is of several cameras; ask if folders may be."""
-        if self.rig is not None and self.pages.currentWidget() is self.rig:
-            return True
-        if len(names) == 1 and Path(names[0]).is_file() and is_own(names[0], RIG):
-            return True
-        if len(names) < 2 or not all(Path(name).is_dir() for name in names):
-            return False
-        answer = questions.ask(
-            self,
-            self.tr("Several folders"),
-            self.tr(
-                "Are these the photographs of several cameras that stand fast to each other, a "
-                "folder for each? No: all are of one camera."
-            ),
-            Answer.Yes | Answer.No,
-            Answer.No,
-        )
-        return answer == Answer.Yes
 
     def changeEvent(self, event: QEvent) -> None:  # noqa: N802 - Qt's name
         super().changeEvent(event)

@@ -86,11 +86,11 @@ def live(window: MainWindow, qtbot: QtBot, tmp_path: Path, monkeypatch: pytest.M
 
     monkeypatch.setattr(live_page, "open_source", open_hand)
     qtbot.mouseClick(window.welcome.buttons[1], LEFT)
-    assert window.live is not None
-    assert window.pages.currentWidget() is window.live
-    hand.page = window.live
-    window.live.folder = tmp_path / "live"
-    return Page(window.live, hand, qtbot)
+    assert window.own_pages.live is not None
+    assert window.pages.currentWidget() is window.own_pages.live
+    hand.page = window.own_pages.live
+    window.own_pages.live.folder = tmp_path / "live"
+    return Page(window.own_pages.live, hand, qtbot)
 
 
 def test_a_hand_that_follows_ends_with_a_calibrated_project(live: Page, window: MainWindow) -> None:
@@ -169,8 +169,8 @@ def test_the_camera_is_released_when_the_page_is_left(live: Page, window: MainWi
 
 
 def test_a_camera_that_is_not_there_is_said(window: MainWindow, qtbot: QtBot) -> None:
-    window.photograph_live()
-    page = window.live
+    window.own_pages.photograph_live()
+    page = window.own_pages.live
     assert page is not None
     page.source.setEditText("97")
     qtbot.mouseClick(page.start, LEFT)

@@ -54,10 +54,11 @@ def drawn(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture
 def page(window: MainWindow, qtbot: QtBot, drawn: Path) -> RigPage:
-    window.show_rig([str(drawn / "left"), str(drawn / "right")])
-    assert window.rig is not None
-    qtbot.waitUntil(lambda: window.rig is not None and window.rig.pairing is not None)
-    return window.rig
+    window.own_pages.show_rig([str(drawn / "left"), str(drawn / "right")])
+    page = window.own_pages.rig
+    assert page is not None
+    qtbot.waitUntil(lambda: page.pairing is not None)
+    return page
 
 
 @pytest.fixture
@@ -171,9 +172,10 @@ def test_folders_that_are_dropped_may_be_of_several_cameras(
 ) -> None:
     monkeypatch.setattr(questions, "ask", lambda *_: Answer.Yes)
     drop(window, drawn / "left", drawn / "right")
-    qtbot.waitUntil(lambda: window.rig is not None and window.rig.pairing is not None)
-    assert window.rig is not None
-    assert window.pages.currentWidget() is window.rig
+    page = window.own_pages.rig
+    assert page is not None
+    qtbot.waitUntil(lambda: page.pairing is not None)
+    assert window.pages.currentWidget() is page
 
 
 def test_what_tells_no_cameras_is_refused(
@@ -181,8 +183,8 @@ def test_what_tells_no_cameras_is_refused(
 ) -> None:
     for k in range(3):
         shutil.copy(drawn / "left" / f"{k + 1}.png", tmp_path / f"{k}.png")
-    window.show_rig([str(tmp_path)])
-    page = window.rig
+    window.own_pages.show_rig([str(tmp_path)])
+    page = window.own_pages.rig
     assert page is not None
     qtbot.waitUntil(lambda: "tell no two cameras" in page.words.text())
     assert not page.calibrate.isVisible()
