@@ -44,25 +44,25 @@ def list_dependencies() -> list[str]:
     return ["libc6", "sensible-utils", *(renamed.get(name, name) for name in names)]
 
 
-def draw_icons(target: Path) -> None:
-    """Draw the icon in all sizes into a folder of the icon theme."""
+def draw_icon(size: int, file: Path) -> None:
+    """Draw the icon as PNG, so many pixels wide."""
     from PySide6.QtCore import Qt
-    from PySide6.QtGui import QGuiApplication, QImage, QPainter
+    from PySide6.QtGui import QImage, QPainter
     from PySide6.QtSvg import QSvgRenderer
 
-    os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
-    application = QGuiApplication.instance() or QGuiApplication([])
-    drawing = QSvgRenderer(str(ROOT / f"resources/icons/{NAME}.svg"))
+    image = QImage(size, size, QImage.Format.Format_ARGB32)
+    image.fill(Qt.GlobalColor.transparent)
+    painter = QPainter(image)
+    QSvgRenderer(str(ROOT / f"resources/icons/{NAME}.svg")).render(painter)
+    painter.end()
+    file.parent.mkdir(parents=True, exist_ok=True)
+    image.save(str(file))
+
+
+def draw_icons(target: Path) -> None:
+    """Draw the icon in all sizes into a folder of the icon theme."""
     for size in ICON_SIZES:
-        image = QImage(size, size, QImage.Format.Format_ARGB32)
-        image.fill(Qt.GlobalColor.transparent)
-        painter = QPainter(image)
-        drawing.render(painter)
-        painter.end()
-        file = target / f"{size}x{size}/apps/{NAME}.png"
-        file.parent.mkdir(parents=True, exist_ok=True)
-        image.save(str(file))
-    del application
+        draw_icon(size, target / f"{size}x{size}/apps/{NAME}.png")
     scalable = target / f"scalable/apps/{NAME}.svg"
     scalable.parent.mkdir(parents=True, exist_ok=True)
     shutil.copyfile(ROOT / f"resources/icons/{NAME}.svg", scalable)
@@ -181,7 +181,13 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=(__doc__ or "").partition("\n")[0])
     parser.add_argument("program", type=Path, nargs="?", default=ROOT / "dist" / NAME)
     parser.add_argument("-o", "--output", type=Path, default=ROOT / "dist")
+    parser.add_argument(
+        "--icon", type=Path, help="draw only the icon, as PNG for PyInstaller's other systems"
+    )
     options = parser.parse_args()
+    if options.icon:
+        draw_icon(max(ICON_SIZES), options.icon)
+        return 0
     if not (options.program / NAME).is_file():
         print(f"{options.program} holds no program: pyinstaller packaging/calibgui.spec first.")
         return 1

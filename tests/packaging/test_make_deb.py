@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import gzip
 import importlib.util
+import re
 import sys
 from pathlib import Path
 from types import ModuleType
@@ -87,3 +88,21 @@ def test_a_folder_without_a_program_is_refused(
     monkeypatch.setattr(sys, "argv", ["make_deb.py", str(tmp_path)])
     assert make_deb.main() == 1
     assert "pyinstaller packaging/calibgui.spec first" in capsys.readouterr().out
+
+
+def test_the_icon_of_other_systems_is_drawn(
+    make_deb: ModuleType, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    file = tmp_path / "calibgui.png"
+    monkeypatch.setattr(sys, "argv", ["make_deb.py", "--icon", str(file)])
+    assert make_deb.main() == 0
+    assert int.from_bytes(file.read_bytes()[16:20], "big") == 512
+
+
+def test_the_installer_starts_a_program_that_there_is() -> None:
+    spec = (ROOT / "packaging/calibgui.spec").read_text()
+    installer = (ROOT / "packaging/calibgui.iss").read_text()
+    started = set(re.findall(r"\{app\}\\([\w-]+)\.exe", installer))
+    assert started == {"calibgui-window"}
+    assert all(f'name="{name}"' in spec for name in started)
+    assert (ROOT / "LICENSE").is_file()
