@@ -124,15 +124,15 @@ class Recorder:
         self._files: dict[Path, Picture] = {}
         """All pictures that were written, also those that were taken back."""
         self._is_wanted = False
-        self._turned: SimpleQueue[Path] = SimpleQueue()
+        self._toggled: SimpleQueue[Path] = SimpleQueue()
 
     def ask_for_picture(self) -> None:
         """Take the next frame that shows a sharp board, whatever it adds."""
         self._is_wanted = True
 
-    def ask_to_turn(self, file: Path) -> None:
+    def ask_to_toggle(self, file: Path) -> None:
         """Take a picture back, or again; its file stays."""
-        self._turned.put(file)
+        self._toggled.put(file)
 
     def record(
         self, source: FrameSource, should_stop: Callable[[], bool]
@@ -151,7 +151,7 @@ class Recorder:
             frame = source.read()
             if frame is None:
                 return
-            self._turn_pictures()
+            self._toggle_pictures()
             yield self._look_at(frame, is_film=source.is_continuous)
 
     def measure_progress(self) -> CaptureProgress:
@@ -187,10 +187,10 @@ class Recorder:
         self._files[file] = state.taken
         return RecordedFrame(state, file)
 
-    def _turn_pictures(self) -> None:
+    def _toggle_pictures(self) -> None:
         """Take pictures back, or again, as was asked for."""
-        while not self._turned.empty():
-            picture = self._files[self._turned.get()]
+        while not self._toggled.empty():
+            picture = self._files[self._toggled.get()]
             if picture in self._session.pictures:
                 self._session.remove(picture)
             else:

@@ -106,7 +106,7 @@ class LivePage(QWidget):
         space = QShortcut(QKeySequence(Qt.Key.Key_Space), self)
         space.setContext(Qt.ShortcutContext.WidgetWithChildrenShortcut)
         space.activated.connect(self._take)
-        self.strip.turn_wanted.connect(self._turn)
+        self.strip.toggle_wanted.connect(self._toggle)
         self.offer()
 
     def offer(self) -> None:
@@ -365,9 +365,9 @@ class LivePage(QWidget):
         if self.is_running and self._recorder is not None:
             self._recorder.ask_for_picture()
 
-    def _turn(self, file: Path) -> None:
+    def _toggle(self, file: Path) -> None:
         if self._recorder is not None:
-            self._recorder.ask_to_turn(file)
+            self._recorder.ask_to_toggle(file)
 
     def _choose_folder(self) -> None:
         folder = QFileDialog.getExistingDirectory(self, self.tr("Folder for the pictures"))

@@ -23,7 +23,7 @@ _FINEST = 2
 class TakenStrip(QWidget):
     """Shows what was taken; one that was taken back stays, pale, and can be taken again."""
 
-    turn_wanted = Signal(Path)
+    toggle_wanted = Signal(Path)
     """The picture in this file is to be taken back, or again."""
 
     def __init__(self) -> None:
@@ -37,15 +37,15 @@ class TakenStrip(QWidget):
         self.list.setIconSize(_THUMBNAIL)
         self.list.setSpacing(4)
         self.list.setAccessibleName(self.tr("Pictures taken"))
-        self.turn = Button(self.tr("&Take back"))
-        self.turn.setEnabled(False)
+        self.toggle = Button(self.tr("&Take back"))
+        self.toggle.setEnabled(False)
         self._taken_back: set[Path] = set()
         column = QVBoxLayout(self)
         column.setContentsMargins(0, 0, 0, theme.SPACING)
         column.addWidget(self.list, 1)
-        column.addWidget(self.turn, 0, Qt.AlignmentFlag.AlignHCenter)
+        column.addWidget(self.toggle, 0, Qt.AlignmentFlag.AlignHCenter)
         self.list.itemSelectionChanged.connect(self._show_button)
-        self.turn.clicked.connect(self._turn)
+        self.toggle.clicked.connect(self._toggle)
 
     def add(self, file: Path, picture: Picture) -> None:
         """Show a picture that was taken."""
@@ -73,7 +73,7 @@ class TakenStrip(QWidget):
         self._taken_back.clear()
         self.list.clear()
 
-    def _turn(self) -> None:
+    def _toggle(self) -> None:
         for item in self.list.selectedItems():
             file = item.data(Qt.ItemDataRole.UserRole)
             self._taken_back ^= {file}
@@ -82,14 +82,14 @@ class TakenStrip(QWidget):
             font = item.font()
             font.setStrikeOut(gone)
             item.setFont(font)
-            self.turn_wanted.emit(file)
+            self.toggle_wanted.emit(file)
         self._show_button()
 
     def _show_button(self) -> None:
         chosen = [item.data(Qt.ItemDataRole.UserRole) for item in self.list.selectedItems()]
-        self.turn.setEnabled(bool(chosen))
+        self.toggle.setEnabled(bool(chosen))
         is_gone = bool(chosen) and chosen[0] in self._taken_back
-        self.turn.setText(self.tr("&Take again") if is_gone else self.tr("&Take back"))
+        self.toggle.setText(self.tr("&Take again") if is_gone else self.tr("&Take back"))
 
 
 def _draw_thumbnail(picture: Picture) -> QIcon:

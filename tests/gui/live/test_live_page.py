@@ -124,9 +124,9 @@ def test_space_takes_any_picture_and_one_can_be_taken_back(live: Page, qtbot: Qt
     live.wait(lambda: not page.is_running)
     everything = page.strip.list_files()
     page.strip.list.setCurrentRow(0)
-    qtbot.mouseClick(page.strip.turn, LEFT)
+    qtbot.mouseClick(page.strip.toggle, LEFT)
     assert page.strip.list_files() == everything[:-1]
-    qtbot.mouseClick(page.strip.turn, LEFT)
+    qtbot.mouseClick(page.strip.toggle, LEFT)
     assert page.strip.list_files() == everything
     assert all(Path(file).is_file() for file in everything)
     live.click("go_on")
@@ -141,9 +141,9 @@ def test_a_picture_taken_back_no_longer_counts(live: Page, qtbot: QtBot) -> None
     assert page.session is not None
     first = page.session.pictures[0]
     page.strip.list.setCurrentRow(page.strip.list.count() - 1)
-    qtbot.mouseClick(page.strip.turn, LEFT)
+    qtbot.mouseClick(page.strip.toggle, LEFT)
     live.wait(lambda: page.session is not None and first not in page.session.pictures)
-    qtbot.mouseClick(page.strip.turn, LEFT)
+    qtbot.mouseClick(page.strip.toggle, LEFT)
     live.wait(lambda: page.session is not None and first in page.session.pictures)
 
 
