@@ -5571,8 +5571,8 @@ gleicher Maßstab behält die Größe der Mitte; Bildwinkel zeigt einen Winkel I
         <translation>Live &amp;fotografieren</translation>
     </message>
     <message>
-        <source>With a camera: it says where to hold the board, and when it is enough.</source>
-        <translation>Mit einer Kamera: sie sagt, wohin das Brett soll, und wann es genug ist.</translation>
+        <source>The camera&apos;s image shows where to hold the board.</source>
+        <translation>Das Bild der Kamera zeigt, wohin das Brett soll.</translation>
     </message>
     <message>
         <source>&amp;Add images</source>

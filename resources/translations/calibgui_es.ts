@@ -5571,8 +5571,8 @@ misma escala conserva el tamaño del centro; campo de visión muestra el ángulo
         <translation>&amp;Fotografiar en vivo</translation>
     </message>
     <message>
-        <source>With a camera: it says where to hold the board, and when it is enough.</source>
-        <translation>Con una cámara: dice dónde poner el tablero, y cuándo basta.</translation>
+        <source>The camera&apos;s image shows where to hold the board.</source>
+        <translation>La imagen de la cámara muestra dónde poner el tablero.</translation>
     </message>
     <message>
         <source>&amp;Add images</source>

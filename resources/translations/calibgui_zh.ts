@@ -5571,8 +5571,8 @@ same scale keeps the size of the middle; field of view shows an angle of your ch
         <translation>实时拍摄(&amp;P)</translation>
     </message>
     <message>
-        <source>With a camera: it says where to hold the board, and when it is enough.</source>
-        <translation>用相机：它会说明标定板放在哪里，以及何时足够。</translation>
+        <source>The camera&apos;s image shows where to hold the board.</source>
+        <translation>相机画面会显示标定板该放在哪里。</translation>
     </message>
     <message>
         <source>&amp;Add images</source>

@@ -78,7 +78,7 @@ class Welcome(QScrollArea):
             ),
             self._link(
                 self.tr("&Photograph live"),
-                self.tr("With a camera: it says where to hold the board, and when it is enough."),
+                self.tr("The camera's image shows where to hold the board."),
                 self.camera_wanted,
             ),
             self._link(self.tr("&Add images"), self.tr("Choose single files."), self.images_wanted),
