@@ -196,7 +196,7 @@ def test_from_photographs_to_an_exported_camera(
     window.files.delete_result(next(iter(session.project.results)))
     window.images.remove([unreadable.image])
     window.show_setup()
-    window.setup.folds[2].setChecked(True)
+    window.setup.folds[-1].setChecked(True)
     for widget, key in (
         (window.verdict.square.confirm, Qt.Key.Key_Space),
         (window.board.by_hand, Qt.Key.Key_Space),

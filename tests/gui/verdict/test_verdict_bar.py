@@ -431,7 +431,7 @@ def test_changed_settings_make_a_result_old_and_undo_makes_it_new(
     bar = open_project(calibrated(plain))
     session, settings = window.session, window.settings
     window.show_setup()
-    window.setup.folds[2].setChecked(True)
+    window.setup.folds[-1].setChecked(True)
 
     def click(box: QCheckBox) -> None:
         qtbot.mouseClick(box, LEFT, pos=QPoint(8, box.height() // 2))
