@@ -182,7 +182,8 @@ class Photographer:
                 wait(partial(getattr, panel, "found"))
             if isinstance(panel, MethodsPanel):
                 panel.tables.errors.selectRow(2)  # the first differs from none: it has no map
-            self.take(kind.__name__.removesuffix("Panel").lower())
+            name = kind.__name__.removesuffix("Panel").lower()
+            self.take("summary" if name == "result" else name)
         self.rectified()
         self.marking()
         self.verdict()
@@ -194,7 +195,7 @@ class Photographer:
             self.series(Path(folder))
 
     def desk(self) -> None:
-        """Take the set-up, the desk alone, and a threshold."""
+        """Take the set-up, the desk alone, a check, the tour, and a threshold."""
         window, images = self.window, self.window.images
         window.show_setup()
         self.take("setup")
@@ -202,6 +203,14 @@ class Photographer:
         window.body.leave_desk_alone()
         self.take("alone")
         window.body.leave_desk_alone()
+        window.check.check([view.image for view in window.session.project.views[:3]])
+        wait(lambda: window.check.checked)
+        self.take("check")
+        window.check.leave()
+        window.take_tour()
+        self.take("tour")
+        assert window._tour is not None
+        window._tour.leave()
         images.list._move_threshold(0.7 * images.list.top)
         images.exclude_above.click()
         wait(lambda: window.session.project.is_current(window.session.result))

@@ -22,7 +22,7 @@ BUDGETS = {
     "camera": 26,
     "capture": 14,
     "corner_fit": 110,
-    "detection": 262,
+    "detection": 261,
     "features": 41,
     "geometry": 3,
     "hand_eye": 14,

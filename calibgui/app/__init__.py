@@ -1,1 +1,1 @@
-"""What the command line and the window both do, free of Qt: find images, search, solve, write."""
+"""The command line and the window share this, free of Qt: it searches, solves and writes."""

@@ -14,6 +14,7 @@ from functools import cache
 from pathlib import Path
 from typing import Any, BinaryIO
 
+from calibgui.app.calibrating.settings import read_model_choice
 from calibgui.app.photographs.board_recognition import explain_missing_board, find_any_board
 from calibgui.app.photographs.detection import (
     Detection,
@@ -426,6 +427,14 @@ def require_board(
     if unused := list_unused_views(faults):
         console.print_problem(unused)
     raise error
+
+
+def parse_model(text: str) -> str | None:
+    """Read the name of a lens model; None for one that is chosen automatically."""
+    try:
+        return read_model_choice(text)
+    except CalibrationError as error:
+        raise argparse.ArgumentTypeError(str(error)) from error
 
 
 def parse_export(text: str) -> tuple[str, Path]:

@@ -23,7 +23,7 @@ from calibgui.app.fleet import (
 )
 from calibgui.app.outputs.output_files import check_outputs, check_writable
 from calibgui.app.system.limit_presets import find_limits
-from calibgui.cli.arguments import add_corner_method, add_grid_size_option, add_square_option
+from calibgui.cli.arguments import add_corner_method, add_grid_size_option, add_scale_option
 from calibgui.cli.boards import add_board_options, is_pattern_open, read_pattern_options
 from calibgui.cli.calibrate import add_settings_options, read_settings
 from calibgui.cli.console import Console
@@ -76,7 +76,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     add_grid_size_option(parser)
     add_corner_method(parser)
     add_board_options(parser)
-    add_square_option(parser, "needed unless the manifest says it of each camera")
+    add_scale_option(parser, "needed unless the manifest says it of each camera")
     parser.set_defaults(roi=None)
     add_settings_options(parser)
 
@@ -89,6 +89,7 @@ def run(options: argparse.Namespace, console: Console) -> int:
         options.board,
         None if is_pattern_open(options) else pattern,
         options.corners,
+        square_sigma=options.square_sigma,
     )
     limits = NO_LIMITS if options.limits is None else find_limits(options.limits)
     check_writable(options.output)

@@ -22,16 +22,16 @@ from calibgui.app.calibrating.settings import (
     get_own_model,
     parse_fixed,
     parse_names,
-    resolve_model_choice,
 )
 from calibgui.app.calibrating.true_board import GLASS, list_gains, measure_gain_of_glass
-from calibgui.app.system.limit_presets import find_limits
+from calibgui.app.system.limit_presets import find_camera_limits
 from calibgui.cli.arguments import (
     add_export_folder_option,
     add_export_option,
     add_hardware_option,
     add_reader_option,
     is_corners_file,
+    parse_model,
     parse_positive,
     read_hardware_options,
 )
@@ -48,7 +48,6 @@ from calibgui.cli.outputs import (
 from calibgui.dataset import DEFAULT_SQUARE, Result
 from calibgui.dataset.acceptance import list_broken_limits
 from calibgui.dataset.judging import judge_result
-from calibgui.dataset.limits import Limits
 from calibgui.engine.assessment import CANDIDATES
 from calibgui.engine.boards import BoardShape, BoardShapeModel, BoardShapePrior
 from calibgui.engine.calibration import DEFAULT_METHOD, METHODS, Cost, DegenerateError
@@ -122,7 +121,7 @@ def add_settings_options(parser: argparse.ArgumentParser, is_automatic: bool = F
     )
     group.add_argument(
         "--model",
-        type=_parse_model,
+        type=parse_model,
         default=argparse.SUPPRESS,  # None is the automatic choice
         metavar="NAME",
         help=f"the lens model to estimate; if left out, {'auto, or ' * is_automatic}the "
@@ -194,7 +193,7 @@ def run(options: argparse.Namespace, console: Console) -> int:
     """Search, calibrate, write and print; return the exit code."""
     settings = read_settings(options)
     _check_usage(options, settings)
-    limits = _find_limits(options)
+    limits = None if options.limits is None else find_camera_limits(options.limits)
     if options.reader:
         options.export = [*options.export, options.reader]
     options.output = console.take_output(options.output)
@@ -285,8 +284,8 @@ def _write_files(
         messages.append(f"Wrote {options.save_board_shape}.")
     elif options.save_board_shape:
         messages.append(
-            f"{options.save_board_shape} is not written: nothing shows that the board is not as it "
-            "was drawn. --board-shape free estimates its shape all the same."
+            f"{options.save_board_shape} is not written: nothing shows that the board is not flat "
+            "and printed true. --board-shape free estimates its shape all the same."
         )
     if options.export_all is not None:
         messages.append(export_to_folder(result, options))
@@ -360,34 +359,6 @@ def _check_usage(options: argparse.Namespace, settings: Settings) -> None:
     in_mm = "--prior" if options.prior else "--save-board-shape" if options.save_board_shape else ""
     if in_mm and options.square is None and not is_corners_file(options.paths):
         options.usage_error(f"{in_mm} is in mm: add --square MM")
-
-
-def _find_limits(options: argparse.Namespace) -> Limits | None:
-    """Return what the calibration has to keep; None if nothing is demanded.
-
-    Raises:
-        CalibrationError: if there are no such limits, or one of them is for a fleet.
-    """
-    if options.limits is None:
-        return None
-    limits = find_limits(options.limits)
-    if limits.largest_change_px is not None:
-        raise CalibrationError(
-            f"The limits {limits.name} have largest_change_px, and there is no earlier calibration "
-            "to compare with.",
-            "Leave it out, or compare two results: `calibgui diff --limit`.",
-        )
-    return limits
-
-
-def _parse_model(text: str) -> str | None:
-    """Return the name of a lens model, None for one that is chosen automatically."""
-    if text == AUTO_MODEL:
-        return None
-    try:
-        return resolve_model_choice(text)
-    except CalibrationError as error:
-        raise argparse.ArgumentTypeError(str(error)) from error
 
 
 def _describe_models(default: str) -> str:

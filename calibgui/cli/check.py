@@ -7,10 +7,11 @@ pictures cannot tell. The verdict does not depend on the size of the squares.
 from __future__ import annotations
 
 import argparse
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from calibgui.app.calibrating.calibration import shorten_names
+from calibgui.app.calibrating.still_good import USUAL_OVERDISPERSION, check_with_corners
 from calibgui.cli.arguments import parse_positive
 from calibgui.cli.camera import add_camera_name_option, read_camera_and_warn
 from calibgui.cli.console import Console
@@ -18,21 +19,12 @@ from calibgui.cli.corners import add_corner_options, check_corner_options, read_
 from calibgui.cli.result import read_result_file
 from calibgui.cli.sensor_mode import adapt_to_images, add_mode_options
 from calibgui.dataset import DEFAULT_SQUARE
-from calibgui.engine.assessment import (
-    DEFAULT_LIMIT,
-    CalibrationCheck,
-    CheckVerdict,
-    check_calibration,
-)
-from calibgui.engine.errors import CalibrationError
+from calibgui.engine.assessment import DEFAULT_LIMIT, CalibrationCheck, CheckVerdict
 from calibgui.engine.threads import limit_blas_threads
 from calibgui.formats import EXPORTERS, ImportedCamera
 from calibgui.report import tables
 from calibgui.report.calibration_check import describe_check, describe_verdict
 
-_USUAL_OVERDISPERSION = 2.0
-"""Ratio by which views of a printed board disagree more than noise explains, where the file does
-not say; calibrations from photographs find 1 to 4."""
 _EXIT_CODES = {
     CheckVerdict.STILL_GOOD: 0,
     CheckVerdict.CANNOT_TELL: 1,
@@ -74,25 +66,17 @@ def run(options: argparse.Namespace, console: Console) -> int:
     check_corner_options(options)
     stored = read_camera_and_warn(options.calibration, console, options.camera, options.size)
     corner_set = read_or_search(options, console)
-    views = [view for view in corner_set.views if view.usable]
     unused = tables.list_unused_views(corner_set.views)
-    if not views:
+    if not any(view.usable for view in corner_set.views):
         console.print_problem(unused)
-        raise CalibrationError(
-            "The board was found in none of the pictures.",
-            "Photograph the whole board, sharp and evenly lit, or mark its corners with --roi.",
-        )
-    stored = adapt_to_images(stored, options, console, corner_set.size)
-    names = shorten_names(views)
+    else:
+        stored = adapt_to_images(stored, options, console, corner_set.size)
+    overdispersion = _read_overdispersion(options.calibration, stored)
     with limit_blas_threads():
-        check = check_calibration(
-            stored.camera,
-            [view.observation(corner_set.board) for view in views],
-            stored.covariance,
-            options.limit,
-            names,
-            _read_overdispersion(options.calibration, stored),
+        checked = check_with_corners(
+            stored.camera, stored.covariance, overdispersion, corner_set, options.limit
         )
+    check, names = checked.check, checked.names
     console.print_json(_encode_check(check, names))
     console.print_text(describe_check(check, names, corner_set.board), otherwise=unused)
     if unused:
@@ -104,11 +88,11 @@ def run(options: argparse.Namespace, console: Console) -> int:
 def _read_overdispersion(path: Path, stored: ImportedCamera) -> float:
     """Return by how much views disagreed in the stored calibration."""
     if stored.title != EXPORTERS["result"].title:
-        return _USUAL_OVERDISPERSION
+        return USUAL_OVERDISPERSION
     return read_result_file(path).calibration.overdispersion
 
 
-def _encode_check(check: CalibrationCheck, names: list[str]) -> dict[str, Any]:
+def _encode_check(check: CalibrationCheck, names: Sequence[str]) -> dict[str, Any]:
     """Return the check for JSON."""
     return {
         "verdict": check.verdict,

@@ -93,7 +93,8 @@ def run(options: argparse.Namespace, console: Console) -> None:
     adapted = adapt_to_images(found, options, console)
     with limit_blas_threads():
         if found.title == EXPORTERS["result"].title:
-            read = replace(read_result_file(options.file), hardware=read_hardware_options(options))
+            read = read_result_file(options.file)
+            read = replace(read, hardware=read_hardware_options(options).over(read.hardware))
             answer = _convert_result(read, adapted.mode, options)
         elif options.export_all:
             raise CalibrationError(

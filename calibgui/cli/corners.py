@@ -30,17 +30,27 @@ from calibgui.report.boards import describe_recognised_board
 from calibgui.report.tables import fill_lines
 
 
-def add_corner_options(parser: argparse.ArgumentParser, need: str) -> None:
-    """Add the paths of photographs or of a file of corners, and the options on board and search.
+def add_photograph_options(parser: argparse.ArgumentParser, need: str, nargs: str = "+") -> None:
+    """Add the paths of photographs, and the options on board and search.
 
     Args:
         parser: the parser to add them to.
         need: what the help says of the side of a square: what depends on it.
+        nargs: number of paths, as argparse has it.
     """
-    add_image_paths(parser)
+    add_image_paths(parser, nargs)
     add_search_options(parser)
     add_board_options(parser)
     add_scale_option(parser, need)
+
+
+def add_corner_options(parser: argparse.ArgumentParser, need: str) -> None:
+    """Add the options on photographs, whose paths may name a file of corners instead.
+
+    Args:
+        parser, need: as for `add_photograph_options`.
+    """
+    add_photograph_options(parser, need)
     add_size_option(parser)
     parser.add_argument(
         "--exclude",
@@ -86,7 +96,7 @@ def search_board(options: argparse.Namespace, console: Console) -> tuple[CornerS
     """Search photographs for the board that the options describe.
 
     Args:
-        options: paths, and the options of `add_search_options` and `add_board_options`.
+        options: those of `add_photograph_options`.
         console: shows progress, and what is wrong with the images if none shows the board.
 
     Returns:

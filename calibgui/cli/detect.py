@@ -5,10 +5,8 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from calibgui.cli.arguments import add_image_paths, add_scale_option, add_search_options
-from calibgui.cli.boards import add_board_options
 from calibgui.cli.console import Console
-from calibgui.cli.corners import search_board
+from calibgui.cli.corners import add_photograph_options, search_board
 from calibgui.cli.outputs import add_overwrite_option, check_corner_outputs, refuse_other_format
 from calibgui.dataset import DEFAULT_SQUARE
 from calibgui.formats.corners_json import encode_corners, write_corners
@@ -18,10 +16,7 @@ from calibgui.report import tables
 
 def configure(parser: argparse.ArgumentParser) -> None:
     """Describe the arguments."""
-    add_image_paths(parser)
-    add_search_options(parser)
-    add_board_options(parser)
-    add_scale_option(parser, "may be given to 'calibgui calibrate' instead")
+    add_photograph_options(parser, "may be given to 'calibgui calibrate' instead")
     parser.add_argument(
         "-o",
         "--output",

@@ -18,6 +18,7 @@ import numpy as np
 from calibgui.app.calibrating.best_camera import calibrate_best
 from calibgui.app.calibrating.hand_eye import find_hand_eye
 from calibgui.app.calibrating.settings import Settings
+from calibgui.app.outputs.output_files import check_suffix
 from calibgui.cli.arguments import is_corners_file
 from calibgui.cli.camera import add_camera_name_option, read_camera_and_warn
 from calibgui.cli.console import Console
@@ -29,7 +30,6 @@ from calibgui.cli.sensor_mode import adapt_to_images, add_mode_options
 from calibgui.dataset import CornerSet, Result
 from calibgui.engine.arrays import Array
 from calibgui.engine.camera import Camera
-from calibgui.engine.errors import CalibrationError
 from calibgui.formats.hand_eye_files import write_easy_handeye, write_opencv_hand_eye
 from calibgui.formats.hand_eye_json import encode_hand_eye, write_hand_eye
 from calibgui.formats.origin import HAND_EYE, HAND_EYE_OPENCV, HAND_EYE_ROS, RESULT, is_own
@@ -147,11 +147,7 @@ def _check_outputs(options: argparse.Namespace) -> None:
         CalibrationError: naming the first.
     """
     for path in options.output:
-        if path.suffix.lower() not in _WRITERS:
-            raise CalibrationError(
-                f"{path} is not named as a file of hand and eye.",
-                f"Give it the suffix {', '.join(_WRITERS)}.",
-            )
+        check_suffix(path, _WRITERS, "a file of hand and eye")
     outputs = [(path, _WRITERS[path.suffix.lower()][0]) for path in options.output]
     others = [options.poses, *([options.calibration] if options.calibration else [])]
     check_corner_outputs(options, outputs, others)

@@ -11,7 +11,7 @@ import argparse
 from pathlib import Path
 
 from calibgui.app.calibrating.board_poses import locate_boards
-from calibgui.app.outputs.output_files import check_outputs
+from calibgui.app.outputs.output_files import check_outputs, check_suffix
 from calibgui.app.outputs.pose_pictures import AXES_IN_SQUARES, draw_poses
 from calibgui.cli.arguments import is_corners_file, list_input_files
 from calibgui.cli.camera import CAMERA_FILE, add_camera_name_option, read_camera_and_warn
@@ -94,11 +94,7 @@ def _check_outputs(options: argparse.Namespace) -> None:
         CalibrationError: naming the first.
     """
     for path in options.output:
-        if path.suffix.lower() not in _WRITERS:
-            raise CalibrationError(
-                f"{path} is not named as a table of poses.",
-                f"Give it the suffix {' or '.join(_WRITERS)}.",
-            )
+        check_suffix(path, _WRITERS, "a table of poses")
     if options.draw and is_corners_file(options.paths):
         raise CalibrationError(
             "--draw needs the photographs, not a corners file.", "Name the photographs."

@@ -15,7 +15,7 @@ from pathlib import Path
 
 import numpy as np
 
-from calibgui.app.outputs.output_files import check_outputs
+from calibgui.app.outputs.output_files import check_outputs, check_suffix
 from calibgui.cli.arguments import parse_positive
 from calibgui.cli.camera import CAMERA_FILE, add_camera_options, read_camera_and_warn
 from calibgui.cli.console import Console
@@ -111,10 +111,7 @@ def _check_output(options: argparse.Namespace) -> None:
     """Refuse an output that is named as no table, or would replace what is kept."""
     if options.output is None:
         return
-    if options.output.suffix.lower() != ".csv":
-        raise CalibrationError(
-            f"{options.output} is not named as a table.", "Give it the suffix .csv."
-        )
+    check_suffix(options.output, (".csv",), "a table")
     read = [options.camera_file, options.points, *([options.pose] if options.pose else [])]
     check_outputs([(options.output, RAYS_CSV)], read, options.overwrite)
 

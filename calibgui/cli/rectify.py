@@ -18,16 +18,10 @@ from calibgui.app.outputs.resampling import (
     rectify_located,
 )
 from calibgui.app.photographs.paths import find_images, find_photograph
-from calibgui.cli.arguments import (
-    add_image_paths,
-    add_search_options,
-    add_square_option,
-    parse_positive,
-)
-from calibgui.cli.boards import add_board_options
+from calibgui.cli.arguments import parse_positive
 from calibgui.cli.camera import CAMERA_FILE, add_camera_options, read_camera_and_warn
 from calibgui.cli.console import Console
-from calibgui.cli.corners import search_board
+from calibgui.cli.corners import add_photograph_options, search_board
 from calibgui.cli.resampled import add_output_folder, report_written
 from calibgui.cli.result import read_result_and_warn
 from calibgui.cli.sensor_mode import adapt_to_images
@@ -40,7 +34,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     """Describe the arguments."""
     parser.add_argument("result", type=Path, metavar="CAMERA", help=CAMERA_FILE)
     add_camera_options(parser)
-    add_image_paths(parser, nargs="*")
+    add_photograph_options(parser, "for photographs that were not calibrated", nargs="*")
     add_output_folder(parser)
     parser.add_argument(
         "--scale",
@@ -48,9 +42,6 @@ def configure(parser: argparse.ArgumentParser) -> None:
         metavar="PX_PER_MM",
         help="pixels per millimetre on the board; about as in the photographs if left out",
     )
-    add_search_options(parser)
-    add_board_options(parser)
-    add_square_option(parser, "for photographs that were not calibrated")
 
 
 def run(options: argparse.Namespace, console: Console) -> int:

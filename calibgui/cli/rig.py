@@ -13,8 +13,8 @@ from collections.abc import Mapping, Sequence
 from functools import partial
 from pathlib import Path
 
-from calibgui.app.calibrating.settings import AUTO_MODEL, Settings, resolve_model_choice
-from calibgui.app.outputs.output_files import check_outputs
+from calibgui.app.calibrating.settings import Settings
+from calibgui.app.outputs.output_files import check_outputs, check_suffix
 from calibgui.app.photographs.detection import Detection
 from calibgui.app.rig.calibrating import calibrate_photographs, search_cameras
 from calibgui.app.rig.frames import write_frames
@@ -23,6 +23,7 @@ from calibgui.cli.arguments import (
     add_corner_method,
     add_grid_size_option,
     add_square_option,
+    parse_model,
     require_board,
     search_images,
 )
@@ -35,12 +36,13 @@ from calibgui.engine.boards import Board
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.images import is_video
 from calibgui.engine.opencv import read_frame_rate
+from calibgui.engine.rig import Mistake
 from calibgui.formats import ImportedCamera
 from calibgui.formats.origin import RIG
 from calibgui.formats.rig_files import RIG_EXPORTERS, find_rig_exporter
 from calibgui.formats.rig_json import encode_rig, write_rig
 from calibgui.formats.times_csv import read_times
-from calibgui.report.rig import describe_fit, describe_pairing, format_rig
+from calibgui.report.rig import describe_fit, describe_mistake, describe_pairing, format_rig
 from calibgui.report.tables import fill_lines, format_bullet, list_unused_views
 
 
@@ -59,7 +61,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     add_square_option(parser, f"all lengths depend on it ({DEFAULT_SQUARE:g} if left out)")
     parser.add_argument(
         "--model",
-        type=_parse_model,
+        type=parse_model,
         metavar="NAME",
         help="the lens model of all cameras; if left out, each has the one that its photographs "
         "demand",
@@ -125,8 +127,8 @@ def configure(parser: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace, console: Console) -> None:
     """Pair, search, calibrate, write and print."""
     output = console.take_output(options.output)
-    if output and output.suffix.lower() != ".json":
-        raise CalibrationError(f"{output} is not named as JSON.", "Give it the suffix .json.")
+    if output:
+        check_suffix(output, (".json",), "JSON")
     pairing, times = _pair(options, console, output)
     if options.times:
         times = read_times(options.times, {camera.name for camera in pairing.cameras})
@@ -157,6 +159,13 @@ def run(options: argparse.Namespace, console: Console) -> None:
             times,
             options.offsets,
             tell=lambda _: advance(next(done), len(pairing.cameras)),
+        )
+    if shifted := [m for m in result.rig.mistakes if m.kind is Mistake.SHIFTED]:
+        console.print_text(format_rig(result) + "\n")
+        raise CalibrationError(
+            describe_mistake(result, shifted[0]),
+            "Rename the photographs, or move them in the window (File, Several cameras). Nothing "
+            "was written.",
         )
     messages = _write(result, options, output)
     console.print_json(encode_rig(result))
@@ -234,16 +243,6 @@ def _write(result: RigResult, options: argparse.Namespace, output: Path | None) 
         messages.append(f"Wrote {output}.")
     messages += [RIG_EXPORTERS[name].write(result, path, pair) for name, path in options.export]
     return messages
-
-
-def _parse_model(text: str) -> str | None:
-    """Return the name of a lens model, None for one that is chosen automatically."""
-    if text == AUTO_MODEL:
-        return None
-    try:
-        return resolve_model_choice(text)
-    except CalibrationError as error:
-        raise argparse.ArgumentTypeError(str(error)) from error
 
 
 def _parse_known(text: str) -> tuple[str, Path]:

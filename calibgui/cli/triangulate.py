@@ -13,7 +13,7 @@ from pathlib import Path
 
 import numpy as np
 
-from calibgui.app.outputs.output_files import check_outputs
+from calibgui.app.outputs.output_files import check_outputs, check_suffix
 from calibgui.cli.arguments import parse_positive
 from calibgui.cli.console import Console
 from calibgui.cli.outputs import add_overwrite_option
@@ -43,10 +43,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace, console: Console) -> None:
     """Read, triangulate, write and print."""
     if options.output is not None:
-        if options.output.suffix.lower() != ".csv":
-            raise CalibrationError(
-                f"{options.output} is not named as a table.", "Give it the suffix .csv."
-            )
+        check_suffix(options.output, (".csv",), "a table")
         read = [options.rig, options.points]
         check_outputs([(options.output, SPACE_POINTS_CSV)], read, options.overwrite)
     result = read_rig(options.rig)

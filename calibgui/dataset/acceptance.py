@@ -1,4 +1,4 @@
-"""Whether a calibration keeps its limits, and the sentences on those that it does not."""
+"""A calibration is compared with its limits, and sentences tell those that it does not keep."""
 
 from __future__ import annotations
 

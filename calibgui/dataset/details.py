@@ -1,4 +1,4 @@
-"""What a person states of a calibration for its report: the program cannot know it."""
+"""A person states details of a calibration for its report that the program cannot know."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 
 @dataclass(frozen=True, slots=True)
 class Details:
-    """What is stated of a calibration; empty of what is not."""
+    """The details that are stated of a calibration; empty where they are not."""
 
     id: str = field(default="", metadata={"label": "Number of the report"})
     operator: str = field(default="", metadata={"label": "Operator"})

@@ -23,7 +23,7 @@ from calibgui.engine.boards import Board
 
 
 class FleetStatus(StrEnum):
-    """What is known of the work on a camera."""
+    """The state of the work on a camera."""
 
     DONE = "done"
     """A calibration was made, whatever it is worth."""
@@ -35,7 +35,7 @@ class FleetStatus(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class FleetEntry:
-    """What a manifest says of a camera."""
+    """An entry of a manifest about one camera."""
 
     id: str
     """Name of the camera's set of photographs, which no other of the fleet has."""

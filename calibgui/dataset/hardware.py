@@ -1,4 +1,4 @@
-"""Which camera and lens took the photographs, for formats that name them."""
+"""Some formats name the camera and the lens that took the photographs."""
 
 from __future__ import annotations
 

@@ -21,6 +21,9 @@ def judge_result(result: Result, check: Callable[[], None] | None = None) -> Ver
     Args:
         result: any result.
         check: a function that is called now and then, and raises to abandon the work.
+
+    Raises:
+        CalibrationError: if the camera was not estimated, but is known from a file.
     """
     with _lock:
         if (known := recall_verdict(result)) is not None:

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True, slots=True)
 class LengthLimit:
-    """How certain a length has to be that is measured by its two ends, wherever it is seen."""
+    """The certainty of a length that is measured by its two ends, wherever it is seen."""
 
     sigma_mm: float
     """Largest standard deviation, mm."""
@@ -22,7 +22,7 @@ class LengthLimit:
 
 @dataclass(frozen=True, slots=True)
 class Limits:
-    """What is demanded of every camera; None of what is not."""
+    """The limits that every camera has to keep; None where there is none."""
 
     largest_edge_error_px: float | None = None
     """Largest error of pixels along the image's edge, px, one standard deviation

@@ -20,7 +20,7 @@ class CameraPhotographs:
 
 @dataclass(frozen=True, slots=True)
 class RigPairing:
-    """Which photographs were taken at the same instant."""
+    """The photographs that were taken at the same instants."""
 
     cameras: tuple[CameraPhotographs, ...]
     """The cameras; the first one's frame will be the rig's."""

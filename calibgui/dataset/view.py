@@ -80,7 +80,7 @@ class View:
 
     @property
     def why_unused(self) -> str:
-        """Why the image takes no part in a calibration although it is enabled, and the remedy;
+        """The reason why an enabled image takes no part in a calibration, and the remedy;
         empty if it does."""
         if self.reason or not self._lacks_pose:
             return self.reason

@@ -463,7 +463,7 @@ def label_parts(mask: BoolArray) -> tuple[npt.NDArray[np.int32], int]:
 
 
 class CalibratedCamera(NamedTuple):
-    """What OpenCV returns of a calibration, less its root mean square distance."""
+    """A camera as OpenCV calibrates it, without the root mean square distance."""
 
     params: Array
     """(9,) fx, fy, cx, cy, px, and k1, k2, p1, p2, k3."""

@@ -52,7 +52,7 @@ from calibgui.formats import (
     undistortion_map,
     usd_camera,
 )
-from calibgui.formats.camera_import import IMPORTERS, read_camera
+from calibgui.formats.camera_import import IMPORTERS, holds_camera, read_camera
 from calibgui.formats.exporter import Exporter, ExportReport
 from calibgui.formats.importer import ImportedCamera, Importer
 
@@ -143,5 +143,6 @@ __all__ = [
     "Result",
     "export",
     "find_exporter",
+    "holds_camera",
     "read_camera",
 ]

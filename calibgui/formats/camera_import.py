@@ -125,6 +125,14 @@ def read_camera(
     return importer.read(source)
 
 
+def holds_camera(path: str | os.PathLike[str]) -> bool:
+    """Return whether a file is of one of the formats that cameras are read from."""
+    try:
+        return _find_importer(_read_text(path)) is not None
+    except CalibrationError:
+        return False
+
+
 def read_result_file(path: str | os.PathLike[str]) -> Result:
     """Read a result.json.
 

@@ -9,7 +9,8 @@ pattern         left out for a checkerboard; else its `kind` and its known prope
   listed-circles      places of the circles (X, Y, over their least distance), diameter (likewise)
   aprilgrid           family and border (cells) of the tags, spacing (gap over a tag's side),
                       from_top (the order of the tags), corner_squares (whether small dark
-                      squares stand between their corners), first_tag (its number)
+                      squares stand between their corners), first_tag (its number),
+                      tag_turn (quarters by which each tag is turned clockwise)
   tagged-checkerboard family, border, from_top, step (squares from one tag to the next)
   puzzleboard         origin (row and column of its first corner on the whole pattern)
 """
@@ -74,6 +75,7 @@ _FIELD_READERS: Mapping[str, Callable[[Node], Any]] = {
     "from_top": Node.flag,
     "corner_squares": Node.flag,
     "first_tag": Node.integer,
+    "tag_turn": Node.integer,
     "origin": _read_grid_index,
 }
 """Functions that read a pattern's field, by its name."""

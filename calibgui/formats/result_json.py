@@ -23,12 +23,13 @@ from __future__ import annotations
 import os
 import re
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import asdict, fields
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from calibgui.dataset import Result, find_orientation
+from calibgui.dataset import LENS_TYPES, UNKNOWN_HARDWARE, Hardware, Result, find_orientation
 from calibgui.dataset.acceptance import list_broken_limits
 from calibgui.dataset.judging import judge_result
 from calibgui.engine.arrays import Array, Size
@@ -42,6 +43,7 @@ from calibgui.engine.calibration import (
     Iteration,
     Status,
     Undetermined,
+    is_held,
     make_paper_table,
 )
 from calibgui.engine.camera import (
@@ -93,9 +95,13 @@ def write_result(result: Result, path: str | os.PathLike[str]) -> None:
 def encode_result_with_findings(result: Result) -> dict[str, Any]:
     """Return the content of result.json, with the verdict, what is wrong and whether limits hold.
 
-    All three follow from the rest, which takes its time; they are not read back.
+    All three follow from the rest, which takes its time; they are not read back. A camera that is
+    known from a file is not judged.
     """
-    content = encode_result(result) | encode_verdict(judge_result(result), result)
+    content = encode_result(result)
+    if is_held(result.calibration):
+        return content
+    content |= encode_verdict(judge_result(result), result)
     if result.limits is not None:
         reasons = list_broken_limits(result, result.limits)
         content["acceptance"] = {"passed": not reasons, "reasons": reasons}
@@ -147,6 +153,7 @@ def encode_result(result: Result) -> dict[str, Any]:
         "versions": result.versions,
         "lengths_confirmed": result.lengths_confirmed,
         **({} if result.limits is None else {"limits": encode_limits(result.limits)}),
+        **_encode_hardware(result.hardware),
         "inputs_sha256": calibration.digest,
         "target": None if result.board is None else encode_board(result.board),
         "plate": None
@@ -160,6 +167,31 @@ def encode_result(result: Result) -> dict[str, Any]:
         "solve_seconds": calibration.seconds,
         "views": _encode_views(result),
     }
+
+
+def _encode_hardware(hardware: Hardware) -> dict[str, Any]:
+    """Return the member on the camera and the lens that were stated; none if none were."""
+    stated = {name: value for name, value in asdict(hardware).items() if value is not None}
+    return {"hardware": stated} if stated else {}
+
+
+def _decode_hardware(node: Node | None) -> Hardware:
+    """Return the camera and the lens that were stated."""
+    if node is None:
+        return UNKNOWN_HARDWARE
+    stated: dict[str, Any] = {
+        field.name: value.text()
+        for field in fields(Hardware)
+        if field.name not in ("crop", "type") and (value := node.get(field.name)) is not None
+    }
+    if (crop := node.get("crop")) is not None and not crop.number() > 0:
+        crop.fail("a number above 0")
+    kind = node.get("type")
+    return Hardware(
+        **stated,
+        crop=None if crop is None else crop.number(),
+        type=None if kind is None else kind.choice(LENS_TYPES),
+    )
 
 
 def encode_mode(mode: SensorMode) -> dict[str, Any]:
@@ -253,6 +285,7 @@ def decode_result(node: Node) -> Result:
         confirmed.flag() if (confirmed := node.get("lengths_confirmed")) else True,
         limits=decode_limits(node.get("limits")),
         mode=_decode_mode(node.get("sensor_mode"), calibration.camera.size),
+        hardware=_decode_hardware(node.get("hardware")),
     )
 
 
@@ -273,7 +306,7 @@ def _decode_calibration(node: Node, used: list[Node]) -> Calibration:
     added = _find_added_coefficients(camera["params"], model)
     residuals = node["residuals"]
     return Calibration(
-        camera=_decode_camera(camera, model, added),
+        camera=decode_camera(camera, model, added),
         sigma=_decode_by_name(camera["sigma"], names, added),
         covariance=_decode_covariance(node["covariance"]["matrix"], names, added),
         noise_covariance=_decode_noise_covariance(node, names, added),
@@ -355,7 +388,8 @@ def _find_added_coefficients(params: Node, model: str) -> dict[str, float]:
     return {name: v for name, v in values if name in lens.held and name not in stored}
 
 
-def _decode_camera(node: Node, model: str, added: Mapping[str, float]) -> Camera:
+def decode_camera(node: Node, model: str, added: Mapping[str, float]) -> Camera:
+    """Return the camera in an object; coefficients that it lacks have the values `added`."""
     params = node["params"]
     for name in ("fx", "fy"):
         if not params[name].number() > 0:

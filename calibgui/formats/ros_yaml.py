@@ -56,7 +56,7 @@ _FILE_NAMES = (
 )
 _MESSAGE_NAMES = (("width", "height", *"kdrp"), ("width", "height", *"KDRP"))
 """Names of the same entries in messages of ROS 2 and ROS 1."""
-_MESSAGE_END = re.compile(r"^---[ \t]*$", re.MULTILINE)
+_MESSAGE_END = re.compile(r"^---[ \t\r]*$", re.MULTILINE)
 _REDUCED = (
     "The message states a binning or a region of interest. The camera is that of the whole image "
     "of the sensor: convert it with --binning or --crop."

@@ -1,14 +1,16 @@
-"""The map that undistorts photographs: an STMap in OpenEXR, or an array of pixels for cv2.remap.
+"""The map that undistorts photographs: an STMap in OpenEXR or TIFF, or an array for cv2.remap.
 
-Reader: of .exr Nuke, Fusion, Natron and Blender (STMap, Map UV), of .npy NumPy. A pixel of the map
-belongs to one of the undistorted image that `calibgui undistort` makes, and says where in the
-photograph its colour is. In .npy (h, w, 2) these are pixels of the array frame (0-based, integer at
-pixel centres), to be given to cv2.remap as they are. In .exr the channels R and G are shares of
-the photograph's width and height from its lower left corner, as compositing programs count them.
+Reader: of .exr and .tif Nuke, Fusion, Natron and Blender (STMap, Map UV), of .npy NumPy. A pixel of
+the map belongs to one of the undistorted image that `calibgui undistort` makes, and says where in
+the photograph its colour is. In .npy (h, w, 2) these are pixels of the array frame (0-based,
+integer at pixel centres), to be given to cv2.remap as they are. In the others the channels R and G
+are shares of the photograph's width and height from its lower left corner, as compositing programs
+count them.
 Places outside of the photograph have -1 px, which none of them shows.
 Cannot hold: the camera itself, standard deviations, poses, corners.
 
-A .exr is a file of scan lines without compression (OpenEXR File Layout, version 2).
+A .exr is a file of scan lines without compression (OpenEXR File Layout, version 2), a .tif one of
+three floats a pixel in one strip (TIFF, revision 6.0), the third of which is 0.
 """
 
 from __future__ import annotations
@@ -43,9 +45,11 @@ def write_map(result: Result, path: Path) -> ExportReport:
     ideal = choose_shown_camera(camera)
     places = make_map(camera, ideal)
     mark = make_mark(EXPORTER.name)
-    is_exr = path.suffix.lower() == ".exr"
-    content = pack_exr(places, camera, mark) if is_exr else pack_npy(places, mark)
-    write_atomically(path, content)
+    suffix, shares = path.suffix.lower(), (places + 0.5) / camera.size * [1, -1] + [0, 1]
+    if suffix == ".npy":
+        write_atomically(path, pack_npy(places, mark))
+    else:
+        write_atomically(path, (pack_exr if suffix == ".exr" else pack_tiff)(shares, mark))
     fx, fy, cx, cy = ideal.matrix[[0, 1, 0, 1], [0, 1, 2, 2]].tolist()
     note = f"{_NOTE} The new images have fx {fx:.6g}, fy {fy:.6g}, cx {cx:.6g}, cy {cy:.6g} px."
     return ExportReport(path, note)
@@ -76,10 +80,35 @@ def pack_npy(places: Array, mark: str) -> bytes:
     return content.getvalue() + mark.encode()
 
 
-def pack_exr(places: Array, camera: Camera, mark: str) -> bytes:
-    """Return the content of an STMap."""
-    shares = (places + 0.5) / camera.size
-    planes = np.stack([1 - shares[..., 1], shares[..., 0]], axis=1)  # G before R, line by line
+def pack_tiff(shares: Array, mark: str) -> bytes:
+    """Return the content of an STMap (h, w, 2) as TIFF."""
+    height, width, _ = shares.shape
+    pixels = np.dstack([shares, np.zeros((height, width))]).astype("<f4").tobytes()
+    comment = mark.encode() + b"\0"
+    start = 8 + len(pixels)  # of what is longer than four bytes
+    bits, kinds, text = start, start + 6, start + 12
+    entries = [  # tag, type (2 text, 3 short, 4 long), number of values, value or place
+        (256, 4, 1, width),
+        (257, 4, 1, height),
+        (258, 3, 3, bits),
+        (259, 3, 1, 1),  # no compression
+        (262, 3, 1, 2),  # red, green, blue
+        (270, 2, len(comment), text),
+        (273, 4, 1, 8),
+        (277, 3, 1, 3),
+        (278, 4, 1, height),
+        (279, 4, 1, len(pixels)),
+        (339, 3, 3, kinds),  # floats
+    ]
+    beside = struct.pack("<6H", 32, 32, 32, 3, 3, 3) + comment + b"\0" * (len(comment) % 2)
+    head = struct.pack("<2sHI", b"II", 42, start + len(beside))
+    listed = b"".join(struct.pack("<HHII", *entry) for entry in entries)
+    return head + pixels + beside + struct.pack("<H", len(entries)) + listed + bytes(4)
+
+
+def pack_exr(shares: Array, mark: str) -> bytes:
+    """Return the content of an STMap (h, w, 2) as OpenEXR."""
+    planes = np.stack([shares[..., 1], shares[..., 0]], axis=1)  # G before R, line by line
     height, _, width = planes.shape
     window = struct.pack("<4i", 0, 0, width - 1, height - 1)
     channels = b"".join(name + b"\0" + struct.pack("<4i", _FLOAT, 0, 1, 1) for name in (b"G", b"R"))
@@ -110,9 +139,9 @@ def pack_exr(places: Array, camera: Camera, mark: str) -> bytes:
 EXPORTER = Exporter(
     name="map",
     title="Undistortion map",
-    suffixes=(".exr", ".npy"),
+    suffixes=(".exr", ".tif", ".tiff", ".npy"),
     models=(),
-    readers="Nuke, Fusion, Natron and Blender (.exr), cv2.remap (.npy)",
+    readers="Nuke, Fusion, Natron and Blender (.exr, .tif), cv2.remap (.npy)",
     keeps="where each pixel of the undistorted image is in the photograph, of every lens",
     loses="the camera itself, standard deviations, poses, corners",
     write=write_map,

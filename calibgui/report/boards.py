@@ -59,6 +59,8 @@ def describe_board(board: Board) -> str:
         text += _describe_tags(pattern.family, pattern.border, pattern.from_top)
         if pattern.first_tag:
             text += f", first tag {pattern.first_tag}"
+        if pattern.tag_turn:
+            text += f", each tag turned clockwise by {90 * pattern.tag_turn} degrees"
         if pattern.corner_squares is False:
             text += ", no dark squares between them"
         gap = pattern.spacing

@@ -64,7 +64,7 @@ def describe_check(
         ],
         left=(0, 1),
     )
-    remarks = [describe_verdict(check), *left_out, *_list_remarks(check)]
+    remarks = [describe_verdict(check), *left_out, *list_remarks(check)]
     return "\n".join(
         ["Reprojection of the board with the stored camera", table, numbers]
         + [format_bullet(remark) for remark in remarks]
@@ -95,7 +95,7 @@ def describe_verdict(check: CalibrationCheck) -> str:
             assert_never(check.verdict)
 
 
-def _list_remarks(check: CalibrationCheck) -> list[str]:
+def list_remarks(check: CalibrationCheck) -> list[str]:
     """List what else the pictures tell."""
     remarks = []
     length = float(np.linalg.norm(check.shift))

@@ -59,7 +59,7 @@ _GRADE_MOODS = {
 
 
 class Layout(StrEnum):
-    """What a document is for."""
+    """The purpose of a document."""
 
     REPORT = "report"
     """All that is known, for those who work with the camera."""
@@ -69,7 +69,7 @@ class Layout(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class PhotographFile:
-    """What is known of the file of a photograph."""
+    """A photograph's file, as far as it is known."""
 
     digest: str = ""
     """SHA-256; empty if the file is not there."""
@@ -85,7 +85,7 @@ class PhotographFile:
 
 @dataclass(frozen=True, slots=True)
 class ReportInputs:
-    """What a report says beside the calibration itself."""
+    """The facts of a report beside the calibration itself."""
 
     details: Details
     files: Mapping[str, PhotographFile]
@@ -227,7 +227,7 @@ def _list_tiles(result: Result) -> Iterator[tuple[str, str]]:
         f"RMS of {format_count(figures.corners, name_point(result.board))}",
     )
     yield f"{figures.views} of {len(result.views)}", "photographs used"
-    yield f"{100 * figures.coverage:.0f} %", "of the sensor covered"
+    yield f"{100 * figures.coverage:.0f} %", "of the sensor with corners"
 
 
 def _judge_limits(result: Result, reasons: Sequence[str]) -> list[Block]:

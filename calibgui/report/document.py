@@ -13,7 +13,7 @@ from enum import StrEnum
 
 
 class Mood(StrEnum):
-    """How the reader should take something."""
+    """The mood in which the reader should take something."""
 
     GOOD = "good"
     CAUTION = "caution"

@@ -33,14 +33,14 @@ class Measured(NamedTuple):
     value: float
     sigma: float
     is_good: bool
-    """Whether it is drawn as good."""
+    """True if it is drawn as good."""
     name: str
     """What it is of, which is shown under the cursor."""
 
 
 @dataclass(frozen=True, slots=True)
 class Histogram:
-    """How values are distributed, laid out once for the pages of all cameras."""
+    """The distribution of values, laid out once for the pages of all cameras."""
 
     title: str
     """What the values are, with their unit."""

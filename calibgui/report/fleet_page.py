@@ -158,7 +158,7 @@ _FIGURES = (
     "Error, edge [px]",
     "Coverage",
     "From the median camera [px rms]",
-    "Robust z",
+    "Standard deviations from the fleet",
     "Changed by [px rms]",
 )
 _CHANGE = ("Against", "Changed by [px rms]", "Largest [px]", "Explained [px rms]", "Probability")
@@ -265,11 +265,12 @@ def _list_facts(one: PlacedCamera) -> list[list[str]]:
             "Noise": f"{_format(figures.noise, 3)} px",
             "Coverage": f"{figures.coverage:.0%}",
             "Error, centre": f"{_format(error.centre, 3)} px",
-            "Error, covered part": f"{_format(error.covered, 3)} px",
+            "Error, among corners": f"{_format(error.covered, 3)} px",
             "Error, edge": f"{_format(error.edge, 3)} px",
             "Error, worst": f"{_format(error.worst, 3)} px",
             "Difference from the median camera": f"{_format(one.difference, 3)} px rms, "
-            f"{_format(one.worst, 3)} px at most, robust z {_format(one.z, 1)}",
+            f"{_format(one.worst, 3)} px at most, "
+            f"{_format(one.z, 1)} standard deviations of the fleet",
         }
     facts["Versions"] = ", ".join(f"{name} {text}" for name, text in camera.versions.items())
     return [[name, text] for name, text in facts.items() if text]

@@ -122,7 +122,7 @@ def _list_held(trial: LensTrial) -> list[str]:
         remarks.append(f"{', '.join(left_open)} held at 0: left open by these views")
     if trial.fuller is not None:
         remarks.append(
-            f"{', '.join(trial.spared)} held at 0: not told from 0, and unseen views are predicted "
+            f"{', '.join(trial.spared)} held at 0: they may be 0, and unseen views are predicted "
             f"better without ({trial.held_out:.3f} instead of {trial.fuller.held_out:.3f} px RMS)"
         )
     return remarks

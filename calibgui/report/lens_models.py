@@ -1,4 +1,4 @@
-"""What each lens model is for: who reads it, and up to which field of view it holds.
+"""Each lens model is described by who reads it, and up to which field of view it holds.
 
 The titles of the models are in the engine (``Lens.title``); this is what else a user wants to know
 who chooses one.

@@ -31,7 +31,7 @@ _CAMERA_COLOUR, _LINES_COLOUR = "tab:blue", "tab:orange"
 
 
 class _Map(NamedTuple):
-    """How long the difference of a method from the chosen camera is over the image."""
+    """The distance of a method from the chosen camera over the image."""
 
     row: MethodRow
     """The method."""

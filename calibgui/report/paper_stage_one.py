@@ -1,4 +1,4 @@
-"""How well single views determine what Stage I estimates from them (paper 4.2, Table 1).
+"""Single views determine what Stage I estimates from them more or less well (paper 4.2, Table 1).
 
 A view's corners x are corrected by xp, yp and k1 and mapped onto the reference points x' by a
 homography (eq. 31 and 33). Moving the principal point is nearly the same as tilting the board, so
@@ -27,7 +27,7 @@ from calibgui.engine.geometry import apply_homography, fit_homography, paper_fro
 
 @dataclass(frozen=True, eq=False, slots=True)
 class StageOneEvidence:
-    """What the corners of each of K views say about xp, yp and k1."""
+    """The evidence of the corners of each of K views about xp, yp and k1."""
 
     sd: Array
     """(K, 3) standard deviations of the view's own xp, yp (px) and k1 (px^-2)."""

@@ -25,7 +25,7 @@ _STAGE_ONE_UNITS = np.array([1.0, 1.0, 1e-7])
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Reproduction:
-    """What is calibrated from the paper's photographs to be set beside it."""
+    """The calibrations from the paper's photographs that are set beside it."""
 
     by_method: Mapping[str, Result]
     """Calibrations by the printed method (`Cost.PAPER`), by how their corners were located."""

@@ -1,4 +1,4 @@
-"""What pixels look at, in words for a terminal of 80 columns."""
+"""The rays of pixels are told in words for a terminal of 80 columns."""
 
 from __future__ import annotations
 

@@ -289,7 +289,7 @@ def describe_view_scatter(scatter: float) -> str:
     """Describe that the views disagree `scatter` times as much as the corners' noise explains."""
     return (
         f"The views disagree about the camera {scatter:.1f} times as much as the scatter of their "
-        "corners explains: the errors within a view hang together. Every ± is therefore what the "
+        "corners explains: corners within a view share errors. Every ± is therefore what the "
         "views' disagreement shows, where that is more."
     )
 
@@ -396,7 +396,7 @@ def _describe_parameters(result: Result, findings: Sequence[Finding]) -> Iterato
     if vague := [n for n in coefficients if away[names.index(n)] < _MIN_SIGMAS_FROM_ZERO]:
         yield Sentence(
             Tone.FACT,
-            f"Not told from zero: {listed(vague)}. They may be held at 0; to measure them, "
+            f"These may be 0: {listed(vague)}. They may be held there; to measure them, "
             + (
                 "estimate the board's shape."
                 if _advises(findings, ActionKind.ESTIMATE_BOARD_SHAPE)

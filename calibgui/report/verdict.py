@@ -86,7 +86,7 @@ def describe_error(verdict: Verdict) -> str:
     error = verdict.error
     if not np.isfinite(error.worst):
         return "Error of a pixel: unknown"
-    places = ("centre", error.centre), ("covered part", error.covered), ("edge", error.edge)
+    places = ("centre", error.centre), ("among corners", error.covered), ("edge", error.edge)
     listed = ", ".join(f"{place} {format_two_digits(px)}" for place, px in places)
     return f"Error of a pixel: {listed}, worst {format_two_digits(error.worst)} px"
 

@@ -25,7 +25,7 @@ from calibgui.engine.images import undistort_image
 from calibgui.formats import EXPORTERS, export
 from calibgui.formats.camera_refit import express_in_format
 from calibgui.formats.opencv_lens import FISHEYE, list_coefficients
-from calibgui.formats.result_json import write_result
+from calibgui.formats.result_json import read_result, write_result
 from calibgui.report.calibration_report import Layout
 from calibgui.report.tables import format_report, summarise_in_a_line
 from calibgui.report.verdict import describe_error, describe_fit, format_headline
@@ -48,6 +48,15 @@ class CalibratedCamera:
 
     result: Result
     """The calibration and the views that it was made from."""
+
+    @classmethod
+    def load(cls, path: Path) -> CalibratedCamera:
+        """Load a camera from a result.json, as ``calibgui.load``.
+
+        Raises:
+            CalibrationError: if the file cannot be read, or is not a result.json.
+        """
+        return cls(read_result(path))
 
     @property
     def calibration(self) -> Calibration:

@@ -15,7 +15,7 @@ from calibgui.app.calibrating.settings import (
     AUTO_MODEL,
     Settings,
     check_settings,
-    resolve_model_choice,
+    read_model_choice,
 )
 from calibgui.app.photographs.board_recognition import explain_missing_board, find_any_board
 from calibgui.app.photographs.detection import Detection, find_views
@@ -32,7 +32,6 @@ from calibgui.engine.calibration import make_observation
 from calibgui.engine.errors import parse_choice
 from calibgui.engine.images import Field
 from calibgui.formats.corner_import import SUFFIXES, read_corner_file
-from calibgui.formats.result_json import read_result
 from calibgui.scripting.calibrated_camera import CalibratedCamera
 
 File = str | os.PathLike[str]
@@ -42,7 +41,7 @@ that is not known). It may raise an error to abandon the work."""
 
 
 class Choices(TypedDict, total=False):
-    """What may be stated of a calibration; all else is as the photographs demand."""
+    """The choices that may be stated of a calibration; all else is as the photographs demand."""
 
     model: str
     """The lens model; "auto", the default, for the one that the photographs demand."""
@@ -156,7 +155,7 @@ def load(path: File) -> CalibratedCamera:
     Raises:
         CalibrationError: if the file cannot be read, or is not a result.json.
     """
-    return CalibratedCamera(read_result(path))
+    return CalibratedCamera.load(path)
 
 
 def _calibrate(
@@ -184,7 +183,7 @@ def _make_settings(**choices: Unpack[Choices]) -> Settings:
     if isinstance(shape, str) and shape != AUTO_MODEL:
         held = parse_choice(BoardShapeModel, shape, "board shape")
     settings = Settings(
-        model=None if model == AUTO_MODEL else resolve_model_choice(model),
+        model=read_model_choice(model),
         board_shape=held,
         prior=prior,
         fixed=dict(choices.get("fix", {})),

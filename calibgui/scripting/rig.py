@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import numpy.typing as npt
 
-from calibgui.app.calibrating.settings import AUTO_MODEL, Settings, resolve_model_choice
+from calibgui.app.calibrating.settings import AUTO_MODEL, Settings, read_model_choice
 from calibgui.app.photographs.detection import Detection
 from calibgui.app.photographs.videos import DEFAULT_CHOICE
 from calibgui.app.rig.calibrating import calibrate_photographs, search_cameras
@@ -143,9 +143,7 @@ def calibrate_rig(
             return search_board(files, board, pattern, DEFAULT_CHOICE, tell)
         return search_board(files, seen.grid_size, seen.pattern, DEFAULT_CHOICE, tell)
 
-    settings = Settings(
-        model=None if model == AUTO_MODEL else resolve_model_choice(model), robust=robust
-    )
+    settings = Settings(model=read_model_choice(model), robust=robust)
     return CalibratedRig(
         calibrate_photographs(
             pairing,

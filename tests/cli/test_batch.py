@@ -15,6 +15,7 @@ from calibgui.app.fleet import schedulers
 from calibgui.cli import batch
 from calibgui.cli.main import main
 from calibgui.formats.fleet_ledger import open_ledger
+from calibgui.formats.result_json import read_result
 from tests.scenes.fleet import write_fleet
 
 BOARD = ["--square", "30", "--board", "6x7", "--workers", "1"]
@@ -44,6 +45,19 @@ def test_everything_done_is_said_and_nothing_is_started(
     assert "2 cameras: 2 done before, 2 pass, 0 fail." in printed
     with open_ledger(finished) as ledger:
         assert [camera.id for camera in ledger.read()] == ["c0", "c1"]
+
+
+def test_the_boards_scale_may_be_uncertain(fleet: Path, tmp_path: Path) -> None:
+    ledger = tmp_path / "fleet.db"
+    manifest = tmp_path / "manifest.csv"
+    manifest.write_text(f"id,paths,board\na,{fleet / 'c0'},6x7 30+-0.03mm\nb,{fleet / 'c0'},6x7\n")
+    options = ["--workers", "1", "--square", "30+-0.06", "--once"]
+    assert main(["batch", str(manifest), "-o", str(ledger), *options]) == 0
+    with open_ledger(ledger) as kept:
+        found = {camera.id: read_result(tmp_path / str(camera.result)) for camera in kept.read()}
+    assert {name: result.scale_sigma for name, result in found.items()} == pytest.approx(
+        {"a": 1e-3, "b": 2e-3}
+    )
 
 
 def test_a_broken_limit_is_named_and_ends_with_3(

@@ -194,6 +194,17 @@ def test_convert_refuses(
     assert problem in capsys.readouterr().err
 
 
+def test_what_a_result_says_of_camera_and_lens_is_kept(result_file: Path, tmp_path: Path) -> None:
+    content = json.loads(result_file.read_text())
+    content["hardware"] = {"maker": "Acme", "model": "X-1"}
+    file, out = tmp_path / "named.json", tmp_path / "lens.xml"
+    file.write_text(json.dumps(content))
+    export = ["--export", f"lensfun={out}", "--hardware", "model=X-2"]
+    assert main(["convert", str(file), *export]) == 0
+    assert "<maker>Acme</maker>" in out.read_text()
+    assert "<model>X-2</model>" in out.read_text()
+
+
 def test_camera_and_lens_are_named_in_exports(opencv_file: Path, tmp_path: Path) -> None:
     out = tmp_path / "lens.xml"
     hardware = ["--hardware", "maker=Acme", "--hardware", "crop=2", "--hardware", "type=fisheye"]

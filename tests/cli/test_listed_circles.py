@@ -14,6 +14,7 @@ from calibgui.engine.boards import Board, ListedCircles, list_circles
 from calibgui.engine.images.reading import write_image
 from calibgui.engine.images.rendering import render_view
 from calibgui.formats.corners_json import read_corners
+from calibgui.formats.fleet_ledger import open_ledger
 from calibgui.formats.result_json import read_result
 from tests.cli.test_boards import _SCHEMA, CAMERA
 from tests.engine import scenes
@@ -55,6 +56,16 @@ def test_a_camera_from_listed_circles(
     jsonschema.validate(json.loads(out.read_text()), json.loads(_SCHEMA.read_text()))
     result = read_result(out)
     np.testing.assert_allclose(result.calibration.camera.params[:4], CAMERA.params[:4], atol=0.3)
+
+
+def test_a_manifest_names_the_list_of_a_camera(layout: Path, folder: Path, tmp_path: Path) -> None:
+    manifest, ledger = tmp_path / "manifest.csv", tmp_path / "fleet.db"
+    manifest.write_text(f"id,paths,board\na,{folder.name},{layout.name}\n")
+    assert main(["batch", str(manifest), "-o", str(ledger), "--workers", "1", "--once"]) == 0
+    with open_ledger(ledger) as kept:
+        (camera,) = kept.read()
+    found = read_result(tmp_path / str(camera.result)).calibration.camera.params[0]
+    assert found == pytest.approx(CAMERA.params[0], abs=0.3)
 
 
 def test_a_listed_board_is_printed(layout: Path, tmp_path: Path) -> None:

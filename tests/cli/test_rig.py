@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import json
 import re
+import shutil
 from pathlib import Path
 
 import cv2
@@ -68,6 +69,18 @@ def calibrate(folder: Path, *options: str) -> int:
             *options,
         ]
     )
+
+
+def test_a_shifted_pairing_is_refused(folder: Path, tmp_path: Path, capsys: Capture) -> None:
+    for k in range(1, INSTANTS + 1):
+        shutil.copy(folder / f"left{k}.png", tmp_path / f"left{k}.png")
+        shutil.copy(folder / f"right{k}.png", tmp_path / f"right{k + 1}.png")
+    file = tmp_path / "rig.json"
+    assert calibrate(tmp_path, "-o", str(file)) == 1
+    said = " ".join(capsys.readouterr().err.split())
+    assert "The photographs of right belong to those of left of 1 instant earlier" in said
+    assert "Nothing was written" in said
+    assert not file.exists()
 
 
 def test_a_rig_of_photographs(rig_file: Path) -> None:

@@ -210,11 +210,36 @@ _OPENCV = (
 )
 
 
-@pytest.mark.parametrize("text", [_KALIBR, _OPENCV])
-def test_aliases_that_double_at_each_level_are_refused(tmp_path: Path, text: str) -> None:
+_ROS = (
+    "image_width: 640\nimage_height: 480\ncamera_name: cam\ndistortion_model: plumb_bob\n"
+    "camera_matrix:\n  rows: 3\n  cols: 3\n  data: [600, 0, 320, 0, 600, 240, 0, 0, 1]\n"
+    "distortion_coefficients:\n  rows: 1\n  cols: 5\n  data: [0, 0, 0, 0, 0]\n"
+)
+
+
+@pytest.mark.parametrize(
+    ("text", "value"),
+    [
+        (_KALIBR, "{}"),
+        (_KALIBR, "pinhole"),
+        (_KALIBR, "[1, 1, 1, 1]"),
+        (_KALIBR, "[0, 0, 0, 0]"),
+        (_KALIBR, "[640, 480]"),
+        (_OPENCV, "{}"),
+        (_OPENCV, "640"),
+        (_OPENCV, "480"),
+        (_ROS, "cam"),
+        (_ROS, "plumb_bob"),
+        (_ROS, "640"),
+        (_ROS, "[600, 0, 320, 0, 600, 240, 0, 0, 1]"),
+    ],
+)
+def test_aliases_that_double_at_each_level_are_refused(
+    tmp_path: Path, text: str, value: str
+) -> None:
     """Written out they would take all memory."""
     file = tmp_path / "camera.yaml"
-    file.write_text(_DOUBLING + text.format("*a29"))
+    file.write_text(_DOUBLING + text.replace(value, "*a29", 1).replace("{}", "radtan"))
     with pytest.raises(CalibrationError, match=r"camera\.yaml .* alias \*a0, .* not followed"):
         read_camera(file)
 

@@ -110,6 +110,15 @@ def test_a_narrow_lens_is_rectilinear_although_a_fisheye_fits_better(tmp_path: P
         assert bool(along[1] / np.sqrt(len(row)) < 0.2) is straight
 
 
+@pytest.mark.parametrize("focal", [420, 500, 640, 900])
+@pytest.mark.parametrize(("k1", "k2"), [(-0.3, 0.11), (-0.18, 0.05), (-0.05, 0.0), (0.08, -0.03)])
+def test_lenses_below_a_hundred_degrees_are_rectilinear(
+    tmp_path: Path, focal: float, k1: float, k2: float
+) -> None:
+    lens = Camera((640, 480), [focal, focal, 322, 237, k1, k2, 0, 0, 0], "brown-conrady")
+    assert "rectilinear lens" in export_camera(lens, EXPORTER, tmp_path / "lens.xml").note
+
+
 def test_a_narrow_lens_that_is_not_rectilinear_is_a_fisheye(tmp_path: Path) -> None:
     lens = Camera((640, 480), [320, 320, 320, 240, 0.03, -0.004, 0, 0], "kannala-brandt")
     cut = Camera((480, 480), [360, 360, 240, 240, 0.3, -0.9, 0, 0], "kannala-brandt")

@@ -15,7 +15,7 @@ import numpy as np
 import pytest
 
 from calibgui import engine
-from calibgui.dataset import Result, View, ViewStatus
+from calibgui.dataset import Hardware, Result, View, ViewStatus
 from calibgui.engine.boards.kinds import KINDS
 from calibgui.engine.calibration.calibrate import calibrate
 from calibgui.engine.calibration.observations import Observation
@@ -324,6 +324,19 @@ def test_the_image_circle_is_read_back(tmp_path: Path, result: Result) -> None:
     (tmp_path / "none.json").write_text(json.dumps(content))
     with pytest.raises(CalibrationError, match="circle is not a column, a row and a radius"):
         read_result(tmp_path / "none.json")
+
+
+def test_camera_and_lens_that_were_stated_are_read_back(tmp_path: Path, result: Result) -> None:
+    stated = Hardware("Acme", "X-1", lens="18 mm", mount="Fuji X", crop=1.5, type="fisheye")
+    export(replace(result, hardware=stated), "result", tmp_path / "result.json")
+    content = json.loads((tmp_path / "result.json").read_text())
+    _validator().validate(content)
+    assert read_result(tmp_path / "result.json").hardware == stated
+    for name, wrong in (("crop", 0), ("type", "round"), ("maker", 3)):
+        broken = {**content, "hardware": {name: wrong}}
+        (tmp_path / "broken.json").write_text(json.dumps(broken))
+        with pytest.raises(CalibrationError, match=name):
+            read_result(tmp_path / "broken.json")
 
 
 def test_an_older_name_of_the_lens_model_is_read(tmp_path: Path, forward_result: Result) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Callable
 from pathlib import Path
 
 import cv2
@@ -197,6 +198,49 @@ def test_a_message_is_read_as_it_is_printed(tmp_path: Path, names: str, count: i
     assert read.camera.coefficients[:4].tolist() == [-0.3, 0.1, 0.001, 0.0]
     assert read.rectification is not None
     assert read.rectification.P[0].tolist() == [480.0, 0.0, 320.0, -48.0]
+
+
+def _write_as_block(text: str) -> str:
+    """Write each list of a message with one number a line, as ROS 2 prints them."""
+    lines = []
+    for line in text.splitlines():
+        name, _, values = line.partition(": [")
+        lines += (
+            [f"{name}:", *(f"- {v}" for v in values.rstrip("]").split(", "))] if values else [line]
+        )
+    return "\n".join(lines) + "\n"
+
+
+_PRINTED: dict[str, Callable[[str], str]] = {
+    "block": _write_as_block,
+    "block twice": lambda text: 2 * _write_as_block(text),
+    "windows": lambda text: text.replace("\n", "\r\n"),
+    "no end of line": lambda text: text.rstrip("\n"),
+    "blank lines": lambda text: text + "\n\n",
+    "marked at both ends": lambda text: f"---\n{text}",
+    "end of document": lambda text: text.replace("\n---\n", "\n...\n"),
+    "many": lambda text: 30 * text,
+    "cut in the next": lambda text: text + text[: text.index("width")],
+    "stamp": lambda text: text.replace(
+        "  frame_id: camera", "  stamp:\n    sec: 12\n    nanosec: 5\n  frame_id: camera"
+    ),
+    "frame of no name": lambda text: text.replace("frame_id: camera", "frame_id: ''"),
+    "all of the region": lambda text: text.replace(
+        "  x_offset: 0\n",
+        "  x_offset: 0\n  y_offset: 0\n  height: 0\n  width: 0\n  do_rectify: false\n",
+    ),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("way", _PRINTED)
+def test_messages_are_read_however_they_are_printed(tmp_path: Path, way: str) -> None:
+    file = tmp_path / "camera_info.yaml"
+    text = _MESSAGE.format(**dict(zip("dkrp", "dkrp", strict=True)), binning=0)
+    file.write_bytes(_PRINTED[way](text).encode())
+    camera = read_camera(file).camera
+    assert camera.size == (640, 480)
+    np.testing.assert_array_equal(camera.matrix, [[500, 0, 320], [0, 501, 240], [0, 0, 1]])
+    assert camera.coefficients[:4].tolist() == [-0.3, 0.1, 0.001, 0.0]
 
 
 def test_a_message_of_reduced_images_says_whose_camera_it_holds(tmp_path: Path) -> None:

@@ -46,6 +46,16 @@ def test_remap_undistorts_as_we_do(tmp_path: Path, result: Result, model: str) -
     assert not theirs[cv2.dilate(ours.valid.astype(np.uint8), np.ones((5, 5))) == 0].any()
 
 
+def test_tiff_holds_shares_from_the_lower_left_corner(tmp_path: Path) -> None:
+    camera = example("brown-conrady")
+    path = export_camera(camera, EXPORTER, tmp_path / "map.tif").path
+    blue, green, red = cv2.split(cv2.imread(str(path), cv2.IMREAD_UNCHANGED))
+    assert red.dtype == np.float32 and not blue.any()
+    there = np.dstack([red.astype(float) * 640 - 0.5, (1 - green.astype(float)) * 480 - 0.5])
+    assert np.abs(there - make_map(camera, choose_shown_camera(camera))).max() < 1e-4
+    assert b"calibgui as map" in path.read_bytes()
+
+
 def test_openexr_reads_shares_from_the_lower_left_corner(tmp_path: Path) -> None:
     camera = example("brown-conrady")
     path = export_camera(camera, EXPORTER, tmp_path / "map.exr").path

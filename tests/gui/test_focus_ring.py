@@ -27,7 +27,7 @@ def test_the_welcome_page_shows_which_of_its_entries_has_the_focus(
     window.activateWindow()
     qtbot.waitUntil(lambda: QApplication.activeWindow() is window)
     buttons = [b for b in window.welcome.findChildren(QPushButton) if b.isVisible()]
-    assert len(buttons) == 5
+    assert len(buttons) == 7
     for button in buttons:
         button.clearFocus()
         before = button.grab().toImage()

@@ -32,6 +32,7 @@ import calibgui.gui
 from calibgui.app.calibrating.settings import MODEL_CHOICES
 from calibgui.app.outputs.manual import list_chapters
 from calibgui.app.projects.document import Document
+from calibgui.app.system.limit_presets import list_presets
 from calibgui.engine.assessment.residuals.residual_checks import NoiseReport
 from calibgui.engine.boards.board import Board
 from calibgui.engine.calibration.methods import METHODS
@@ -137,7 +138,7 @@ def english(root: QWidget, folder: Path) -> set[str]:
     return {text for text in texts(root) if WORD.search(strip(text))}
 
 
-NAMES = {"Calibration 1", "k3 held", "Letter", "Tabloid", "inch"}
+NAMES = {"Calibration 1", "k3 held", "Letter", "Tabloid", "inch", *list_presets()}
 OTHERS = {"Close", "Float", "Scroll Left", "Scroll Right", "Export..."}
 """Qt's and pyqtgraph's own."""
 

@@ -155,7 +155,7 @@ def test_coefficients_that_harm_are_named_with_what_they_cost(kept: LensChoice) 
     assert row.held == ("k3", "p1", "p2") and row.is_eligible
     assert row.remarks == (
         "k3 held at 0: left open by these views",
-        "p1, p2 held at 0: not told from 0, and unseen views are predicted better without "
+        "p1, p2 held at 0: they may be 0, and unseen views are predicted better without "
         f"({error:.3f} instead of 0.345 px RMS)",
     )
 

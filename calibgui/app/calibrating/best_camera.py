@@ -17,6 +17,8 @@ from dataclasses import replace
 from threading import Event
 from typing import NamedTuple
 
+import numpy as np
+
 from calibgui.app.calibrating.calibration import recall_lens_choice
 from calibgui.app.calibrating.redetection import calibrate_twice
 from calibgui.app.calibrating.settings import (
@@ -76,7 +78,7 @@ def calibrate_best(
     Yields:
         The first calibration and those that follow, each as soon as it is made and better than the
         one before: the last is the best. It is the only one unless the settings ask for more
-        (``Settings.improve``).
+        (``Settings.improve``). Of a camera that is known it is where the boards are.
 
     Raises:
         CalibrationError, Cancelled: as ``calibrate_twice``, for the first calibration.
@@ -88,6 +90,7 @@ def calibrate_best(
     yield Step("", None, result)
     calibration = result.calibration
     is_final = calibration.status is not Status.CONVERGED or calibration.diagnosis is not None
+    is_final |= settings.known is not None
     if is_final or not settings.improve or not takes_remedies(settings):
         return
     verdict = judge_result(result, check)
@@ -124,6 +127,8 @@ def calibrate_at_once(corner_set: CornerSet, settings: Settings) -> Result | Non
         The calibration; None if it is all that the settings ask for, or if it cannot be made:
         `calibrate_best` then says why.
     """
+    if settings.known is not None:
+        return None
     at_once = replace(
         settings,
         model=settings.model or DEFAULT_MODEL,
@@ -203,10 +208,11 @@ def _describe_step(finding: Finding, following: Result, gain: float) -> str:
     """Describe what was done about a finding, what it gained, and what views left out are for."""
     assert finding.action is not None
     shape = following.calibration.board_shape
-    extent = ""
-    if finding.action.kind is ActionKind.ESTIMATE_BOARD_SHAPE and shape is not None:
-        extent = f" ({shape.rms:.2g} mm)"
     message = finding.message.removesuffix(".")
-    said = f"{message}{extent}: {_DONE[finding.action.kind]}; errors {gain:.1f} times smaller."
+    if finding.action.kind is ActionKind.ESTIMATE_BOARD_SHAPE and shape is not None:
+        across, off_plane = shape.deviation[:, :2], shape.deviation[:, 2]
+        is_flat = np.sum(across**2) > np.sum(off_plane**2)
+        message = f"Your board is not {'printed true' if is_flat else 'flat'} ({shape.rms:.2g} mm)"
+    said = f"{message}: {_DONE[finding.action.kind]}; errors {gain:.1f} times smaller."
     is_of_views = finding.action.kind is ActionKind.LEAVE_OUT_VIEWS
     return f"{said} {finding.remedy}" if is_of_views else said

@@ -11,6 +11,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from calibgui import engine
+from calibgui.app.calibrating.known_camera import locate_with_known
 from calibgui.app.calibrating.settings import (
     DEFAULT_MODEL,
     DEFAULT_SETTINGS,
@@ -35,6 +36,7 @@ from calibgui.engine.calibration import (
     Iteration,
     Observation,
     Report,
+    is_held,
 )
 from calibgui.engine.camera import find_common_circle, find_model
 from calibgui.engine.errors import CalibrationError, Cancelled, Progress
@@ -83,7 +85,7 @@ def calibrate_views(
     warnings name them. If views are weighed, the result's views have the covariances of the last
     solution. Copies of a view are left out. If the views do not determine the camera, the result is
     partial (``Calibration.diagnosis``), from all corners and unweighed. Views whose corners have no
-    usable covariance are left out.
+    usable covariance are left out. A camera that is known is held, and only boards are located.
 
     Args:
         corner_set, settings: the views, and how to calibrate from them.
@@ -104,6 +106,8 @@ def calibrate_views(
             "Photograph the whole board, sharp and evenly lit, at least 3 times from different "
             "directions, and choose the pattern that it has.",
         )
+    if settings.known is not None:
+        return locate_with_known(corner_set, settings.known)
     check_settings(settings)
     corner_set = disable_copies(disable_unweighable_views(corner_set))
     # The matrices are small: threads would cost more than they bring.
@@ -335,7 +339,7 @@ def _make_result(calibration: Calibration, corner_set: CornerSet) -> Result:
     Raises:
         CalibrationError: if all parameters of the camera were held, so that there is no verdict.
     """
-    if len(calibration.fixed) == len(calibration.camera.params):
+    if is_held(calibration):
         raise CalibrationError(
             f"All parameters of the camera are held ({', '.join(calibration.fixed)}), which leaves "
             "nothing to calibrate.",

@@ -72,6 +72,7 @@ def calibrate_twice(
     result = calibrate_views(corner_set, settings, report, progress)
     calibration = result.calibration
     is_final = calibration.status is Status.STOPPED or calibration.diagnosis is not None
+    is_final |= settings.known is not None
     if settings.once or is_final:
         return result
     more, sentences = redetect_views(corner_set, result, stop) if search else (corner_set, ())

@@ -1,4 +1,4 @@
-"""How to calibrate, as the window keeps it and the command line is given it."""
+"""Settings say how to calibrate, as the window keeps them and the command line is given them."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
+from calibgui.dataset import KnownCamera
 from calibgui.engine.assessment import AUTO, Change
 from calibgui.engine.boards import BoardShape, BoardShapeModel, BoardShapePrior
 from calibgui.engine.calibration import DEFAULT_METHOD, METHODS, Calibration, Cost, check_method
@@ -64,6 +65,9 @@ class Settings:
     """True if what makes the camera better and needs no new photograph is carried out
     (``best_camera.py``), as far as the settings leave it open: lens model and board shape where
     they are None, and which corners and views count."""
+    known: KnownCamera | None = None
+    """The camera that is held, so that boards are located only and no other setting counts; None
+    for one that is to be calibrated."""
 
 
 DEFAULT_SETTINGS = Settings()
@@ -117,6 +121,11 @@ def change_settings(settings: Settings, model: str, change: Change) -> Settings:
         robust=settings.robust or change.leaves_out_corners,
         weigh_views=settings.weigh_views or change.weighs_views,
     )
+
+
+def read_model_choice(text: str) -> str | None:
+    """Read the name of a lens model as `resolve_model_choice` does; None for `AUTO_MODEL`."""
+    return None if text == AUTO_MODEL else resolve_model_choice(text)
 
 
 def resolve_model_choice(model: str) -> str:

@@ -38,7 +38,7 @@ from calibgui.formats.result_json import read_result
 
 @dataclass(frozen=True, slots=True)
 class BatchSummary:
-    """What a run has led to."""
+    """The outcome of a run."""
 
     cameras: int
     """Number of cameras in the manifest."""

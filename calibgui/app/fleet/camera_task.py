@@ -93,7 +93,7 @@ class FleetFolder:
 
 
 class Work(NamedTuple):
-    """What a worker is sent."""
+    """The work that a worker is sent."""
 
     task: CameraTask
     known: FleetCamera | None
@@ -300,7 +300,8 @@ def _make_result(task: CameraTask, files: Sequence[Path], search: _Search) -> Re
     if error is not None:
         raise error
     assert task.board.square is not None  # the manifest sees to it
-    result = calibrate_twice(detection.corner_set(task.board.square), task.settings)
+    corner_set = detection.corner_set(task.board.square, task.board.square_sigma)
+    result = calibrate_twice(corner_set, task.settings)
     calibration = result.calibration
     history = tuple(replace(iteration, seconds=0.0) for iteration in calibration.history)
     timeless = replace(calibration, history=history, seconds=float("nan"))
@@ -336,6 +337,7 @@ def _describe_task(task: CameraTask) -> str:
         {
             "board": {
                 "square": board.square,
+                **({"square_sigma": board.square_sigma} if board.square_sigma else {}),
                 "grid_size": board.grid_size,
                 "pattern": None if board.pattern is None else encode_pattern(board.pattern),
                 "method": board.method,

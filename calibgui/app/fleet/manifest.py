@@ -6,7 +6,8 @@ Columns, of which ``id`` and ``paths`` must be there:
     paths        photographs: a folder, a pattern or a file, or several of them with ; between, from
                  the table's folder on, or addresses (http://, https://, s3://, gs://)
     board        words of the board that replace the command line's: ROWSxCOLS, its kind, and the
-                 side of a square, as "charuco 5x7 30mm"
+                 side of a square, as "charuco 5x7 30mm", with one standard deviation as
+                 "30+-0.02mm"; or the file that lists its circles, from the table's folder on
     model        name of the lens model, or auto
     serial       serial number of the camera
     date         of the photographs, as 2026-03-01 or 2026-03-01T08:30; without it that of EXIF
@@ -21,16 +22,15 @@ import math
 import os
 import re
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from datetime import UTC, date, datetime
 from pathlib import Path
 from typing import Any
 
 from calibgui.app.calibrating.settings import (
-    AUTO_MODEL,
     Settings,
     check_settings,
-    resolve_model_choice,
+    read_model_choice,
 )
 from calibgui.app.fleet.photographs import check_address
 from calibgui.app.photographs.paths import is_remote
@@ -39,11 +39,13 @@ from calibgui.engine.arrays import GridSize
 from calibgui.engine.boards import CHECKERBOARD, KINDS, Pattern
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.features import METHODS, MIN_LINES
+from calibgui.formats.circle_list import read_circle_list
 from calibgui.formats.csv_table import read_numbered_csv_rows
 
 _COLUMNS = ("id", "paths", "board", "model", "serial", "date", "temperature")
 _NEEDED = ("id", "paths")
 _PARQUET = ".parquet"
+_NUMBER = r"\d*\.?\d+"
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,6 +54,8 @@ class BoardSought:
 
     square: float | None
     """Side of a square, mm; None if it is not known."""
+    square_sigma: float = field(default=0.0, kw_only=True)
+    """Standard deviation of the side, mm, common to all squares."""
     grid_size: GridSize | None = None
     """Rows and columns; None to infer them from the photographs."""
     pattern: Pattern | None = CHECKERBOARD
@@ -192,7 +196,7 @@ def _read_task(
         name if is_remote(name) else os.path.abspath(folder / name)  # noqa: PTH100 - keeps links
         for name in names
     )
-    sought = read_board_words(cells["board"], board)
+    sought = read_board_words(cells["board"], board, folder)
     if sought.square is None:
         raise CalibrationError(
             "the side of a square is not known.",
@@ -201,11 +205,16 @@ def _read_task(
     return CameraTask(entry, paths, sought, _read_model(cells["model"], settings))
 
 
-def read_board_words(text: str, board: BoardSought) -> BoardSought:
+def read_board_words(text: str, board: BoardSought, folder: Path = Path()) -> BoardSought:
     """Return `board` with what the words of a text say otherwise, such as "charuco 5x7 30mm".
 
+    Args:
+        text: the words.
+        board: the board of which they say something.
+        folder: the folder from which a list of circles is named.
+
     Raises:
-        CalibrationError: for a word that says nothing of a board.
+        CalibrationError: for a word that says nothing of a board, or a list that cannot be read.
     """
     for word in text.replace(",", " ").split():
         if word in KINDS:
@@ -219,15 +228,22 @@ def read_board_words(text: str, board: BoardSought) -> BoardSought:
                     f"Boards have at least {MIN_LINES}x{MIN_LINES} inner corners.",
                 )
             board = replace(board, grid_size=size)
-        elif match := re.fullmatch(r"(\d*\.?\d+)mm", word):
-            if not 0 < float(match[1]) < math.inf:
-                raise CalibrationError(f"{word} is not the side of a square.", "Write it as 30mm.")
-            board = replace(board, square=float(match[1]))
+        elif match := re.fullmatch(rf"({_NUMBER})(?:(?:±|\+-|\+/-)({_NUMBER}))?mm", word):
+            square, sigma = float(match[1]), float(match[2] or 0)
+            if not sigma < square < math.inf:
+                raise CalibrationError(
+                    f"{word} is not the side of a square.", "Write it as 30mm, or 30+-0.02mm."
+                )
+            board = replace(board, square=square, square_sigma=sigma)
+        elif Path(word).suffix.lower() in (".csv", ".json"):
+            pattern, pitch = read_circle_list(folder / word)
+            size = pattern.grid_size
+            board = replace(board, square=pitch, square_sigma=0.0, pattern=pattern, grid_size=size)
         else:
             raise CalibrationError(
                 f"{word!r} says nothing of a board.",
                 "Write ROWSxCOLS, the side of a square as 30mm, and one of "
-                f"{', '.join(KINDS)}, with blanks between.",
+                f"{', '.join(KINDS)}, with blanks between; or name a list of circles, as dots.csv.",
             )
     return board
 
@@ -235,8 +251,7 @@ def read_board_words(text: str, board: BoardSought) -> BoardSought:
 def _read_model(text: str, settings: Settings) -> Settings:
     if not text:
         return settings
-    model = None if text == AUTO_MODEL else resolve_model_choice(text)
-    changed = replace(settings, model=model)
+    changed = replace(settings, model=read_model_choice(text))
     check_settings(changed)
     return changed
 

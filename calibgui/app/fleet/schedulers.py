@@ -1,4 +1,4 @@
-"""Who does the tasks of a fleet: processes here, or workers of a scheduler of Dask that is named.
+"""The tasks of a fleet are done by processes here, or by workers of a scheduler of Dask.
 
 Both do the same function to every item and yield what comes back in the order of completion. The
 workers are reached when the first item is there: if nothing is to be done, nothing is started.

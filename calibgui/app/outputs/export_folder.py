@@ -19,7 +19,7 @@ PAGE = "README.md"
 
 @dataclass(frozen=True, slots=True)
 class ExportOutcome:
-    """What became of a result in one format."""
+    """The outcome of writing a result in one format."""
 
     exporter: Exporter
     file: str

@@ -40,10 +40,18 @@ def check_figure_name(path: Path) -> None:
     Raises:
         CalibrationError: with the suffixes that do.
     """
-    if path.suffix.lower() not in FIGURE_SUFFIXES:
+    check_suffix(path, FIGURE_SUFFIXES, "a figure")
+
+
+def check_suffix(path: Path, suffixes: Iterable[str], what: str) -> None:
+    """Refuse a name whose suffix tells no format of what is to be written, such as "a figure".
+
+    Raises:
+        CalibrationError: with the suffixes that do.
+    """
+    if path.suffix.lower() not in suffixes:
         raise CalibrationError(
-            f"{path} is not named as a figure.",
-            f"Give it the suffix {' or '.join(FIGURE_SUFFIXES)}.",
+            f"{path} is not named as {what}.", f"Give it the suffix {' or '.join(suffixes)}."
         )
 
 

@@ -1,4 +1,4 @@
-"""What an undistorted or rectified image looks like, beside the image that it is made from."""
+"""A preview shows an undistorted or rectified image beside the image that it is made from."""
 
 from __future__ import annotations
 

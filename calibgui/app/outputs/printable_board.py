@@ -207,6 +207,7 @@ def complete_pattern(pattern: Pattern, grid_size: GridSize) -> Pattern:
             bool(pattern.from_top),
             pattern.corner_squares is not False,
             pattern.first_tag,
+            pattern.tag_turn,
         )
     if isinstance(pattern, TaggedCheckerboard):
         return TaggedCheckerboard(

@@ -13,6 +13,7 @@ from pathlib import Path, PurePath
 
 from PIL import Image
 
+from calibgui.app.outputs.output_files import check_suffix
 from calibgui.app.photographs.image_store import read_thumbnail
 from calibgui.app.photographs.paths import is_remote
 from calibgui.dataset import Result
@@ -44,7 +45,7 @@ _LONG_SIDE_PX, _JPEG_QUALITY = 220, 70
 
 @dataclass(frozen=True, slots=True)
 class ReportStyle:
-    """How a report is laid out."""
+    """The layout of a report."""
 
     layout: Layout = Layout.REPORT
     paper: str = "a4"
@@ -59,10 +60,7 @@ def check_report_name(path: Path) -> None:
     Raises:
         CalibrationError: naming the suffixes.
     """
-    if path.suffix.lower() not in SUFFIXES:
-        raise CalibrationError(
-            f"{path} is not named as a report.", f"Give it the suffix {' or '.join(SUFFIXES)}."
-        )
+    check_suffix(path, SUFFIXES, "a report")
 
 
 def write_report(

@@ -19,8 +19,9 @@ from calibgui.app.photographs.detection import (
     infer_pattern,
     measure_largest_part,
 )
-from calibgui.dataset import DEFAULT_SQUARE, CornerSet, Result, View, ViewStatus
+from calibgui.dataset import DEFAULT_SQUARE, CornerSet, KnownCamera, Result, View, ViewStatus
 from calibgui.dataset.details import NO_DETAILS, Details
+from calibgui.dataset.limits import Limits
 from calibgui.engine.arrays import GridSize, Size
 from calibgui.engine.boards import CHECKERBOARD, Board, Pattern
 from calibgui.engine.errors import CalibrationError
@@ -69,6 +70,8 @@ class Project:
     """What a person states of the calibration, for its report."""
     lengths_confirmed: bool = False
     """True once the user has stated the side of a square, or confirmed it."""
+    limits: Limits | None = None
+    """What is demanded of the camera; None if nothing is."""
     settings: Settings = field(default_factory=Settings)
     results: Mapping[str, Result] = field(default_factory=lambda: MappingProxyType({}))
     """Results by name, the oldest first."""
@@ -102,7 +105,7 @@ class Project:
 
     @cached_property
     def grid_size_doubt(self) -> CalibrationError | None:
-        """Why it is not known how many rows and columns the board has, of which parts are seen;
+        """The doubt about how many rows and columns a board has of which parts are seen;
         None if it is stated or seen, or no board is found. The board counts as its largest part
         for what is shown, and nothing is calibrated."""
         if self.grid_size is not None:
@@ -177,6 +180,11 @@ def set_grid_size(project: Project, grid_size: GridSize | None) -> Project:
     return replace(project, grid_size=grid_size, views=tuple(views))
 
 
+def hold_known(project: Project, known: KnownCamera | None) -> Project:
+    """Return the project with a camera that is held; None for one that is to be calibrated."""
+    return replace(project, settings=replace(project.settings, known=known))
+
+
 def set_method(project: Project, method: str) -> Project:
     """Return the project with another method of locating corners: images are searched again."""
     return replace(project, method=method, views=_reset_searches(project.views))
@@ -199,6 +207,12 @@ def _reset_search(view: View) -> View:
     if view.points is not None or not searched:
         return view
     return replace(view, status=ViewStatus.WAITING, reason="", corners=None)
+
+
+def set_limits(project: Project, limits: Limits | None) -> Project:
+    """Return the project with other demands on its camera, in its results too."""
+    results = {name: replace(result, limits=limits) for name, result in project.results.items()}
+    return replace(project, limits=limits, results=MappingProxyType(results))
 
 
 def add_images(project: Project, images: Iterable[str]) -> Project:
@@ -242,7 +256,7 @@ def record_result(project: Project, name: str, inputs: Sequence[View], result: R
     if screened:
         views = tuple(screened.get(id(view), view) for view in project.views)
         project = replace(project, views=views)
-    result = replace(result, lengths_confirmed=project.lengths_confirmed)
+    result = replace(result, lengths_confirmed=project.lengths_confirmed, limits=project.limits)
     project = add_result(project, name, result)
     settings = {**project.settings_of_results, name: project.settings}
     return replace(project, settings_of_results=MappingProxyType(settings))

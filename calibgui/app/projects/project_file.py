@@ -10,12 +10,15 @@
     size                width and height of the images, px
     details             texts on operator, place and so on, for a report (``dataset/details.py``);
                         what is empty may be missing
+    limits              what is demanded of the camera, as in ``limits_toml.py`` (missing: nothing)
     by_hand             whether the user marks every board (false where missing)
     settings            cost, model (of the lens; "auto" if it is chosen automatically), method,
                         freed, fixed (names, or an object of them with their values or null); plate
                         (the board's shape: a model, "auto" or a shape as in
                         ``board_shape_json.py``), prior_mm (in the plane and out of it, or null),
-                        robust; weigh_views, once and improve (false where missing)
+                        robust; weigh_views, once and improve (false where missing); camera, where
+                        one is held: the file that it is from with the title of its format, model,
+                        size, params, covariance (or null) and circle (where it has one)
     views               as in ``views_json.py``, and sha256 of the image file where known
     results             by name, each as a result.json is (``result_json.py``)
     verdicts            by name, each as in ``verdict_json.py``, of the results that were judged
@@ -44,11 +47,11 @@ from calibgui.app.calibrating.settings import (
     MODEL_CHOICES,
     Settings,
     list_parameters,
-    resolve_model_choice,
+    read_model_choice,
 )
 from calibgui.app.photographs.paths import is_remote
 from calibgui.app.projects.project import GRID_LINES, Project, Unit, relocate_images
-from calibgui.dataset import Result, View
+from calibgui.dataset import KnownCamera, Result, View
 from calibgui.dataset.details import Details
 from calibgui.dataset.judging import keep_verdict, recall_verdict
 from calibgui.engine.arrays import GridSize
@@ -60,9 +63,15 @@ from calibgui.engine.features import METHODS
 from calibgui.engine.files import open_regular
 from calibgui.formats.board_shape_json import decode_board_shape, decode_prior, encode_board_shape
 from calibgui.formats.json_document import JsonWriter, are_same_values, check_format, read_json
+from calibgui.formats.limits_toml import decode_limits, encode_limits
 from calibgui.formats.node import Node
 from calibgui.formats.pattern_json import decode_pattern, decode_square_sigma, encode_pattern
-from calibgui.formats.result_json import decode_result, encode_result
+from calibgui.formats.result_json import (
+    decode_camera,
+    decode_model,
+    decode_result,
+    encode_result,
+)
 from calibgui.formats.verdict_json import decode_verdict, encode_verdict
 from calibgui.formats.views_json import decode_field, decode_views, encode_view
 
@@ -130,6 +139,7 @@ def encode_project(project: Project, folder: Path) -> dict[str, Any]:
         square["square_sigma_mm"] = project.square_sigma
     pattern = {"pattern": encode_pattern(project.pattern), "corners": project.method}
     field = {} if project.field is None else {"field": project.field}
+    limits = {} if project.limits is None else {"limits": encode_limits(project.limits)}
     return {
         "format": FORMAT,
         "version": VERSION,
@@ -138,6 +148,7 @@ def encode_project(project: Project, folder: Path) -> dict[str, Any]:
         "lengths_confirmed": project.lengths_confirmed,
         "size": project.size,
         "details": {name: text for name, text in asdict(project.details).items() if text},
+        **limits,
         "by_hand": project.by_hand,
         "settings": _encode_settings(project.settings),
         "views": [_encode_view(view, project, board) for view in project.views],
@@ -173,7 +184,21 @@ def _encode_settings(settings: Settings) -> dict[str, Any]:
         "weigh_views": settings.weigh_views,
         "improve": settings.improve,
         "once": settings.once,
+        **({} if settings.known is None else {"camera": _encode_known(settings.known)}),
     }
+
+
+def _encode_known(known: KnownCamera) -> dict[str, Any]:
+    """Encode a camera that is held."""
+    camera = known.camera
+    return {
+        "file": known.file,
+        "title": known.title,
+        "model": camera.model,
+        "size": camera.size,
+        "params": dict(zip(camera.names, camera.params, strict=True)),
+        "covariance": known.covariance,
+    } | ({} if camera.circle is None else {"circle": camera.circle})
 
 
 def is_project(path: Path) -> bool:
@@ -254,6 +279,7 @@ def _decode_project(node: Node) -> Project:
         square=square.number(),
         square_sigma=decode_square_sigma(board),
         details=_decode_details(node.get("details")),
+        limits=decode_limits(node.get("limits")),
         by_hand=by_hand.flag() if (by_hand := node.get("by_hand")) else False,
         unit=Unit(board["unit"].choice(list(Unit))),
         lengths_confirmed=bool(node["results"].value) if confirmed is None else confirmed.flag(),
@@ -298,6 +324,21 @@ def _decode_settings(node: Node) -> Settings:
         weigh_views=weigh.flag() if (weigh := node.get("weigh_views")) else False,
         once=once.flag() if (once := node.get("once")) else False,
         improve=improve.flag() if (improve := node.get("improve")) else False,
+        known=_decode_known(node.get("camera")),
+    )
+
+
+def _decode_known(node: Node | None) -> KnownCamera | None:
+    """Decode the camera that is held; None for one that is to be calibrated."""
+    if node is None:
+        return None
+    camera = decode_camera(node, decode_model(node["model"]), {})
+    count, covariance = len(camera.params), node.get("covariance")
+    return KnownCamera(
+        camera,
+        node["file"].text(),
+        node["title"].text(),
+        None if covariance is None else covariance.covariances(count, count),
     )
 
 
@@ -317,10 +358,8 @@ def _decode_settings_of_results(node: Node, now: Settings) -> dict[str, Settings
 
 def _decode_model(node: Node) -> str | None:
     """Return the name of the lens model to estimate, None for one that is chosen automatically."""
-    if node.text() == AUTO_MODEL:
-        return None
     try:
-        return resolve_model_choice(node.text())
+        return read_model_choice(node.text())
     except CalibrationError:
         node.choice([AUTO_MODEL, *MODEL_CHOICES])  # names the place, and the choices
         raise

@@ -36,6 +36,7 @@ def make_project(path: Path, name: str) -> Project:
         views=views,
         size=result.calibration.camera.size,
         lengths_confirmed=result.lengths_confirmed,
+        limits=result.limits,
         settings=settings,
         results=MappingProxyType({name: result}),
         settings_of_results=MappingProxyType({name: settings}),

@@ -45,3 +45,19 @@ def find_limits(name: str) -> Limits:
         f"Choose from {', '.join(presets)}, name a TOML file, or put one into "
         f"{find_presets_folder()}.",
     )
+
+
+def find_camera_limits(name: str) -> Limits:
+    """Return the limits of one camera by the name of a preset or file.
+
+    Raises:
+        CalibrationError: as `find_limits`, and if one of them is for a fleet.
+    """
+    limits = find_limits(name)
+    if limits.largest_change_px is not None:
+        raise CalibrationError(
+            f"The limits {limits.name} have largest_change_px, and there is no earlier calibration "
+            "to compare with.",
+            "Leave it out, or compare two results: `calibgui diff --limit`.",
+        )
+    return limits

@@ -42,7 +42,7 @@ _NICENESS = 5
 _prepared: set[Callable[[], None]] = set()
 """The preparations that this process has made, and need not make again."""
 _serial = threading.local()
-"""Whether a thread does all tasks itself (`do_tasks_here`)."""
+"""True if a thread does all tasks itself (`do_tasks_here`)."""
 
 
 class Crashed(Exception):  # noqa: N818 - a value, never raised

@@ -363,10 +363,11 @@ def _grade(
             "corners: add views."
         )
     if findings:
-        return Grade.GOOD if error.median <= MAX_GOOD_PX else Grade.USABLE, (
-            f"{findings[0].message} It does little: pixels among corners are known to "
-            f"{format_two_digits(error.worst_covered)} px or better."
-        )
+        known = f"pixels among corners are known to {format_two_digits(error.worst_covered)} px"
+        little = f"or better. Of little effect: {findings[0].message}"
+        if error.median <= MAX_GOOD_PX:
+            return Grade.GOOD, f"Nothing needs to be done: {known} {little}"
+        return Grade.USABLE, f"{known.capitalize()} {little}"
     if error.worst <= MAX_GOOD_PX:
         return Grade.GOOD, "The photographs show nothing wrong."
     grade = Grade.GOOD if error.median <= MAX_GOOD_PX else Grade.USABLE

@@ -10,7 +10,8 @@ at
     X = (1 + s) floor(column / 2) + column mod 2,
 
 and Y likewise. Kalibr numbers the tags from the lower left one along the rows, the lowest first;
-those who make several boards begin the second one where the first ended.
+those who make several boards begin the second one where the first ended, and some print each tag
+turned by a quarter, a half or three quarters.
 """
 
 from __future__ import annotations
@@ -84,6 +85,10 @@ class AprilGrid(CodedPattern):
     """True if small dark squares stand between the corners of the tags, False if they do not."""
     first_tag: int | None = None
     """Number of the first tag; if None it is 0 unless the images show that it is not."""
+    tag_turn: int | None = None
+    """Number of quarters, 0 to 3, by which each tag is turned clockwise on the board; if None it is
+    0 unless the images show that it is not. Those that OpenCV draws are turned by 2, and those of
+    makers who count along columns by 1 or 3."""
 
     def __post_init__(self) -> None:
         check_tags(self.family, self.border)
@@ -96,6 +101,11 @@ class AprilGrid(CodedPattern):
             raise CalibrationError(
                 f"The first tag cannot have the number {self.first_tag}.",
                 "State the lowest number on the board: 0 on most.",
+            )
+        if self.tag_turn not in (None, 0, 1, 2, 3):
+            raise CalibrationError(
+                f"Tags cannot be turned by {self.tag_turn} quarters.",
+                "It is 0, 1, 2 or 3 quarters.",
             )
 
     @property
@@ -123,10 +133,17 @@ class AprilGrid(CodedPattern):
         if not boards:
             return self
         most = Counter(
-            (board.family, board.border, board.from_top, board.corner_squares, board.first_tag)
+            (
+                board.family,
+                board.border,
+                board.from_top,
+                board.corner_squares,
+                board.first_tag,
+                board.tag_turn,
+            )
             for board in boards
         )
-        family, border, from_top, squares, first_tag = most.most_common(1)[0][0]
+        family, border, from_top, squares, first_tag, tag_turn = most.most_common(1)[0][0]
         gaps = [board.spacing for board in boards if board.spacing]
         return self.fill_unknown(
             family=family,
@@ -135,6 +152,7 @@ class AprilGrid(CodedPattern):
             from_top=from_top,
             corner_squares=squares,
             first_tag=first_tag,
+            tag_turn=tag_turn,
         )
 
     def draw(self, grid_size: GridSize) -> PrintedPattern:
@@ -166,7 +184,8 @@ class AprilGrid(CodedPattern):
         for number, (row, col) in zip(numbers.tolist(), squares.tolist(), strict=True):
             top = (row if self.from_top else row + rows - 1) * (n + 1) + 1
             left = col * (n + 1) + 1
-            dark[top : top + n, left : left + n] = draw_tag(self.family, number, border)
+            tag = np.rot90(draw_tag(self.family, number, border), -(self.tag_turn or 0))
+            dark[top : top + n, left : left + n] = tag
         within = np.linspace(0, 1, n + 1)
         x, y = (
             np.append(((1 + self.spacing) * np.arange(count)[:, None] + within).ravel(), 0.0)

@@ -1,4 +1,4 @@
-"""What is printed of a pattern, to be drawn or seen through a camera.
+"""The print of a pattern is described here, to be drawn or seen through a camera.
 
 Lengths are pitches (sides of a square, distances of circles), X along the rows and Y down them,
 from the pattern's first point. The paper is white and the ink black.

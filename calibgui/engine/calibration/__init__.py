@@ -41,6 +41,7 @@ if TYPE_CHECKING:
         convert_camera as convert_camera,
         find_followed_angle as find_followed_angle,
     )
+    from calibgui.engine.calibration.held_camera import hold_camera as hold_camera
     from calibgui.engine.calibration.initialisation.single_view_pose import (
         evaluate_cosines_equation as evaluate_cosines_equation,
     )
@@ -57,7 +58,10 @@ if TYPE_CHECKING:
         find_copies as find_copies,
         is_in_one_spot as is_in_one_spot,
     )
-    from calibgui.engine.calibration.problem import recover_arguments as recover_arguments
+    from calibgui.engine.calibration.problem import (
+        is_held as is_held,
+        recover_arguments as recover_arguments,
+    )
     from calibgui.engine.calibration.refinement.covariances import (
         compute_correlations as compute_correlations,
         make_paper_table as make_paper_table,
@@ -91,12 +95,13 @@ load_on_demand(
         "board_poses": ["BoardPose", "locate_board"],
         "calibrate": ["calibrate"],
         "conversion": ["Conversion", "convert_camera", "find_followed_angle"],
+        "held_camera": ["hold_camera"],
         "initialisation.single_view_pose": ["evaluate_cosines_equation"],
         "methods": ["METHODS", "check_method"],
         "methods.method": ["Method"],
         "observations": ["Observation", "make_observation"],
         "partial.degeneracy": ["find_copies", "is_in_one_spot"],
-        "problem": ["recover_arguments"],
+        "problem": ["is_held", "recover_arguments"],
         "refinement.covariances": ["compute_correlations", "make_paper_table"],
         "refit": ["Refit", "refit"],
         "result": [

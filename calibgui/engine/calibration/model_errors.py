@@ -1,4 +1,4 @@
-"""What the models of board, lens and views miss, added to the uncertainties of a calibration.
+"""The models of board, lens and views miss something, which is added to the uncertainties here.
 
 The normal equations tell what the corners' noise does to the camera. That a board is not quite as
 drawn (``board_shape/uncertainty.py``), or not quite of the shape that is held

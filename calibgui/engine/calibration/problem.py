@@ -250,8 +250,22 @@ def recover_image_arguments(calibration: Calibration) -> dict[str, Any]:
     return settings | {"cost": Cost.IMAGE, "method": DEFAULT_METHOD}
 
 
+def is_held(calibration: Calibration) -> bool:
+    """Return whether all of a calibration's camera was held, so that it is no estimate."""
+    return len(calibration.fixed) == len(calibration.camera.params)
+
+
 def find_free_parameters(calibration: Calibration) -> IntArray:
-    """Return the indices of the camera's parameters that were estimated, ascending."""
+    """Return the indices of the camera's parameters that were estimated, ascending.
+
+    Raises:
+        CalibrationError: if all of them were held: the views say nothing of their errors.
+    """
+    if is_held(calibration):
+        raise CalibrationError(
+            "This camera is known from a file, and was not estimated from these photographs.",
+            "`calibgui check` tells whether it is still good for them.",
+        )
     names = calibration.camera.names
     return np.flatnonzero([name not in calibration.fixed for name in names])
 

@@ -185,7 +185,7 @@ DEFAULT_METHOD = "lucchese"
 
 @dataclass(frozen=True, slots=True)
 class CalibrationSettings:
-    """What a calibration was asked for; None for what it does not state, as in old results."""
+    """The settings of a calibration; None for those that it does not state, as in old results."""
 
     cost: Cost = Cost.IMAGE
     model: str | None = None
@@ -196,16 +196,16 @@ class CalibrationSettings:
     board_shape: BoardShapeModel | None = None
     """The model of the board's shape."""
     is_board_shape_held: bool | None = None
-    """Whether the board's shape was given, and not estimated."""
+    """True if the board's shape was given, and not estimated."""
     prior: BoardShapePrior | None = None
     """What was known beforehand of the board's deviations from its drawing."""
     method: str = DEFAULT_METHOD
     model_reason: str | None = None
     """Why the lens model was chosen, where that was done automatically."""
     robust: bool | None = None
-    """Whether outliers were to be left out."""
+    """True if outliers were to be left out."""
     weigh_views: bool | None = None
-    """Whether views were to be weighed by their noise."""
+    """True if views were to be weighed by their noise."""
     outliers: int | None = None
     """Number of corners that were left out as outliers, where they were to be."""
     others: Mapping[str, Any] = field(default_factory=dict)

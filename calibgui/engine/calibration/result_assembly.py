@@ -75,7 +75,7 @@ def assemble_calibration(
         noise=float(np.sqrt(estimate.sigma2)),
         model_error=float(np.sqrt(observations.tau2)),
         reference_scale=problem.scale,
-        stage_one=StageOneTable(partial(_tabulate_stage_one, point.stated.stage_one, cost)),
+        stage_one=StageOneTable(partial(tabulate_stage_one, point.stated.stage_one, cost)),
         history=estimate.solution.history,
         status=estimate.solution.status,
         cost=cost,
@@ -86,7 +86,7 @@ def assemble_calibration(
         lens_error=estimate.lens_error,
         overdispersion=estimate.overdispersion,
         settings=problem.settings,
-        digest=_compute_digest(problem),
+        digest=compute_digest(problem),
         warnings=remarks,
         seconds=seconds,
     )
@@ -116,7 +116,7 @@ def compute_view_residuals(
     return tuple(ViewResiduals(image[k, :n], reference[k, :n]) for k, n in enumerate(counts))
 
 
-def _tabulate_stage_one(views: RegisteredViews, cost: Cost) -> tuple[StageOne, ...]:
+def tabulate_stage_one(views: RegisteredViews, cost: Cost) -> tuple[StageOne, ...]:
     """Tabulate Stage I (the paper's Table 1), with the roots of each view's cosines' equation."""
     registration = views.of_all
     backward = freeze_array(homography.invert_homography(registration.forward))
@@ -135,7 +135,7 @@ def _tabulate_stage_one(views: RegisteredViews, cost: Cost) -> tuple[StageOne, .
     return tuple(StageOne(*row) for row in zip(*columns, strict=True))
 
 
-def _compute_digest(problem: Problem) -> str:
+def compute_digest(problem: Problem) -> str:
     """Return the SHA-256 of the views and settings of a calibration."""
     digest = hashlib.sha256(repr(sorted(problem.settings.encode().items())).encode())
     views = problem.prepared

@@ -1,4 +1,4 @@
-"""Where a solve starts: the camera and the poses that the method guesses.
+"""A solve starts from the camera and the poses that the method guesses.
 
 For Lucchese's method they come from Stage I (``initialisation/stage_one.py``), each view by itself,
 and the closed form (``initialisation/start.py``).

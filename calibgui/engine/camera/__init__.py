@@ -1,4 +1,4 @@
-"""What a camera is: its lens model and parameters, and the maps from points to pixels and back.
+"""A camera is a lens model with its parameters, which maps points to pixels and back.
 
 `Camera` holds the values; `project_points`, `distort_points` and `undistort_points` use them.
 `MODELS` lists the lens models by id, `find_model` finds one. `SensorMode` leads from the images

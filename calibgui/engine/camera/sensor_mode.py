@@ -154,10 +154,6 @@ class SensorMode:
         """Return where pixels (..., 2) of the camera's images are in the stream's."""
         return np.asarray(self.factor * np.asarray(uv, dtype=np.float64) + self.offset)
 
-    def map_rays(self, rays: Array) -> Array:
-        """Return rays (..., 3) of the camera's frame in that of the stream's camera."""
-        return np.asarray(rays * np.append(np.sign(self.factor), 1.0))
-
     def adapt_camera(self, camera: Camera) -> Camera:
         """Return the camera of the stream.
 

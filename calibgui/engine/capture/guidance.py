@@ -36,7 +36,7 @@ _HALF_TURN = np.diag([-1.0, -1.0, 1.0])
 
 @dataclass(frozen=True, slots=True)
 class Guidance:
-    """How near a board is to where it is wanted, and what to do."""
+    """The nearness of a board to where it is wanted, and what to do."""
 
     match: float
     """Share from 0 to 1 of the way to the wanted place: 1 less the rms distance of the corners from

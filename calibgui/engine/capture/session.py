@@ -87,7 +87,7 @@ class Picture:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class CaptureState:
-    """What a frame shows, and what is to be done."""
+    """The content of a frame, and what is to be done."""
 
     corners: Corners | None
     """The board in the frame; None if there is none."""

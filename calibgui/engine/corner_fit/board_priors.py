@@ -141,7 +141,7 @@ def _list_neighbours(shape: GridSize, at: IntArray) -> IntArray:
 
 
 class BoardPriors(ABC):
-    """What all corners of a board tell of the geometry and of gradients at each of them."""
+    """The priors of geometry and gradients at each corner of a board that all corners give."""
 
     @abstractmethod
     def estimate_geometry(self, uv: Array) -> tuple[Array, Array]:

@@ -111,7 +111,7 @@ class EdgeGeometry:
 
 
 class _LineBends(NamedTuple):
-    """How far edges at n corners are bent aside beyond what a map says."""
+    """The bends of edges at n corners beyond what a map says."""
 
     misfit: float
     """Rms by which the polynomials would miss a mean or slope left out, px."""

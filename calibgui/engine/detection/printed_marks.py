@@ -40,7 +40,7 @@ _INSIDE = np.array([(a, b) for a in np.linspace(0.25, 0.75, 7) for b in np.linsp
 
 
 class Marks(NamedTuple):
-    """Where a checkerboard may bear marks."""
+    """The places where a checkerboard may bear marks."""
 
     on_edges: bool
     """True if there may be dots on its edges."""

@@ -91,15 +91,6 @@ def paper_from_intrinsics(params: Array, size: Size) -> tuple[Array, Array]:
     return values, J
 
 
-def intrinsics_from_paper(values: Array, size: Size) -> Array:
-    """Convert the paper's ten intrinsics to the array frame: inverse to `paper_from_intrinsics`."""
-    xp, yp, *coefficients, fx, fy = values
-    powers = np.array([2.0, 4.0, 6.0, 1.0, 1.0, 2.0])
-    signs = np.array([1.0, 1.0, 1.0, 1.0, -1.0, 1.0])
-    cx, cy = array_from_paper(np.array([xp, yp]), size)
-    return np.concatenate([[fx, fy, cx, cy], signs * fx**powers * np.asarray(coefficients)])
-
-
 @dataclass(frozen=True, slots=True)
 class PaperPose:
     """The external parameters of one view as the paper writes them (3.2)."""

@@ -1,4 +1,4 @@
-"""What a lens sees and undistorted images of it do not show, as angles and in words.
+"""A lens sees angles that undistorted images do not show; they are measured, and put into words.
 
 From the axis to the middle of each side of the photograph, the lens sees up to some angle off the
 axis. The undistorted images show its rays up to another; what lies between the two is lost. What is
@@ -34,7 +34,7 @@ _MIN_LOST_SHARE = 4e-3
 
 @dataclass(frozen=True, slots=True)
 class HiddenAngles:
-    """What undistorted images do not show of what a lens sees."""
+    """The angles that a lens sees and undistorted images do not show."""
 
     left: float
     """Angle between the outermost ray that is shown and the outermost that is seen, radians,

@@ -1,4 +1,4 @@
-"""What a lens sees of its image: rays that are a pixel's own, and the outermost pixels with one.
+"""A lens sees the part of its image whose pixels have rays of their own; its outline is found here.
 
 Not every pixel of an image need have a direction: a fisheye's circle may end within the image, and
 the polynomial of a badly determined lens may fold over within it, so that two pixels share one.

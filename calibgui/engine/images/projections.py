@@ -40,7 +40,7 @@ from calibgui.engine.arrays import Array, Size, freeze
 
 
 class Projection(StrEnum):
-    """How an undistorted image shows directions on a plane."""
+    """The map of directions onto the plane of an undistorted image."""
 
     PERSPECTIVE = "perspective"
     """A pinhole camera's image: straight lines stay straight."""

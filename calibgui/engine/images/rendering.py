@@ -152,7 +152,7 @@ def _compute_board_from_ray(pose: Pose, square: float, stretch: float) -> Array:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class _Blocks:
-    """Where on the board blocks of 2 x 2 pixels look, and how that changes within them."""
+    """The places on the board that blocks of 2 x 2 pixels look at, and their change within them."""
 
     centres: Array
     """(n, 2) px."""

@@ -60,7 +60,7 @@ _FACE_SAMPLES = 129
 
 
 class FieldOfView(StrEnum):
-    """How much of the measured image an undistorted one shows."""
+    """The part of the measured image that an undistorted one shows."""
 
     ALL = "all"
     """Every measured pixel that the projection can show at a sensible size, and some border."""

@@ -1,4 +1,4 @@
-"""How numba compiles kernels and keeps them, in less time than it takes for functions in general.
+"""Numba compiles kernels, and keeps them, in less time than it takes for functions in general.
 
 Numba optimises a function by itself and once more in each function that calls it, makes machine
 code of both, and keeps what later callers would need. Here only kernels are called from Python and

@@ -392,7 +392,7 @@ def _compute_residuals(
 
 
 class BoardCorners(NamedTuple):
-    """What the kernel shall do about the n corners of the board; nothing with empty arrays."""
+    """The work of the kernel on the n corners of the board; none with empty arrays."""
 
     corner: IntArray = np.empty((0, 0), np.int64)
     """(K, N) number of the board's corner that each observation shows, if corners move."""

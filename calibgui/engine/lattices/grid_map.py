@@ -466,7 +466,7 @@ def fit_cells(cells: Array, uv: Array, *, are_exact: bool = False) -> GridMap:
 
 
 class _Residual(NamedTuple):
-    """What the smooth residual of a lattice is fitted by, whatever its n cells' positions."""
+    """The terms that fit the smooth residual of a lattice of n cells, wherever they are."""
 
     centre: Array
     half: Array

@@ -82,7 +82,7 @@ rows otherwise than columns. Fixed by the "stripes"."""
 MAX_EDGE_BLUR = 0.18
 """Greatest median blur of a board's edges, squares: that of a sine wave would be 0.25. Fixed by
 the "waves"."""
-TOO_BLURRED = "its edges are too blurred, or too ragged, to be told from waves"
+TOO_BLURRED = "its edges are too blurred or too ragged for a board's"
 """What speaks against a lattice of wide edges."""
 _NO_CROSSING = "its corners do not look like two crossing edges"
 _LIKE_DISCS = "its edges are not straight, like those of discs"
@@ -97,7 +97,7 @@ _MOST = 0.5
 
 @dataclass(frozen=True, slots=True)
 class Refusal:
-    """Why a lattice is no board."""
+    """The reasons why a lattice is no board."""
 
     shape: tuple[int, int]
     """Rows and columns of the lattice."""

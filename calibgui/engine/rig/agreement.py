@@ -37,7 +37,7 @@ _MIN_COST = 1e-6
 
 
 class Agreement(NamedTuple):
-    """How the views of a rig go together."""
+    """The agreement of the views of a rig."""
 
     noise: float
     """Variance of a residual of the cameras alone along each axis, px^2."""

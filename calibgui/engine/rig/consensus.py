@@ -1,4 +1,4 @@
-"""What the instants agree about: a start for the joint solve that no wrong pair can spoil.
+"""The instants agree about a start for the joint solve that no wrong pair can spoil.
 
 Each camera alone tells where the board was at each instant, cam_from_board. So every instant at
 which two cameras a and b see the board tells how they stand to each other,
@@ -87,7 +87,7 @@ class ViewPoses:
 
 
 class Relation(NamedTuple):
-    """How camera b stands to camera a."""
+    """The place of camera b beside camera a."""
 
     R: Array
     """(3, 3) rotation b_from_a."""

@@ -81,7 +81,7 @@ class CameraProblem:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class RigProblem:
-    """What the joint solve is asked for."""
+    """The problem that the joint solve is given."""
 
     cameras: tuple[CameraProblem, ...]
     layout: Layout
@@ -194,14 +194,16 @@ def _add_prior(
     )
 
 
-def _join(problem: RigProblem, state: State, own: Sequence[NormalEquations]) -> NormalEquations:
+def _join(problem: RigProblem, state: State, normals: Sequence[NormalEquations]) -> NormalEquations:
     """Join the normal equations of the cameras, each by its own poses, to those of the rig."""
     count, columns = problem.count, problem.list_columns()
     n = columns[-1].stop
     U, shared = np.zeros((n, n)), np.zeros(n)
     W, V, pose = np.zeros((count, n, 6)), np.zeros((count, 6, 6)), np.zeros((count, 6))
     costs = np.zeros(count)
-    for c, (camera, place, normal) in enumerate(zip(problem.cameras, columns, own, strict=True)):
+    for c, (camera, place, normal) in enumerate(
+        zip(problem.cameras, columns, normals, strict=True)
+    ):
         C, G = differentiate_view_poses(problem, state, c)
         C = C[..., camera.unknown]
         CT, GT = np.swapaxes(C, 1, 2), np.swapaxes(G, 1, 2)
@@ -220,10 +222,10 @@ def _join(problem: RigProblem, state: State, own: Sequence[NormalEquations]) -> 
         V[camera.instant] += GT @ VG
         pose[camera.instant] += (GT @ normal.pose[..., None])[..., 0]
         costs[camera.instant] += normal.costs
-    priors = [normal.prior for normal in own]
+    priors = [normal.prior for normal in normals]
     return NormalEquations(
-        U, W, V, shared, pose, sum(normal.cost for normal in own), costs,
-        _join_priors(priors, columns, n), sum(normal.prior_cost for normal in own),
+        U, W, V, shared, pose, sum(normal.cost for normal in normals), costs,
+        _join_priors(priors, columns, n), sum(normal.prior_cost for normal in normals),
     )  # fmt: skip
 
 

@@ -1,4 +1,4 @@
-"""What people get wrong with rigs, found and named with the photographs.
+"""The mistakes that people make with rigs are found, and named with the photographs.
 
 Each mistake is a hypothesis about the views of two cameras that are joined. It is named if what the
 instants say agrees under it and not without it, by the cost of a relation at an instant

@@ -1,4 +1,4 @@
-"""How well a rig locates points in space, at chosen distances.
+"""The uncertainty of points that a rig locates in space is computed at chosen distances.
 
 The points lie ahead: on the line from the middle of the cameras' centres through the middle of the
 places where the board was. Their pixels are computed, and what errors of these and of the rig make

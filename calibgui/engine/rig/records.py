@@ -64,7 +64,7 @@ class RigCamera:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class RigView:
-    """What one camera saw of the board at one instant, after the solve."""
+    """The view of the board by one camera at one instant, after the solve."""
 
     camera: int
     """Number of the camera, from 0."""

@@ -1,4 +1,4 @@
-"""How fast the board moves in each view, for cameras whose clocks do not agree.
+"""The speed of the board in each view tells how far the clocks of the cameras are apart.
 
 A camera that is late by t sees the board where it will be t later than the others see it. How fast
 it moves each camera knows by itself, from its views before and after: with the pose (R, T)
@@ -31,7 +31,7 @@ from calibgui.engine.rig.records import RigCamera
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Motion:
-    """How the board moves in a camera's views."""
+    """The motion of the board in a camera's views."""
 
     velocity: Array
     """(K, 6) omega and v, rad/s and mm/s."""
@@ -125,12 +125,15 @@ def estimate_velocities(
 
 
 def _find_lags(
-    instants: Sequence[int], own: Mapping[int, float], first: Mapping[int, float]
+    instants: Sequence[int], times: Mapping[int, float], first_times: Mapping[int, float]
 ) -> Array:
     """Find by how much a camera's clock says that it was later than the first one, s, at instants.
 
     It is 0 at an instant that the first camera has no time of, and where times are not known.
     """
     return np.array(
-        [own[each] - first[each] if each in own and each in first else 0.0 for each in instants]
+        [
+            times[each] - first_times[each] if each in times and each in first_times else 0.0
+            for each in instants
+        ]
     )

@@ -1,4 +1,4 @@
-"""How far a rig is to be trusted: the covariances of its parameters.
+"""The covariances of a rig's parameters tell how far it is to be trusted.
 
 Corners' noise alone gives sigma^2 S^-1 (``calibration/refinement/covariances.py``), with the
 board's pose at every instant eliminated. It holds if the errors of an instant's corners are

@@ -156,6 +156,10 @@ class ImagePage(QWidget):
             action.setIcon(draw_icon(icon, theme.DARK.text))
             action.setIconVisibleInMenu(False)
         self.layers_button.setIcon(draw_icon(Icon.LAYERS, theme.DARK.text))
+        # Qt's own button for what has no room is as dark as the bar.
+        more = self.bar.findChild(QToolButton, "qt_toolbar_ext_button")
+        if isinstance(more, QToolButton):
+            more.setIcon(draw_icon(Icon.MORE, theme.DARK.text))
 
     def _selected(self, image: str, corner: int) -> None:
         if self.shown_path != image:

@@ -17,7 +17,7 @@ _SWATCH = 12
 
 
 class _Row(NamedTuple):
-    """How a layer is named and drawn."""
+    """The name of a layer, and its drawing."""
 
     layer: Layer
     name: str

@@ -1,4 +1,4 @@
-"""What the inspector says and offers while corners are marked by hand."""
+"""The marking bar guides the user in the inspector while corners are marked by hand."""
 
 from __future__ import annotations
 

@@ -38,8 +38,10 @@ from calibgui.app.projects.recent import remember_project
 from calibgui.app.projects.result_project import make_project
 from calibgui.app.system.resources import find_resource, find_sample_square
 from calibgui.dataset import Result, find_orientation
+from calibgui.engine.calibration import is_held
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.images import FORMATS, is_video, list_suffixes
+from calibgui.gui.dialogs.known_cameras import is_camera_file, take_camera
 from calibgui.gui.dialogs.videos import start_taking_frames
 from calibgui.gui.jobs.job import Job
 from calibgui.gui.session.calibrator import Calibrator
@@ -89,11 +91,16 @@ class Files(QObject):
     def open_paths(self, names: Sequence[str]) -> None:
         """Open what was dropped, pasted or named on the command line: a project, images, videos.
 
-        A file that ends in .json and is no project may be among images, but not be alone.
+        The camera of a file of this or another program is held, unless its name stands alone and is
+        that of a project. Another file that ends in .json may be among images, but not be alone.
         """
         files = [Path(name) for name in names if name.lower().endswith(".json")]
         projects = files if len(names) == 1 else list(filter(is_project, files))
-        if projects:
+        cameras = [] if any(map(is_project, projects)) else list(filter(is_camera_file, names))
+        if cameras:
+            self.open_paths([name for name in names if name not in cameras])
+            self._attempt(lambda: take_camera(self._session, *map(Path, cameras)))
+        elif projects:
             self.open_project(projects[0])
             if len(names) > 1:
                 self._session.notified.emit(
@@ -113,6 +120,14 @@ class Files(QObject):
                 (self.images_elsewhere if error.folders else self._session.failed).emit(error)
             except CalibrationError as error:
                 self._session.failed.emit(error)
+
+    def ask_for_camera(self) -> None:
+        """Hold the camera of a file of the user's choice."""
+        name, _ = QFileDialog.getOpenFileName(
+            self._window, self.tr("Camera file"), self._place, self.tr("Camera files (*)")
+        )
+        if name:
+            self._attempt(lambda: take_camera(self._session, Path(name)))
 
     def _add_images(self, names: Sequence[str]) -> None:
         """Add the images of files and folders, and remember a folder.
@@ -289,7 +304,15 @@ class Files(QObject):
         """Offer the report on the shown result."""
         from calibgui.gui.dialogs.report_dialog import ReportDialog
 
-        if (result := self._session.result) is not None:
+        result = self._session.result
+        if result is not None and is_held(result.calibration):
+            self._session.failed.emit(
+                CalibrationError(
+                    self.tr("There is no report on a camera that is known from a file."),
+                    self.tr("Calibrate it (Set-up, Lens), or write the report on its own result."),
+                )
+            )
+        elif result is not None:
             age = self._session.describe_age(result)
             show_dialog(ReportDialog(self._session, result, self._window, age=age))
 

@@ -6,20 +6,33 @@ import math
 from collections.abc import Callable
 from pathlib import Path
 
-from PySide6.QtCore import QModelIndex
+from PySide6.QtCore import QDate, QLocale, QModelIndex, QSize, Qt
+from PySide6.QtGui import QImage
 from PySide6.QtWidgets import (
+    QComboBox,
     QDialog,
     QDialogButtonBox,
     QHBoxLayout,
+    QLabel,
+    QLineEdit,
     QPushButton,
     QVBoxLayout,
     QWidget,
 )
 
+from calibgui.app.photographs.image_store import read_thumbnail
+from calibgui.formats.camera_import import read_result_file
+from calibgui.gui.jobs.jobs import Jobs
+from calibgui.gui.panels.latest import Latest
+from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.actions import add_close_button
+from calibgui.gui.widgets.picture import make_qimage, shrink_picture
 from calibgui.gui.widgets.tables import Column, Table, with_decimals
 from calibgui.gui.widgets.wrapped_label import WrappedLabel
 from calibgui.report.fleet_overview import FleetOverview, PlacedCamera
+
+_PICTURE = QSize(96, 72)
+"""The first photograph of a camera, device-independent px."""
 
 
 class FleetDialog(QDialog):
@@ -29,6 +42,7 @@ class FleetDialog(QDialog):
         ledger: its file.
         overview: its cameras.
         open_result: opens a result.json under a name, and returns whether it did.
+        jobs: that read the cameras' photographs.
         parent: over which the dialog opens.
     """
 
@@ -37,11 +51,13 @@ class FleetDialog(QDialog):
         ledger: Path,
         overview: FleetOverview,
         open_result: Callable[[Path, str], bool],
+        jobs: Jobs,
         parent: QWidget | None = None,
     ) -> None:
         super().__init__(parent)
         self.setWindowTitle(self.tr("Fleet {0}").format(ledger.name))
         self._folder, self._open_result = ledger.parent, open_result
+        self._work = Latest(jobs, self)
         self.placed = sorted(overview.placed, key=_rank)
         self.words = WrappedLabel()
         self.words.setText(
@@ -55,8 +71,19 @@ class FleetDialog(QDialog):
                 len(overview.changed),
             )
         )
-        self.reason = WrappedLabel()
-        self.reason.setMinimumHeight(2 * self.fontMetrics().lineSpacing())
+        self.filter = QLineEdit(placeholderText=self.tr("Camera, serial number, reason…"))
+        self.filter.setAccessibleName(self.tr("Filter"))
+        self.filter.setMinimumWidth(30 * self.fontMetrics().averageCharWidth())
+        self.kind = QComboBox()
+        self.kind.setAccessibleName(self.tr("Which cameras are shown"))
+        self.kind.addItems(
+            [self.tr("all"), self.tr("failing"), self.tr("unlike the others"), self.tr("changed")]
+        )
+        self.filter.textChanged.connect(lambda _: self._filter())
+        self.kind.currentIndexChanged.connect(lambda _: self._filter())
+        self.reason, self.picture = WrappedLabel(), QLabel()
+        self.picture.setFixedSize(_PICTURE)
+        self.picture.setAccessibleName(self.tr("First photograph of the camera"))
         self.table = Table()
         self.table.show_columns(self._list_columns(), self._list_reasons())
         self.table.picked.connect(self._pick)
@@ -66,17 +93,23 @@ class FleetDialog(QDialog):
         self.open_camera.clicked.connect(self._open_picked)
         buttons = add_close_button(self)
         buttons.addButton(self.open_camera, QDialogButtonBox.ButtonRole.ActionRole)
+        above = QHBoxLayout()
+        above.addWidget(self.words, 1)
+        above.addWidget(self.filter)
+        above.addWidget(self.kind)
         below = QHBoxLayout()
+        below.addWidget(self.picture)
         below.addWidget(self.reason, 1)
         below.addWidget(buttons)
         layout = QVBoxLayout(self)
-        layout.addWidget(self.words)
+        layout.addLayout(above)
         layout.addWidget(self.table, 1)
         layout.addLayout(below)
         self._picked = 0
         if self.placed:
             self.table.select(0)
             self._pick(0)
+        self.table.setFocus()
         self.resize(1000, 560)
 
     def _list_columns(self) -> list[Column]:
@@ -87,11 +120,17 @@ class FleetDialog(QDialog):
         return [
             Column(self.tr("Camera"), [camera.id for camera in cameras]),
             Column(self.tr("Serial number"), [camera.entry.serial for camera in cameras]),
-            Column(self.tr("Date"), [camera.entry.date for camera in cameras]),
+            Column(
+                self.tr("Date"),
+                [camera.entry.date for camera in cameras],
+                _format_date,
+                optional=True,
+            ),
             Column(
                 self.tr("Verdict"),
                 [self.tr("pass") if camera.passed else self.tr("fail") for camera in cameras],
                 tip=self.tr("Whether the camera keeps the limits of its fleet"),
+                ink=self._choose_ink,
             ),
             Column(self.tr("Views"), [0 if f is None else f.views for f in figures], optional=True),
             Column(
@@ -99,7 +138,21 @@ class FleetDialog(QDialog):
                 [math.nan if f is None else f.rms for f in figures],
                 with_decimals(3),
                 self.tr("Root mean square residual"),
+                optional=True,
                 unit=px,
+            ),
+            Column(
+                "σ",
+                [math.nan if f is None else f.noise for f in figures],
+                with_decimals(3),
+                self.tr("Standard deviation of one coordinate of a corner"),
+                optional=True,
+                unit=px,
+            ),
+            Column(
+                self.tr("Corners"),
+                [0 if f is None else f.corners for f in figures],
+                optional=True,
             ),
             Column(
                 self.tr("Error, edge"),
@@ -119,10 +172,11 @@ class FleetDialog(QDialog):
                 unit=px,
             ),
             Column(
-                self.tr("Robust z"),
+                self.tr("In σ"),
                 [one.z for one in self.placed],
                 with_decimals(1),
                 self.tr("The difference in standard deviations of the fleet"),
+                optional=True,
             ),
             Column(
                 self.tr("Changed by"),
@@ -132,6 +186,26 @@ class FleetDialog(QDialog):
                 unit=px,
             ),
         ]
+
+    def _choose_ink(self, verdict: str) -> str:
+        colours = theme.current()
+        return colours.good if verdict == self.tr("pass") else colours.bad
+
+    def _filter(self) -> None:
+        """Show the cameras of a kind that a text is found in."""
+        text = self.filter.text().casefold()
+        is_of_kind: Callable[[PlacedCamera], bool] = (
+            lambda _: True,
+            lambda one: not one.camera.passed,
+            lambda one: one.is_outlier,
+            lambda one: one.camera.change is not None and one.camera.change.is_significant,
+        )[self.kind.currentIndex()]
+
+        def fits(one: PlacedCamera) -> bool:
+            searched = one.camera.id, one.camera.entry.serial, self._explain(one)
+            return is_of_kind(one) and text in " ".join(searched).casefold()
+
+        self.table.filter_rows([row for row, one in enumerate(self.placed) if fits(one)])
 
     def _list_reasons(self) -> dict[int, str]:
         """Return why rows stand out, by row."""
@@ -159,6 +233,15 @@ class FleetDialog(QDialog):
         one = self.placed[row]
         self.open_camera.setEnabled(bool(one.camera.result))
         self.reason.setText(self._explain(one) or self.tr("It passes."))
+        self.picture.clear()
+        self._work.cancel()
+        if one.camera.result:
+            file = self._folder / one.camera.result
+            show = self._show_picture
+            self._work.start("", lambda _: _read_picture(file), show, lambda _: None)
+
+    def _show_picture(self, picture: QImage) -> None:
+        self.picture.setPixmap(shrink_picture(picture, _PICTURE, self.devicePixelRatio()))
 
     def _open_clicked(self, _: QModelIndex) -> None:
         self._open_picked()
@@ -172,3 +255,19 @@ class FleetDialog(QDialog):
 def _rank(one: PlacedCamera) -> tuple[bool, float, bool]:
     """Order cameras: those unlike the others first, the farthest before, then those that fail."""
     return not one.is_outlier, -one.z if one.is_outlier else 0.0, one.camera.passed
+
+
+def _format_date(date: str) -> str:
+    """Format a date as the system's language has it; what is none stays as it is."""
+    day = QDate.fromString(date[:10], Qt.DateFormat.ISODate)
+    return QLocale().toString(day, QLocale.FormatType.ShortFormat) if day.isValid() else date
+
+
+def _read_picture(file: Path) -> QImage:
+    """Read the first photograph of a result, small; in a worker.
+
+    Raises:
+        CalibrationError: if one of both is gone or cannot be read.
+    """
+    image = file.parent / read_result_file(file).used[0].image
+    return make_qimage(read_thumbnail(str(image)).grey)

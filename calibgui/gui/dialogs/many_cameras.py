@@ -50,7 +50,8 @@ class ManyCameras(QObject):
     def _show_fleet(self, path: Path, overview: FleetOverview) -> None:
         from calibgui.gui.dialogs.fleet_dialog import FleetDialog
 
-        show_dialog(FleetDialog(path, overview, self._files.open_result, self._window))
+        jobs = self._session.jobs
+        show_dialog(FleetDialog(path, overview, self._files.open_result, jobs, self._window))
 
     def show_series(self) -> None:
         """Show the dialog of a series, in which the user chooses the results."""

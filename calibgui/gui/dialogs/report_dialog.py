@@ -126,7 +126,7 @@ class ReportDialog(QDialog):
 
     @property
     def details(self) -> Details:
-        """What is stated now."""
+        """The details that are stated now."""
         return Details(**{field.name: self.boxes[field.name].text() for field in fields(Details)})
 
     def done(self, code: int) -> None:

@@ -1,4 +1,4 @@
-"""What a mode shows: panels as cards in rows, which scroll where they need more than the desk."""
+"""A mode shows panels as cards in rows, which scroll where they need more than the desk."""
 
 from __future__ import annotations
 

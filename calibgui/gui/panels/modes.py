@@ -21,7 +21,7 @@ class Page(NamedTuple):
 
 
 class Mode(StrEnum):
-    """What fills the desk."""
+    """A mode of the window, which fills the desk."""
 
     PHOTOGRAPHS = "photographs"
     METHOD = "method"

@@ -1,4 +1,4 @@
-"""What all panels share: a result or a sentence that says how to get one."""
+"""All panels show a result, or a sentence that says how to get one."""
 
 from __future__ import annotations
 
@@ -126,7 +126,7 @@ class Panel(QWidget):
         self._hover_view(k)
 
     def _missing(self, result: Result) -> str:  # noqa: ARG002 - most panels show any
-        """What `result` lacks for this panel, and how to get it; empty if it has everything."""
+        """The sentence on what `result` lacks for this panel; empty if it has everything."""
         return ""
 
     def _refresh(self, result: Result) -> None:

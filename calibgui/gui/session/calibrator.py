@@ -48,7 +48,7 @@ class Calibrator(QObject):
         self._views: tuple[View, ...] = ()
         """The views that the next answer is made from."""
         self._is_recording = False
-        """Whether the project changes by an answer, which makes the calibration no less needed."""
+        """True if the project changes by an answer, which makes the calibration no less needed."""
         self._question: Hashable = None
         """What the calibration under way answers."""
         detector.finished.connect(self._searched)
@@ -117,7 +117,8 @@ class Calibrator(QObject):
                 job.send(step)
                 job.rename(improving)
 
-        self._name = find_free_name(project, self.tr("Calibration"))
+        stem = self.tr("Calibration") if settings.known is None else self.tr("Known camera")
+        self._name = find_free_name(project, stem)
         self._camera, self._views = None, corner_set.views
         self._question = self._session.question()
         self._session.document.end_sliding_edit()

@@ -61,7 +61,7 @@ class BoardPanel(QWidget):
         )
         self._document = session.document
         self._typing = False
-        """Whether the boxes show what is being typed in place of the project's board."""
+        """True if the boxes show what is being typed in place of the project's board."""
         self.rows.setAccessibleName(self.tr("rows of inner corners"))
         self.cols.setAccessibleName(self.tr("columns of inner corners"))
         for box in (self.rows, self.cols):

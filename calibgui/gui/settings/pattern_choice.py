@@ -262,7 +262,7 @@ class PatternChoice(QWidget):
             ):
                 diameter = self.diameter.value() / self._side or None
                 pattern = replace(self._pattern, diameter=diameter)
-            if isinstance(pattern, AprilGrid) and pattern.kind == self._pattern.kind:
+            if isinstance(pattern, AprilGrid) and isinstance(self._pattern, AprilGrid):
                 pattern = AprilGrid(
                     self.family.currentData(),
                     self.spacing.value() or None,
@@ -270,6 +270,7 @@ class PatternChoice(QWidget):
                     self.order.currentData(),
                     self.corner_squares.currentData(),
                     None if self.first_tag.value() < 0 else self.first_tag.value(),
+                    self._pattern.tag_turn,
                 )
             if isinstance(pattern, TaggedCheckerboard) and pattern.kind == self._pattern.kind:
                 pattern = TaggedCheckerboard(

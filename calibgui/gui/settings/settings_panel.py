@@ -1,4 +1,4 @@
-"""How to calibrate: method, lens model, what is minimised and estimated, and the board's shape."""
+"""The settings panel asks for method, lens model, cost, estimated parameters and board shape."""
 
 from __future__ import annotations
 
@@ -24,6 +24,7 @@ from calibgui.app.calibrating.settings import (
     list_parameters,
     parse_fixed,
 )
+from calibgui.app.projects.project import hold_known
 from calibgui.engine.boards import BoardShapeModel
 from calibgui.engine.calibration import DEFAULT_METHOD, METHODS, Cost
 from calibgui.engine.camera import PINHOLE
@@ -31,6 +32,7 @@ from calibgui.engine.errors import CalibrationError
 from calibgui.gui.session.session import Session
 from calibgui.gui.settings.board_shape_choice import BoardShapeChoice
 from calibgui.gui.settings.cost_choice import CostChoice
+from calibgui.gui.settings.known_camera_choice import KnownCameraChoice
 from calibgui.gui.settings.method_choice import (
     MethodChoice,
     change_method,
@@ -65,6 +67,7 @@ class SettingsPanel(QWidget):
         self._session = session
         self.method = MethodChoice()
         self.cost = CostChoice()
+        self.known = KnownCameraChoice()
         self.model = self._make_model()
         self.board_shape = BoardShapeChoice()
         self.robust = QCheckBox(self.tr("&Leave outliers out"))
@@ -106,6 +109,9 @@ class SettingsPanel(QWidget):
         ):
             edited.connect(lambda: self._edit())
         self.method.activated.connect(self._choose_listed_method)
+        self.known.given_up.connect(
+            lambda: self._session.edit(self.tr("Calibrate again"), lambda p: hold_known(p, None))
+        )
         self.board_shape.slid.connect(lambda: self._edit(sliding=True))
         self.board_shape.failed.connect(session.failed)
         session.changed.connect(self._refresh)
@@ -145,12 +151,13 @@ class SettingsPanel(QWidget):
         label, held = QLabel(self.tr("&Minimise")), QLabel(self.tr("Held at"))
         label.setBuddy(self.cost)
         held.setBuddy(self.values)
-        lens = QLabel(self.tr("Lens model"))
+        lens, known = QLabel(self.tr("Lens model")), QLabel(self.tr("Camera"))
         # In line with the labels of the board's shape, which stand between.
-        for each in (label, held, lens):
+        for each in (label, held, lens, known):
             each.setMinimumWidth(self.board_shape.known.sizeHint().width())
         self.lens, self.experts = QWidget(self), QWidget(self)
         model = QFormLayout()
+        model.addRow(known, self.known)
         model.addRow(lens, self.model)
         column = QVBoxLayout(self.lens)
         column.setContentsMargins(theme.SPACING, 0, 0, theme.SPACING)
@@ -184,6 +191,7 @@ class SettingsPanel(QWidget):
 
     def _refresh(self) -> None:
         settings = self._session.project.settings
+        self.known.show_known(settings.known)
         self._refresh_method(settings)
         self._refresh_model(settings)
         self.board_shape.show_choice(settings.board_shape, settings.prior)
@@ -191,6 +199,9 @@ class SettingsPanel(QWidget):
         self.weigh.setChecked(settings.weigh_views)
         self.improve.setChecked(settings.improve)
         self.again.setChecked(not settings.once)
+        self.experts.setEnabled(settings.known is None)
+        for widget in (self.model, self.board_shape, self.improve):
+            widget.setEnabled(widget.isEnabled() and settings.known is None)
         stated = {name: value for name, value in settings.fixed.items() if value is not None}
         self.values.setText(", ".join(f"{name}={value:.12g}" for name, value in stated.items()))
 

@@ -1,4 +1,4 @@
-"""What an action has done, before and after side by side, to be kept or taken back."""
+"""The outcome of an action is shown before and after side by side, to be kept or taken back."""
 
 from __future__ import annotations
 

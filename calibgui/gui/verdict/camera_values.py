@@ -33,6 +33,8 @@ class CameraValues(QWidget):
 
     all_wanted = Signal()
     """The user wants all values, correlations and the paper's units."""
+    check_wanted = Signal()
+    """The user wants to know whether the camera is still good."""
     compare_wanted = Signal(str)
     """A result that the user wants beside the one shown."""
     rename_wanted = Signal(str)
@@ -58,6 +60,11 @@ class CameraValues(QWidget):
         self.all = Button(self.tr("All values, correlations, the paper's units ›"), Kind.LINK)
         self.all.setToolTip(self.tr("Show everything that is known of this result"))
         self.all.clicked.connect(self.all_wanted)
+        self.check = Button(self.tr("Still good? Check with new photographs ›"), Kind.LINK)
+        self.check.setToolTip(
+            self.tr("Or drop them here: they check the camera, and join no project")
+        )
+        self.check.clicked.connect(self.check_wanted)
         head = QHBoxLayout()
         head.setSpacing(theme.SPACING)
         head.addWidget(make_heading(self.tr("Camera")))
@@ -71,6 +78,7 @@ class CameraValues(QWidget):
         column.addWidget(self.results)
         column.addWidget(self.values)
         column.addWidget(self.all)
+        column.addWidget(self.check)
         column.addStretch(1)
         session.changed.connect(self._project_changed)
         session.result_changed.connect(self._show)

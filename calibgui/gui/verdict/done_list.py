@@ -1,4 +1,4 @@
-"""What was done to get the camera: a line each, with undo where that is possible, or why."""
+"""The steps that led to the camera take a line each, with undo or the reason why there is none."""
 
 from __future__ import annotations
 
@@ -14,6 +14,7 @@ from PySide6.QtWidgets import QHBoxLayout, QLabel, QVBoxLayout, QWidget
 from calibgui.app.calibrating.settings import DEFAULT_MODEL
 from calibgui.dataset import Result, ViewStatus
 from calibgui.gui.session.session import Session
+from calibgui.gui.verdict.sentences import translate_sentences
 from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.buttons import Button, Kind
 from calibgui.gui.widgets.elided import elide_name
@@ -86,7 +87,7 @@ class DoneList(QWidget):
         why, evidence = self.tr("why"), self.tr("Show what speaks for it")
         panel, entries = self.panel_wanted.emit, list[Entry]()
         can_undo = self._session.document.undo_label == self.tr("Make camera better")
-        for said in reversed(result.improvements):
+        for said in map(translate_sentences, reversed(result.improvements)):
             if can_undo:
                 can_undo, undo = False, self._session.document.undo
                 tip = self.tr("Take this step back; redo brings it again")

@@ -1,5 +1,5 @@
-"""What is wrong with the shown result, a row for each finding with the button that does it, and
-what would be worth being stated."""
+"""The list has a row for each finding on the shown result, with the button that remedies it, and
+tells what would be worth being stated."""
 
 from __future__ import annotations
 

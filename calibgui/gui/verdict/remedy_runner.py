@@ -19,7 +19,7 @@ from calibgui.gui.session.session import Session
 
 
 class CarriedOut(NamedTuple):
-    """What an action has done."""
+    """The outcome of an action."""
 
     label: str
     """Its name."""

@@ -25,7 +25,7 @@ class SquareRow(QWidget):
         super().__init__()
         self._session = session
         self._has_asked = False
-        """Whether the question was put since a board was first found."""
+        """True if the question was put since a board was first found."""
         self.counted = ReservedLabel(1)
         self.square = QDoubleSpinBox(decimals=3, minimum=0.001, maximum=100_000.0)
         self.square.setFixedWidth(120)
@@ -40,6 +40,10 @@ class SquareRow(QWidget):
         self.square.valueChanged.connect(lambda _: self._name_button(self._session.project))
         self.square.lineEdit().returnPressed.connect(self.answer)
         self.confirm.clicked.connect(self.answer)
+        for widget in (self.square, self.confirm):
+            policy = widget.sizePolicy()
+            policy.setRetainSizeWhenHidden(True)
+            widget.setSizePolicy(policy)
         answer = QHBoxLayout()
         answer.setSpacing(theme.SPACING)
         answer.addWidget(self.square)
@@ -58,6 +62,11 @@ class SquareRow(QWidget):
         self.counted.reserve(lines)
         self._column.invalidate()  # a hidden widget's layout is not told
         self.updateGeometry()
+
+    def stand_aside(self, is_elsewhere: bool) -> None:
+        """Leave the field to the set-up while that is open: one length has one field in sight."""
+        for widget in (self.square, self.confirm):
+            widget.setVisible(not is_elsewhere)
 
     def answer(self) -> None:
         """Take the length as it is shown."""

@@ -15,11 +15,9 @@ from calibgui.engine.assessment import (
     Grade,
     PixelError,
     Verdict,
-    summarise_residuals,
 )
 from calibgui.engine.numbers import format_two_digits
 from calibgui.gui.widgets.lengths import describe_condition
-from calibgui.report.boards import name_point
 from calibgui.report.verdict import format_times, join_names
 
 translate = QCoreApplication.translate
@@ -73,18 +71,6 @@ def describe_length(verdict: Verdict) -> str:
         return ""
     text = translate("VerdictTexts", "edge: {0} mm at {1} m")
     return text.format(format_two_digits(mm), format_two_digits(verdict.distance / 1000.0))
-
-
-def describe_fit(result: Result) -> str:
-    """Describe the residuals: their RMS, sigma and number."""
-    fit = summarise_residuals(result.calibration.residuals)
-    sigma = float(np.hypot(fit.sigma_x, fit.sigma_y) / np.sqrt(2))
-    text = (
-        translate("VerdictTexts", "RMS {0:.3f} px, σ {1:.3f} px of {2:,} circles")
-        if name_point(result.board) == "circle"
-        else translate("VerdictTexts", "RMS {0:.3f} px, σ {1:.3f} px of {2:,} corners")
-    )
-    return text.format(fit.rms, sigma, fit.count)
 
 
 def describe_button(action: Action, names: Sequence[str]) -> str:

@@ -18,20 +18,23 @@ from calibgui.dataset import Result, ViewStatus
 from calibgui.dataset.judging import judge_result, recall_verdict
 from calibgui.engine.arrays import Array
 from calibgui.engine.assessment import Action, ActionKind, Cause, Finding, Grade, Verdict
-from calibgui.engine.calibration import METHODS, Status
+from calibgui.engine.calibration import METHODS, Status, is_held
 from calibgui.engine.uncertainty import estimate_projection_uncertainty
 from calibgui.gui.jobs.job import Job
 from calibgui.gui.panels.latest import Latest
 from calibgui.gui.session.session import Session
 from calibgui.gui.verdict.findings_list import FindingsList
 from calibgui.gui.verdict.grade_icon import GradeIcon, get_colour
+from calibgui.gui.verdict.limits_row import LimitsRow
 from calibgui.gui.verdict.remedy_runner import CarriedOut, RemedyRunner
 from calibgui.gui.verdict.sensor_figure import SensorFigure
+from calibgui.gui.verdict.sentences import translate_sentences
 from calibgui.gui.verdict.square_row import SquareRow
-from calibgui.gui.verdict.texts import describe_button, describe_fit, describe_grade
+from calibgui.gui.verdict.texts import describe_button, describe_grade
 from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.buttons import Button, Kind
 from calibgui.gui.widgets.elided import elide_name
+from calibgui.gui.widgets.fit_text import describe_fit
 from calibgui.gui.widgets.lengths import state_condition
 from calibgui.gui.widgets.pattern_texts import list_pattern_texts
 from calibgui.gui.widgets.reserved_label import ReservedLabel
@@ -91,6 +94,7 @@ class VerdictBar(QWidget):
         # It must not push aside what stands beside the verdict below the strip.
         self.headline.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
         self.reason = ReservedLabel(_LINES)
+        self.limits = LimitsRow(session)
         self.figures = SensorFigure()
         self._fit = ""
         """The words on the residuals, which are made once for each calibration."""
@@ -136,6 +140,7 @@ class VerdictBar(QWidget):
         column.addWidget(self.reason)
         column.addWidget(self.square)
         column.addWidget(self.figures)
+        column.addWidget(self.limits)
         self.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Fixed)
 
     def show_running(self, running: bool) -> None:
@@ -155,7 +160,8 @@ class VerdictBar(QWidget):
 
         Until then the last verdict stays.
         """
-        if result is None or self._session.document is not self._document:
+        is_held_camera = result is not None and is_held(result.calibration)
+        if result is None or is_held_camera or self._session.document is not self._document:
             self._judged, self._document = None, self._session.document
         last, self._result = self._result, result
         self.verdict = None if result is None else recall_verdict(result)
@@ -170,7 +176,7 @@ class VerdictBar(QWidget):
             self._judged = result
         self._work.cancel()
         # What makes the camera better may have judged it already; the panels wait to be told.
-        if result is not None and self._glass is None and not self._is_running:
+        if result and not is_held_camera and self._glass is None and not self._is_running:
             self._work.start(
                 "" if self.verdict else self.tr("Judging the calibration"),
                 partial(_judge_with_glass, result),
@@ -235,6 +241,8 @@ class VerdictBar(QWidget):
         """Say in capitals what goes on while there is no verdict at all."""
         if self._result is None:
             return self.tr("CALIBRATING…") if self._is_running else self.tr("NOT CALIBRATED")
+        if is_held(self._result.calibration):
+            return self.tr("KNOWN CAMERA")
         return self.tr("FIRST FIT") if self._is_running else self.tr("JUDGING…")
 
     def _show_reason(self) -> None:
@@ -247,10 +255,13 @@ class VerdictBar(QWidget):
             reason = self.tr("Of {0} photographs. {1}").format(
                 len(self._judged.used), self._describe_work()
             )
+        elif is_held(result.calibration):
+            reason = f"{self._age} {' '.join(result.calibration.warnings)}".lstrip()
         elif verdict is None:
             reason = self._describe_work()
         else:
-            reason = f"{self._age} {_describe_reason(verdict, result)}".lstrip()
+            said = translate_sentences(_describe_reason(verdict, result))
+            reason = f"{self._age} {said}".lstrip()
         self.reason.setText(reason)
         colours = theme.current()
         plain = colours.muted if self._is_dimmed else colours.text
@@ -308,7 +319,7 @@ class VerdictBar(QWidget):
 
     @property
     def _action(self) -> Action | None:
-        """What is to be done first: about the most harmful finding, or to add views."""
+        """The action to do first: on the most harmful finding, or to add views."""
         verdict, result = self.verdict, self._result
         if verdict is None or result is None:
             return None
@@ -392,18 +403,24 @@ def _judge_with_glass(result: Result, job: Job) -> tuple[Verdict, Mapping[str, f
 
 
 def _map_errors(result: Result) -> Array | None:
-    """Map the calibration's own uncertainty; None where the views do not determine the camera."""
-    if result.calibration.diagnosis is not None:
+    """Map the calibration's own uncertainty; None where the views do not determine the camera, or
+    it is known from a file."""
+    if result.calibration.diagnosis is not None or is_held(result.calibration):
         return None
     views = result.observations()
     return estimate_projection_uncertainty(result.calibration, views).worst_direction
 
 
 def _describe_reason(verdict: Verdict, result: Result) -> str:
-    """Say why a result has its grade."""
+    """Say what to do next about a result, if no button does it, and why it has its grade."""
     if (diagnosis := result.calibration.diagnosis) is not None:
         return f"{diagnosis.message} {describe_lost_images(result) or diagnosis.hint}"
-    return describe_reason(verdict, result)
+    reason = describe_reason(verdict, result)
+    for finding in verdict.findings[:1]:
+        has_button = finding.action is not None and finding.action.change is not None
+        if reason == finding.message and not has_button:
+            return f"{finding.remedy} {reason}"
+    return reason
 
 
 def _choose_proof(cause: Cause) -> str:

@@ -9,6 +9,9 @@ from PySide6.QtWidgets import QLabel, QSizePolicy
 _NAME_LENGTH = 30
 """Characters of a name that leave room for some words in the narrowest panel (chosen)."""
 
+_FEWEST = 8
+"""Characters of a longer text that tell nobody anything (chosen)."""
+
 
 def elide_name(name: str, most: int = _NAME_LENGTH) -> str:
     """Return a file's name, "…" for its middle if it has more letters than there is room for.
@@ -29,10 +32,11 @@ class ElidedLabel(QLabel):
         self.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
 
     def shown_text(self) -> str:
-        """What of the text there is room for."""
-        return self.fontMetrics().elidedText(
+        """The part of the text that there is room for; nothing in place of a few letters of it."""
+        shown = self.fontMetrics().elidedText(
             self.text(), Qt.TextElideMode.ElideRight, self.contentsRect().width()
         )
+        return shown if shown == self.text() or len(shown) > _FEWEST else ""
 
     def paintEvent(self, event: QPaintEvent) -> None:  # noqa: N802, ARG002 - Qt's name
         painter = QPainter(self)

@@ -121,9 +121,9 @@ def list_terms() -> dict[str, str]:
             "Errors of neighbouring corners that point the same way, so that many corners "
             "tell less than their number.",
         ),
-        translate("glossary", "hang together"): translate(
+        translate("glossary", "share errors"): translate(
             "glossary",
-            "Of errors: neighbours share them, so that many corners tell less than their number.",
+            "Of corners: neighbours are off alike, so that many tell less than their number.",
         ),
         translate("glossary", "unseen views"): translate(
             "glossary",

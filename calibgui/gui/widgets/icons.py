@@ -18,7 +18,7 @@ _LINE = 1.6
 
 
 class Icon(Enum):
-    """What an icon shows: its lines, each through points of the grid."""
+    """The drawing of an icon: its lines, each through points of the grid."""
 
     FOLDER = (((3, 19), (3, 5), (9, 5), (11, 8), (21, 8), (21, 19), (3, 19)), ((3, 11), (21, 11)))
     PICTURE = (
@@ -64,6 +64,8 @@ class Icon(Enum):
         ((7, 14), (17, 14), (17, 21), (7, 21), (7, 14)),
     )
     LAYERS = (((12, 4), (21, 9), (12, 14), (3, 9), (12, 4)), ((3, 13), (12, 18), (21, 13)))
+    MORE = (((6, 9), (12, 15), (18, 9)),)
+    PLAY = (((7, 4), (20, 12), (7, 20), (7, 4)),)
     CROSS = (((4, 4), (20, 20)), ((4, 20), (20, 4)))
 
 

@@ -1,4 +1,4 @@
-"""What the window keeps from one session to the next, read so that damage costs no more than that.
+"""The window keeps settings from one session to the next, and reads damaged ones as far as they go.
 
 A settings file may have been edited, cut or written by another version: whatever is not of the type
 that is asked for counts as not kept.

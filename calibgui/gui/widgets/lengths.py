@@ -1,4 +1,4 @@
-"""What the window says of lengths while nobody has confirmed the side of a square."""
+"""The window marks lengths as long as nobody has confirmed the side of a square."""
 
 from __future__ import annotations
 

@@ -7,7 +7,7 @@ from math import floor, log2
 
 import numpy as np
 import numpy.typing as npt
-from PySide6.QtCore import QRectF
+from PySide6.QtCore import QRectF, QSize, Qt
 from PySide6.QtGui import QImage, QPainter, QPixmap
 from PySide6.QtWidgets import QGraphicsItem, QStyleOptionGraphicsItem, QWidget
 
@@ -26,6 +26,18 @@ def make_qimage(grey: npt.NDArray[np.uint8]) -> QImage:
     height, width = grey.shape
     data = np.ascontiguousarray(grey)
     return QImage(data.data, width, height, width, QImage.Format.Format_Grayscale8).copy()
+
+
+def shrink_picture(picture: QImage, size: QSize, ratio: float) -> QPixmap:
+    """Return a picture as large as fits a size, device-independent px, for a screen."""
+    small = picture.scaled(
+        size * ratio,
+        Qt.AspectRatioMode.KeepAspectRatio,
+        Qt.TransformationMode.SmoothTransformation,
+    )
+    pixmap = QPixmap.fromImage(small)
+    pixmap.setDevicePixelRatio(ratio)
+    return pixmap
 
 
 def stretch_levels(image: Image) -> Levels:

@@ -1,4 +1,4 @@
-"""What a plot draws on: a view between two axes, under a title."""
+"""A plot draws on a view between two axes, under a title."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ class Axis(pg.AxisItem):  # type: ignore[misc]  # pyqtgraph is not typed
     """An axis that, if it is logarithmic, has numbers at powers of ten, and few between them."""
 
     is_count = False
-    """Whether it counts something, so that nothing lies between whole numbers."""
+    """True if it counts something, so that nothing lies between whole numbers."""
     write_number: Callable[[float], str] | None = None
     """A function that writes the numbers, as dates for example; None for plain numbers."""
 

@@ -249,7 +249,7 @@ class Plot(pg.GraphicsView):  # type: ignore[misc]  # pyqtgraph is not typed
 
 
 class ColourBar(pg.GraphicsWidget):  # type: ignore[misc]  # pyqtgraph is not typed
-    """What the colours of a plot mean, beside it.
+    """A bar beside a plot that tells what its colours mean.
 
     Pyqtgraph's own bar is a whole plot with four axes and a menu, and takes as long to make as the
     plot that it belongs to.

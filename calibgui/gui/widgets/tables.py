@@ -62,15 +62,17 @@ class Column:
     tip: str = ""
     """What the column means, with its unit."""
     hidden: bool = False
-    """Whether only copies and files hold it."""
+    """True if only copies and files hold it."""
     optional: bool = False
-    """Whether it is left out where there is no room for all."""
+    """True if it is left out where there is no room for all."""
     expendable: bool = False
-    """Whether it is left out where even a narrow first column leaves no room for the others."""
+    """True if it is left out where even a narrow first column leaves no room for the others."""
     heading: str = ""
     """What stands over the texts, if not the title: with the unit that only they are in."""
     tips: Sequence[str] = ()
     """What there is to know of each value; the column's `tip` where it is empty."""
+    ink: Callable[[Any], str] | None = None
+    """The colour of each value's text; that of all texts if None."""
     unit: str = ""
     """Unit of the values, which stands below the heading; empty if they have none, or several."""
 
@@ -126,6 +128,7 @@ class _Model(QStandardItemModel):
         """Columns whose cells have the values that rows are sorted by."""
         for place, column in enumerate(columns):
             self.appendColumn(self._make_cells(column, self._list_tips(place)))
+            self._colour_texts(place, column)
             heading = QStandardItem(_join_heading(column))
             heading.setToolTip(column.tip or explain(column.title))
             self.setHorizontalHeaderItem(place, heading)
@@ -140,6 +143,13 @@ class _Model(QStandardItemModel):
         """Tint the rows that stand out, in the present colours."""
         for row in {*self._marked, self._hovered}:
             self._tint_row(row)
+        for place, column in enumerate(self.columns):
+            self._colour_texts(place, column)
+
+    def _colour_texts(self, place: int, column: Column) -> None:
+        for row, value in enumerate(column.values if column.ink else ()):
+            assert column.ink is not None
+            self.item(row, place).setForeground(QColor(column.ink(value)))
 
     def _make_cells(self, column: Column, tips: Sequence[str]) -> list[QStandardItem]:
         """Make the cells of a column, as copies of those that differ in more than the value.
@@ -229,6 +239,16 @@ class _Order(QSortFilterProxyModel):
     def __init__(self, parent: QWidget) -> None:
         super().__init__(parent)
         self.setSortRole(_SORT_ROLE)
+        self._rows: frozenset[int] | None = None
+
+    def filter_rows(self, rows: Collection[int] | None) -> None:
+        """Show these rows of the model, all of them for None."""
+        self._rows = None if rows is None else frozenset(rows)
+        self.invalidate()
+
+    def filterAcceptsRow(self, row: int, _: object) -> bool:  # noqa: N802 - Qt's name
+        """Return whether a row is shown."""
+        return self._rows is None or row in self._rows
 
     def sort(self, column: int, order: Qt.SortOrder = Qt.SortOrder.AscendingOrder) -> None:
         """Sort by the values of a column; as they were given if it is negative."""
@@ -327,6 +347,10 @@ class Table(QTableView):
             self.tr("Table of {0}").format(", ".join(c.title for c in columns if not c.hidden))
         )
         self._fit()
+
+    def filter_rows(self, rows: Collection[int] | None) -> None:
+        """Show these rows only, counted as in `Column.values`; all of them for None."""
+        self._order.filter_rows(rows)
 
     def select(self, row: int) -> None:
         """Highlight a row, without announcing it; none if it is negative."""

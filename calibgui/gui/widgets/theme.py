@@ -1,4 +1,4 @@
-"""How the program looks: colours, spacing and fonts, light or dark as the system is.
+"""The theme gives colours, spacing and fonts, light or dark as the system is.
 
 The colours of the first eight views are Okabe and Ito's, which people with any common kind of
 colour blindness tell apart; later views have other hues, and another symbol every eight views.
@@ -52,7 +52,7 @@ _SYMBOLS = ("o", "s", "t1", "d", "+", "x", "star")
 
 
 class Scheme(StrEnum):
-    """Which colours the user asks for."""
+    """The colours that the user asks for."""
 
     SYSTEM = "system"
     LIGHT = "light"

@@ -20,7 +20,7 @@ _LOW_SIDE = 850
 
 
 class Place(Enum):
-    """Where the inspector stands."""
+    """The place of the inspector."""
 
     SIDE = "beside the desk and the strip"
     ROW = "below the strip"
@@ -35,7 +35,7 @@ class Body(QWidget):
     """
 
     inspector_moved = Signal(bool, bool)
-    """Whether the inspector is a sheet or hidden now, and whether it is in sight."""
+    """Signal whether the inspector is a sheet or hidden now, and whether it is in sight."""
 
     def __init__(self, desk: QWidget, strip: QWidget, inspector: Inspector) -> None:
         super().__init__()

@@ -44,10 +44,12 @@ class Commands(QObject):
         self,
         calibrate: Callable[[], object],
         stop: Callable[[], object],
+        check: Callable[[], object],
         leave: Callable[[], object],
         leave_alone: Callable[[], object],
         list_pages: Callable[[], Sequence[Page]],
         find_action: Callable[[], object],
+        take_tour: Callable[[], object],
         photograph: Callable[[], object],
         show_rig: Callable[[], object],
     ) -> Sequence[Menu]:
@@ -56,10 +58,12 @@ class Commands(QObject):
         Args:
             calibrate: starts a calibration.
             stop: ends the work that the progress bar tells of.
+            check: asks for photographs that check the shown result.
             leave: closes the window.
             leave_alone: leaves the desk alone in the window, or not.
             list_pages: returns what the window can show now.
             find_action: opens the palette of all actions.
+            take_tour: points at one part of the window after another.
             photograph: opens the page on which photographs are taken live.
             show_rig: opens the page of several cameras.
         """
@@ -77,9 +81,9 @@ class Commands(QObject):
                     *self._page.tools,
                 ),
             ),
-            self._describe_calibration(calibrate, stop),
+            self._describe_calibration(calibrate, stop, check),
             self._describe_view(leave_alone, list_pages),
-            self._describe_help(find_action),
+            self._describe_help(find_action, take_tour),
         )
 
     def _describe_file(
@@ -244,7 +248,10 @@ class Commands(QObject):
         manual.activateWindow()
 
     def _describe_calibration(
-        self, calibrate: Callable[[], object], stop: Callable[[], object]
+        self,
+        calibrate: Callable[[], object],
+        stop: Callable[[], object],
+        check: Callable[[], object],
     ) -> Menu:
         session, files = self._session, self._files
         return Menu(
@@ -277,6 +284,13 @@ class Commands(QObject):
                     shortcut=Key.Print,
                     tip=self.tr("Write what is known as PDF or a web page, or a certificate"),
                     run=files.report,
+                    is_enabled=lambda: session.result is not None,
+                    why_disabled=self.tr("Nothing is calibrated yet: press Calibrate first."),
+                ),
+                Command(
+                    text=self.tr("Chec&k with new photographs…"),
+                    tip=self.tr("Whether the camera is still good; the project stays as it is"),
+                    run=check,
                     is_enabled=lambda: session.result is not None,
                     why_disabled=self.tr("Nothing is calibrated yet: press Calibrate first."),
                 ),
@@ -338,7 +352,9 @@ class Commands(QObject):
         tip = self.tr("What the window can show stands here")
         return self._describe_nothing(tip, self.tr("There are no images yet: add some first."))
 
-    def _describe_help(self, find_action: Callable[[], object]) -> Menu:
+    def _describe_help(
+        self, find_action: Callable[[], object], take_tour: Callable[[], object]
+    ) -> Menu:
         return Menu(
             self.tr("&Help"),
             (
@@ -347,6 +363,11 @@ class Commands(QObject):
                     shortcut=Key.HelpContents,
                     tip=self.tr("How to photograph, what a message means, who reads which file"),
                     run=self._show_manual,
+                ),
+                Command(
+                    text=self.tr("Take the &tour"),
+                    tip=self.tr("Two minutes from one part of the window to the next"),
+                    run=take_tour,
                 ),
                 Command(
                     text=self.tr("&Find an action…"),

@@ -37,6 +37,8 @@ class Header(QWidget):
         self.setup = Button(self.tr("Set-up"))
         self.setup.setCheckable(True)
         self.setup.setToolTip(self.tr("The board, the lens, and how to calibrate"))
+        self.report = Button(self.tr("Report…"))
+        self.report.setToolTip(self.tr("Write what is known as PDF or a web page (Ctrl+P)"))
         self.export = Button(self.tr("Export…"), Kind.MAIN)
         self.export.setToolTip(self.tr("Write the camera for another program (Ctrl+E)"))
         self.grade = Button()
@@ -57,7 +59,7 @@ class Header(QWidget):
         ends.setContentsMargins(0, 0, 0, 0)
         ends.setSpacing(theme.SPACING)
         ends.addStretch(1)
-        for widget in (self.icon, self.grade, self.setup, self.export):
+        for widget in (self.icon, self.grade, self.setup, self.report, self.export):
             ends.addWidget(widget)
         self._buttons = buttons
         self._grid = QGridLayout(self)
@@ -87,8 +89,9 @@ class Header(QWidget):
 
     def show_modes(self, shown: bool) -> None:
         """Show what there is to choose, or nothing where there are no photographs."""
-        for widget in (self.modes, self.setup, self.export):
+        for widget in (self.modes, self.setup, self.report, self.export):
             widget.setVisible(shown)
+        self._fold_if_narrow()
 
     def _show(self, project: Project) -> None:
         path = self._session.document.path
@@ -117,8 +120,11 @@ class Header(QWidget):
 
     def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name
         super().resizeEvent(event)
-        needed = self.modes.sizeHint().width() + self._buttons.sizeHint().width()
-        self._fold(folded=needed + _LEAST > event.size().width())
+        self._fold_if_narrow()
+
+    def _fold_if_narrow(self) -> None:
+        needed = self.modes.sizeHint().width() + self._buttons.sizeHint().width() + _LEAST
+        self._fold(folded=needed > self.width() and not self.modes.isHidden())
 
     def _fold(self, *, folded: bool) -> None:
         """Put the modes below the rest, or into its middle."""

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from typing import ClassVar
 
-from PySide6.QtCore import Qt
+from PySide6.QtCore import QPoint, Qt
 from PySide6.QtGui import QColor, QPainter, QPaintEvent, QResizeEvent
 from PySide6.QtWidgets import (
     QBoxLayout,
     QGridLayout,
     QHBoxLayout,
+    QLabel,
     QPushButton,
     QStackedWidget,
     QVBoxLayout,
@@ -83,6 +84,7 @@ class Inspector(QWidget):
         foot.setContentsMargins(0, 0, 0, 0)
         foot.addWidget(progress, 1)
         foot.addWidget(calibrate)
+        self._hint = self._make_hint()
         self._grid = QGridLayout(self)
         self._grid.setContentsMargins(theme.MARGIN, 12, theme.MARGIN, 12)
         self._grid.setHorizontalSpacing(theme.MARGIN)
@@ -115,6 +117,33 @@ class Inspector(QWidget):
             self._grid.setColumnStretch(column, column if is_row else 1 - column)
         self._grid.setColumnMinimumWidth(0, self.WIDTH - 2 * theme.MARGIN if is_row else 0)
 
+    def _make_hint(self) -> QLabel:
+        """Return what lies over the inspector while photographs are dragged over the window."""
+        hint = QLabel(
+            self.tr(
+                "Is the camera still good?\n\nDrop new photographs of the board here: they check "
+                "it and change nothing.\n\nDropped on the left they join the project."
+            ),
+            self,
+        )
+        hint.setWordWrap(True)
+        hint.setAlignment(Qt.AlignmentFlag.AlignCenter)
+        hint.setMargin(theme.MARGIN)
+        hint.setStyleSheet(
+            "background: palette(window); border: 2px dashed palette(highlight);border-radius: 8px;"
+        )
+        hint.hide()
+        return hint
+
+    def invite(self, invited: bool) -> None:
+        """Say that photographs can be dropped here, which only check the camera; or no longer."""
+        self._hint.setVisible(invited)
+        self._hint.raise_()
+
+    def is_inviting_at(self, place: QPoint) -> bool:
+        """Return whether photographs that are dropped at a place of the screen check the camera."""
+        return self._hint.isVisible() and self.rect().contains(self.mapFromGlobal(place))
+
     def find_row_height(self) -> int:
         """Return the height that the inspector takes below the strip."""
         margins, parts = self._grid.contentsMargins(), self._verdict.layout()
@@ -125,6 +154,7 @@ class Inspector(QWidget):
 
     def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name
         super().resizeEvent(event)
+        self._hint.setGeometry(self.rect().adjusted(8, 8, -8, -8))
         if not self._is_row:
             self._verdict.fit_height(event.size().height())
 

@@ -10,8 +10,9 @@ from pathlib import Path
 from traceback import extract_tb
 from typing import TYPE_CHECKING
 
+import shiboken6
 from PySide6.QtCore import QEvent, Qt, QTimer
-from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent
+from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDragLeaveEvent, QDropEvent
 from PySide6.QtWidgets import QApplication, QMainWindow, QStackedWidget, QVBoxLayout, QWidget
 
 from calibgui.app.projects.recent import list_recent
@@ -32,7 +33,9 @@ from calibgui.gui.session.detector import Detector
 from calibgui.gui.session.refitter import Refitter
 from calibgui.gui.session.session import Session
 from calibgui.gui.settings.board_panel import BoardPanel
+from calibgui.gui.settings.limits_choice import LimitsChoice
 from calibgui.gui.settings.settings_panel import SettingsPanel
+from calibgui.gui.verdict.check_sheet import CheckSheet
 from calibgui.gui.verdict.verdict_bar import VerdictBar
 from calibgui.gui.widgets import questions
 from calibgui.gui.widgets.actions import show_dialog
@@ -50,6 +53,7 @@ from calibgui.gui.window.offers import Offers
 from calibgui.gui.window.palette import Palette
 from calibgui.gui.window.progress import Progress
 from calibgui.gui.window.setup_sheet import SetupSheet
+from calibgui.gui.window.tour import Parts, Tour
 from calibgui.gui.window.welcome import Welcome
 
 if TYPE_CHECKING:
@@ -80,6 +84,7 @@ class MainWindow(QMainWindow):
         self.settings.setParent(self)
         self.settings.hide()
         self.analysis: Analysis | None = None
+        self._tour: Tour | None = None
         self.live: LivePage | None = None
         self.rig: RigPage | None = None
         self._empty = True
@@ -95,7 +100,8 @@ class MainWindow(QMainWindow):
         Overlay(self.banner, self.pages, is_on_top=True)
         self.header = Header(self.session)
         self.verdict = VerdictBar(self.session, self.pages)
-        self.setup = SetupSheet(self.pages, self.board, self.settings)
+        self.setup = SetupSheet(self.pages, self.board, self.settings, LimitsChoice(self.session))
+        self.check = CheckSheet(self.pages, self.session)
         self.progress = Progress(self.session.jobs)
         self.calibrate = Button(self.tr("C&alibrate"))
         self.calibrate.setToolTip(
@@ -126,7 +132,7 @@ class MainWindow(QMainWindow):
     def _lay_out(self) -> None:
         self.pages.addWidget(self.welcome)
         self.pages.addWidget(self.page)
-        centre = QWidget()
+        centre = self._centre = QWidget()
         column = QVBoxLayout(centre)
         column.setContentsMargins(0, 0, 0, 0)
         column.setSpacing(0)
@@ -150,10 +156,12 @@ class MainWindow(QMainWindow):
             commands.list_menus(
                 self.calibrate.click,
                 self.progress.end_shown,
+                self.check.ask_for_photographs,
                 self.close,
                 self.body.leave_desk_alone,
                 self._list_pages,
                 lambda: show_dialog(Palette(menus, self)),
+                self.take_tour,
                 self.photograph_live,
                 self.show_rig,
             ),
@@ -179,6 +187,7 @@ class MainWindow(QMainWindow):
             lambda label: refitter.refit(label) if self.images.follows.isChecked() else None
         )
         self.board.search_wanted.connect(self.detector.search)
+        self.settings.known.file_wanted.connect(self.files.ask_for_camera)
         self.calibrate.clicked.connect(self._calibrate)
         self.calibrator.began.connect(self._show_beginning)
         self.calibrator.advanced.connect(lambda step: self.need_analysis().show_iteration(step))
@@ -191,6 +200,7 @@ class MainWindow(QMainWindow):
         self.welcome.images_wanted.connect(self.files.ask_for_images)
         self.welcome.camera_wanted.connect(self.photograph_live)
         self.welcome.sample_wanted.connect(self.files.open_sample)
+        self.welcome.tour_wanted.connect(self.take_tour)
         self.welcome.board_wanted.connect(self.files.print_board)
         self.welcome.recent_wanted.connect(lambda path: self.files.open_paths([str(path)]))
 
@@ -199,7 +209,9 @@ class MainWindow(QMainWindow):
         header, inspector = self.header, self.inspector
         header.modes.chosen.connect(self.show_mode)
         header.setup.toggled.connect(self.setup.setVisible)
+        header.setup.toggled.connect(self.verdict.square.stand_aside)
         self.setup.closed.connect(lambda: header.setup.setChecked(False))
+        header.report.clicked.connect(self.files.report)
         header.export.clicked.connect(self.files.export)
         header.grade.clicked.connect(self.body.show_inspector)
         self.verdict.shown.connect(header.show_grade)
@@ -209,6 +221,7 @@ class MainWindow(QMainWindow):
         inspector.done.image_wanted.connect(self._show_photograph)
         camera = inspector.camera
         camera.all_wanted.connect(lambda: self._show_panel_named("ResultPanel"))
+        camera.check_wanted.connect(self.check.ask_for_photographs)
         camera.compare_wanted.connect(lambda name: self.need_analysis().compare_with(name))
         camera.rename_wanted.connect(self.files.rename_result)
         camera.delete_wanted.connect(self.files.delete_result)
@@ -281,6 +294,27 @@ class MainWindow(QMainWindow):
     def show_setup(self) -> None:
         """Open the sheet of the set-up."""
         self.header.setup.setChecked(True)
+
+    def take_tour(self) -> None:
+        """Point at one part after another; on the sample where there is no project."""
+        if self._empty:
+            self.files.open_sample()
+        if self._tour is not None and shiboken6.isValid(self._tour):
+            self._tour.leave()
+        self._show_photograph()
+        self.header.setup.setChecked(False)
+        inspector, header = self.inspector, self.header
+        parts = Parts(
+            self.images,
+            self.page.canvas,
+            self.verdict,
+            inspector.done,
+            header.modes,
+            header.setup,
+            header.export,
+            inspector.camera,
+        )
+        self._tour = Tour(self._centre, parts)
 
     def _list_pages(self) -> list[Page]:
         """Return what the window can show now."""
@@ -438,7 +472,8 @@ class MainWindow(QMainWindow):
         running = self.calibrator.running
         self.verdict.show_running(running)
         self.calibrate.setEnabled(bool(self.session.project.views) and not running)
-        self.header.export.setEnabled(self.session.result is not None)
+        for button in (self.header.report, self.header.export):
+            button.setEnabled(self.session.result is not None)
 
     def _calibrate(self) -> None:
         self.board.finish_typing()  # a shortcut does not take the focus from a box
@@ -457,11 +492,19 @@ class MainWindow(QMainWindow):
     def dragEnterEvent(self, event: QDragEnterEvent) -> None:  # noqa: N802 - Qt's name
         if event.mimeData().hasUrls():
             _accept_copy(event)
+            self.inspector.invite(self.session.result is not None)
+
+    def dragLeaveEvent(self, event: QDragLeaveEvent) -> None:  # noqa: N802, ARG002 - Qt's name
+        self.inspector.invite(False)
 
     def dropEvent(self, event: QDropEvent) -> None:  # noqa: N802 - Qt's name
         urls = event.mimeData().urls()
         names = [url.toLocalFile() for url in urls if url.isLocalFile()]
-        if self._are_of_rig(names):
+        checks = self.inspector.is_inviting_at(self.mapToGlobal(event.position().toPoint()))
+        self.inspector.invite(False)
+        if checks:
+            self.check.check(names)
+        elif self._are_of_rig(names):
             self.show_rig(names)
         else:
             self.files.open_paths(names)
@@ -471,7 +514,7 @@ class MainWindow(QMainWindow):
         """Return whether what was dropped is of several cameras; ask if folders may be."""
         if self.rig is not None and self.pages.currentWidget() is self.rig:
             return True
-        if len(names) == 1 and is_own(names[0], RIG):
+        if len(names) == 1 and Path(names[0]).is_file() and is_own(names[0], RIG):
             return True
         if len(names) < 2 or not all(Path(name).is_dir() for name in names):
             return False

@@ -10,9 +10,9 @@ from PySide6.QtCore import QFileInfo, QLocale, QObject
 
 from calibgui.app.photographs.other_board import OtherBoard, find_other_board, read_marks
 from calibgui.app.photographs.paths import NoImagesError, is_remote
-from calibgui.app.projects.autosave import find_unsaved_work
+from calibgui.app.projects.autosave import find_unsaved_work, read_unsaved_work
 from calibgui.app.projects.document import Document
-from calibgui.app.projects.project import set_grid_size, take_pattern
+from calibgui.app.projects.project import Project, set_grid_size, take_pattern
 from calibgui.dataset import ViewStatus
 from calibgui.engine.arrays import GridSize
 from calibgui.engine.boards import CHECKERBOARD, Pattern
@@ -133,16 +133,41 @@ class Offers(QObject):
         work = find_unsaved_work(path)
         if work is None:
             return
-        if path.is_file():
-            text = self.tr(
+        if not path.is_file():
+            self._offer_nameless(path, work)
+            return
+        self._show_recovery(
+            path,
+            self.tr(
                 "The program ended without saving {0}. Its state of {1} has been kept. The "
                 "project was saved {2}."
-            ).format(path, _describe_time(work), _describe_time(path))
-        else:
+            ).format(path, _describe_time(work), _describe_time(path)),
+        )
+
+    def _offer_nameless(self, path: Path, work: Path) -> None:
+        """Offer a project that had no file yet; its photographs tell which one it is."""
+        time = _describe_time(work)
+
+        def show(project: Project) -> None:
+            folder = Path(project.views[0].image).parent if project.views else path.parent
+            text = self.tr(
+                "The program ended without saving a project of {0} photographs in {1}, which had "
+                "no name yet. Its state of {2} has been kept."
+            )
+            self._show_recovery(path, text.format(len(project.views), folder, time))
+
+        def show_time(_: Exception) -> None:
             text = self.tr(
                 "The program ended without saving a project that had no name yet. Its state of {0} "
                 "has been kept."
-            ).format(_describe_time(work))
+            )
+            self._show_recovery(path, text.format(time))
+
+        self._session.jobs.start(
+            "", lambda _: read_unsaved_work(work, path), show, failed=show_time, owner=self
+        )
+
+    def _show_recovery(self, path: Path, text: str) -> None:
         self._banner.show_text(
             text,
             {

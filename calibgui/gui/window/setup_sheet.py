@@ -1,17 +1,18 @@
-"""The set-up: the board, the lens, and what is for experts, each to be folded."""
+"""The set-up: the board, the lens, limits, and what is for experts, each to be folded."""
 
 from __future__ import annotations
 
 from PySide6.QtWidgets import QVBoxLayout, QWidget
 
 from calibgui.gui.settings.board_panel import BoardPanel
+from calibgui.gui.settings.limits_choice import LimitsChoice
 from calibgui.gui.settings.settings_panel import SettingsPanel
 from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.buttons import Button, Kind
 from calibgui.gui.widgets.scrolling import make_scrollable
 from calibgui.gui.widgets.sheet import Sheet
 
-_WIDTH = 440
+_WIDTH = 480
 """Device-independent px."""
 
 
@@ -20,10 +21,12 @@ class SetupSheet(Sheet):
 
     Args:
         desk: that it lies over.
-        board, settings: what is set up.
+        board, settings, limits: what is set up.
     """
 
-    def __init__(self, desk: QWidget, board: BoardPanel, settings: SettingsPanel) -> None:
+    def __init__(
+        self, desk: QWidget, board: BoardPanel, settings: SettingsPanel, limits: LimitsChoice
+    ) -> None:
         super().__init__(desk, _WIDTH, fills=True)
         inside = QWidget()
         column = QVBoxLayout(inside)
@@ -33,6 +36,7 @@ class SetupSheet(Sheet):
         for title, tip, part, is_open in (
             (self.tr("Board"), self.tr("What is photographed"), board, True),
             (self.tr("Lens"), self.tr("Which model describes the lens"), settings.lens, True),
+            (self.tr("Limits"), self.tr("What is demanded of the camera"), limits, True),
             (self.tr("For experts"), self.tr("How to calibrate"), settings.experts, False),
         ):
             self.folds.append(_make_fold(title, tip, part, is_open))

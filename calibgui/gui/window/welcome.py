@@ -1,4 +1,4 @@
-"""The page of an empty window: how to begin."""
+"""The page of an empty window: how to begin, and with which photographs."""
 
 from __future__ import annotations
 
@@ -6,11 +6,11 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from PySide6.QtCore import QEvent, QPointF, QSize, Qt, Signal, SignalInstance
-from PySide6.QtGui import QIcon, QImage, QPainter, QPixmap
+from PySide6.QtGui import QIcon, QImage, QPainter, QPixmap, QResizeEvent
 from PySide6.QtWidgets import (
     QCommandLinkButton,
     QFrame,
-    QHBoxLayout,
+    QGridLayout,
     QLabel,
     QScrollArea,
     QStyle,
@@ -24,11 +24,21 @@ from calibgui.gui.jobs.jobs import Jobs
 from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.focus_ring import FocusRing
 from calibgui.gui.widgets.icons import Icon, draw_icon
-from calibgui.gui.widgets.picture import make_qimage
-from calibgui.gui.widgets.wrapped_label import WrappedLabel
+from calibgui.gui.widgets.picture import make_qimage, shrink_picture
+from calibgui.gui.window.good_set import (
+    DropPlace,
+    GoodSet,
+    leave_as_it_is,
+    make_heading,
+)
 
 _SHOWN = 6
-_WIDTH, _RECENT_WIDTH = 520, 340
+_TITLE = 24
+"""Size of the title's letters, px."""
+_WIDTH, _RECENT_WIDTH, _LEAST = 440, 340, 300
+"""Widths of the parts, and the least of each, device-independent px."""
+_THREE, _TWO = 1240, 820
+"""Widths of the page from which so many parts stand side by side, device-independent px."""
 _PICTURE = QSize(64, 48)
 """A recent project's first image, device-independent px."""
 
@@ -43,6 +53,7 @@ class Welcome(QScrollArea):
     folder_wanted = Signal()
     images_wanted = Signal()
     sample_wanted = Signal()
+    tour_wanted = Signal()
     camera_wanted = Signal()
     board_wanted = Signal()
     recent_wanted = Signal(Path)
@@ -52,20 +63,13 @@ class Welcome(QScrollArea):
         super().__init__()
         self._jobs = jobs
         title = QLabel(self.tr("Calibrate a camera"))
-        font = title.font()
-        font.setPixelSize(24)
-        font.setBold(True)
-        title.setFont(font)
-        words = WrappedLabel(
+        title.setFont(theme.make_font(_TITLE, bold=True))
+        drop = DropPlace(
             self.tr(
-                "Drop photographs of a flat board here: 10 to 20 of them, the board tilted in "
-                "different directions and reaching into the image's corners. Its kind and size are "
-                "found. A saved project can be dropped as well."
+                "Drop photographs of a flat board here, or a saved project. The board's kind and "
+                "size are found."
             )
         )
-        words.setAlignment(Qt.AlignmentFlag.AlignCenter)
-        words.setMargin(3 * theme.SPACING)
-        words.setStyleSheet("border: 2px dashed palette(mid); border-radius: 8px;")
         self.buttons = [
             self._link(
                 self.tr("Open a f&older of images"),
@@ -84,41 +88,57 @@ class Welcome(QScrollArea):
                 self.sample_wanted,
             ),
             self._link(
+                self.tr("Take the to&ur"),
+                self.tr("Two minutes on the sample; it can be left at any step."),
+                self.tour_wanted,
+            ),
+            self._link(
                 self.tr("Prin&t a board"),
                 self.tr("A checkerboard, or one of the other kinds, in true size."),
                 self.board_wanted,
             ),
         ]
         self._restyle()
-        column = QWidget()
-        column.setMaximumWidth(_WIDTH)
-        begin = QVBoxLayout(column)
-        begin.setSpacing(theme.SPACING)
-        for widget in (title, words, *self.buttons):
-            begin.addWidget(widget)
-        begin.addStretch(1)
+        self.good_set = GoodSet(jobs)
         self._recent_part = QWidget()
-        self._recent_part.setFixedWidth(_RECENT_WIDTH)
-        self._list = QVBoxLayout(self._recent_part)
-        heading = QLabel(self.tr("Recent projects and folders"))
-        self._list.addWidget(heading)
+        self._list = _make_column(self._recent_part, _RECENT_WIDTH)
+        self._list.addWidget(make_heading(self.tr("Recent projects and folders")))
         self._list.addStretch(1)
         self.recent: list[QCommandLinkButton] = []
         """Buttons that open what was opened lately, the newest first."""
+        begin = QWidget()
+        column = _make_column(begin, _WIDTH)
+        for widget in (title, drop, *self.buttons):
+            column.addWidget(widget)
+        column.addStretch(1)
         body = QWidget()
-        layout = QVBoxLayout(body)
-        layout.addStretch(1)
-        middle = QHBoxLayout()
-        middle.addStretch(1)
-        middle.addWidget(column, 1000)
-        middle.addWidget(self._recent_part)
-        middle.addStretch(1)
-        layout.addLayout(middle)
-        layout.addStretch(2)
+        self._grid = QGridLayout(body)
+        self._grid.setContentsMargins(theme.MARGIN, theme.MARGIN, theme.MARGIN, theme.MARGIN)
+        self._grid.setSpacing(2 * theme.MARGIN)
+        self._parts = begin, self.good_set, self._recent_part
         self.setFrameShape(QFrame.Shape.NoFrame)
         self.setWidgetResizable(True)
         self.setWidget(body)
         self.show_recent([])
+
+    def _arrange(self) -> None:
+        """Stand the parts side by side where there is room, and below each other elsewhere."""
+        grid, has_recent = self._grid, not self._recent_part.isHidden()
+        width = self.viewport().width()
+        columns = 3 if width >= _THREE and has_recent else 2 if width >= _TWO else 1
+        places = {3: ((1, 1), (1, 2), (1, 3)), 2: ((1, 1), (1, 2), (2, 2))}.get(
+            columns, ((1, 1), (2, 1), (3, 1))
+        )
+        for part, (row, column) in zip(self._parts, places, strict=True):
+            below = 2 if columns == 2 and part is self._parts[0] and has_recent else 1
+            grid.addWidget(part, row, column, below, 1, Qt.AlignmentFlag.AlignTop)
+        for k in range(5):
+            grid.setColumnStretch(k, int(k in (0, columns + 1)))
+            grid.setRowStretch(k, {0: 1, 4: 2}.get(k, 0))
+
+    def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name
+        super().resizeEvent(event)
+        self._arrange()
 
     def show_recent(self, recent: Sequence[Recent]) -> None:
         """Offer these projects and folders, each with its first image."""
@@ -128,6 +148,7 @@ class Welcome(QScrollArea):
         self._recent_part.setVisible(bool(recent))
         for place, button in enumerate(self.recent, start=1):
             self._list.insertWidget(place, button)
+        self._arrange()
         pictured = [
             (button, entry.image)
             for button, entry in zip(self.recent, recent, strict=False)
@@ -135,7 +156,7 @@ class Welcome(QScrollArea):
         ]
         if pictured:
             self._jobs.each(
-                "", pictured, _read_picture, self._show_picture, failed=_leave_icon, owner=self
+                "", pictured, _read_picture, self._show_picture, failed=leave_as_it_is, owner=self
             )
 
     def _make_recent(self, entry: Recent) -> QCommandLinkButton:
@@ -161,15 +182,7 @@ class Welcome(QScrollArea):
         button, _ = pictured
         if button not in self.recent:  # others are offered by now
             return
-        ratio = self.devicePixelRatio()
-        small = picture.scaled(
-            _PICTURE * ratio,
-            Qt.AspectRatioMode.KeepAspectRatio,
-            Qt.TransformationMode.SmoothTransformation,
-        )
-        pixmap = QPixmap.fromImage(small)
-        pixmap.setDevicePixelRatio(ratio)
-        button.setIcon(_centre(pixmap))
+        button.setIcon(_centre(shrink_picture(picture, _PICTURE, self.devicePixelRatio())))
 
     def changeEvent(self, event: QEvent) -> None:  # noqa: N802 - Qt's name
         super().changeEvent(event)
@@ -178,7 +191,7 @@ class Welcome(QScrollArea):
 
     def _restyle(self) -> None:
         """Draw the icons in the theme's colour."""
-        icons = Icon.FOLDER, Icon.CAMERA, Icon.PICTURE, Icon.BOARD, Icon.PRINTER
+        icons = Icon.FOLDER, Icon.CAMERA, Icon.PICTURE, Icon.BOARD, Icon.PLAY, Icon.PRINTER
         for button, icon in zip(self.buttons, icons, strict=True):
             button.setIcon(draw_icon(icon))
 
@@ -214,5 +227,11 @@ def _read_picture(pictured: tuple[QCommandLinkButton, str]) -> QImage:
     return make_qimage(read_thumbnail(pictured[1]).grey)
 
 
-def _leave_icon(_: Exception) -> None:
-    """An image that is gone, or cannot be read, is not missed before its project is opened."""
+def _make_column(widget: QWidget, width: int) -> QVBoxLayout:
+    """Return the layout of a part of the page, of a width that it keeps where there is room."""
+    widget.setMaximumWidth(width)
+    widget.setMinimumWidth(min(width, _LEAST))
+    column = QVBoxLayout(widget)
+    column.setContentsMargins(0, 0, 0, 0)
+    column.setSpacing(theme.SPACING)
+    return column

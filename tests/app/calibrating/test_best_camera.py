@@ -38,7 +38,7 @@ def test_a_bowed_board_is_estimated_and_said(bowed: CornerSet) -> None:
     assert first.said == "" and first.result.calibration.board_shape is None
     assert best.result.calibration.board_shape is not None
     assert best.said in best.result.improvements
-    assert "The board is not as it was drawn (0." in best.said
+    assert "Your board is not flat (0." in best.said
     assert "its shape was estimated; errors" in best.said and "times smaller." in best.said
     before, after = (judge_result(step.result).error.covered for step in (first, best))
     assert f"errors {before / after:.1f} times" in best.said

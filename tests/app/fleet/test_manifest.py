@@ -15,6 +15,7 @@ from calibgui.engine.boards.charuco import Charuco
 from calibgui.engine.boards.checkerboard import CHECKERBOARD
 from calibgui.engine.boards.kinds import KINDS
 from calibgui.engine.errors import CalibrationError
+from calibgui.formats.circle_list import read_circle_list
 from calibgui.formats.fleet_table import write_fleet_table
 
 BOARD = BoardSought(30.0)
@@ -44,6 +45,20 @@ def test_a_table_says_what_holds_for_a_camera(tmp_path: Path) -> None:
     assert (second.board, second.settings) == (BOARD, SETTINGS)
 
 
+def test_a_table_names_the_list_of_a_boards_circles(tmp_path: Path) -> None:
+    (tmp_path / "boards").mkdir()
+    places = [(20 * k + 10 * (row % 2), 17 * row) for row in range(4) for k in range(5)]
+    circles = "\n".join(["x,y", *(f"{x},{y}" for x, y in places)])
+    (tmp_path / "boards" / "dots.csv").write_text(circles)
+    (task,) = read_manifest(
+        write(tmp_path, "id,paths,board", "a,.,boards/dots.csv"), BOARD, SETTINGS
+    )
+    expected, pitch = read_circle_list(tmp_path / "boards" / "dots.csv")
+    assert task.board == BoardSought(pitch, expected.grid_size, expected)
+    with pytest.raises(CalibrationError, match=r"line 2: .*nowhere.csv"):
+        read_manifest(write(tmp_path, "id,paths,board", "a,.,nowhere.csv"), BOARD, SETTINGS)
+
+
 def test_a_folder_of_folders_is_a_manifest(tmp_path: Path) -> None:
     for name in ("b", "a", ".hidden"):
         (tmp_path / name).mkdir()
@@ -66,6 +81,10 @@ def test_words_of_a_board_replace_what_is_known() -> None:
     assert read_board_words("", stated) == stated
     assert read_board_words("charuco 20mm", stated) == BoardSought(20.0, (5, 7), stated.pattern)
     assert read_board_words("checkerboard", stated).pattern == CHECKERBOARD
+    certain, uncertain = BoardSought(30.0), BoardSought(30.0, square_sigma=0.02)
+    for text in ("30+-0.02mm", "30±.02mm", "30+/-0.02mm"):
+        assert read_board_words(text, certain) == uncertain
+    assert read_board_words("30mm", uncertain) == certain
     # The size alone leaves open what is printed, as on the command line.
     assert read_board_words("6x7", BoardSought(30.0, None, None)).pattern is None
 

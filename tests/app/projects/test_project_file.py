@@ -16,15 +16,18 @@ from calibgui.app.calibrating.settings import Settings
 from calibgui.app.projects import project_file
 from calibgui.app.projects.lengths import set_square_sigma
 from calibgui.app.projects.project import (
+    Project,
+    hold_known,
     record_result,
     relocate_images,
     remove_result,
     rename_result,
 )
 from calibgui.app.projects.project_file import VERSION, encode_project, read_project, write_project
-from calibgui.dataset import judging
+from calibgui.dataset import KnownCamera, judging
 from calibgui.dataset.details import Details
 from calibgui.dataset.judging import judge_result, keep_verdict
+from calibgui.engine.arrays import Array
 from calibgui.engine.assessment import Action, ActionKind, Cause, Finding, PixelError
 from calibgui.engine.boards.shape import BoardShape, BoardShapeModel, BoardShapePrior
 from calibgui.engine.errors import CalibrationError
@@ -103,6 +106,25 @@ def test_a_changed_view_makes_its_results_old(tmp_path: Path) -> None:
     assert not again.is_current(again.results["k3 held"])
     assert again.results["k3 held"].views[1] is again.views[1]
     assert again.results["k3 held"].views[0] is not again.views[0]
+
+
+@pytest.mark.parametrize("covariance", [None, np.diag(np.arange(10.0))])
+def test_a_camera_that_is_held_is_kept(tmp_path: Path, covariance: Array | None) -> None:
+    known = KnownCamera(examples.CAMERA, "cam.yaml", "OpenCV YAML", covariance)
+    file = tmp_path / "project.json"
+    write_project(hold_known(Project(), known), file)
+    kept = read_project(file).settings.known
+    assert kept is not None
+    assert (kept.file, kept.title, kept.camera.model) == ("cam.yaml", "OpenCV YAML", "lucchese")
+    np.testing.assert_array_equal(kept.camera.params, known.camera.params)
+    assert (kept.covariance is None) is (covariance is None)
+    content = json.loads(file.read_text())
+    for damage in ({"size": [0, 3]}, {"params": {}}, {"covariance": [[1]]}, {"model": "glass"}):
+        broken = {**content, "settings": {**content["settings"]}}
+        broken["settings"]["camera"] = {**content["settings"]["camera"], **damage}
+        file.write_text(json.dumps(broken))
+        with pytest.raises(CalibrationError, match=r"project\.json"):
+            read_project(file)
 
 
 @pytest.mark.parametrize("shape", [BoardShapeModel.FREE, None, "known"])

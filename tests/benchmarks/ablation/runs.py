@@ -32,8 +32,7 @@ from tests.scenes.tally import judge
 Array = NDArray[np.float64]
 Entries = dict[str, Entry]
 _MAX_SECONDS = 120
-"""Time of the processor after which a search ends: without a rule it may never do. Kernels may be
-compiled in it."""
+"""Time of the processor after which a search ends: without a rule it may never do."""
 _SAME_CORNER = 3.0
 """Distance from a true corner up to which what was found is that one, px."""
 _MIN_VIEWS = 4

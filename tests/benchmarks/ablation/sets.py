@@ -2,8 +2,8 @@
 
 Rendered boards with their truth: checkerboards under every trouble, every condition of the corner
 benchmark, few corners with large squares, boards that the image cuts or something covers, fisheyes
-and 12 megapixels; boards of other kinds under the conditions of their benchmark and in shadows.
-Photographs of the real sets, and pictures without a board.
+and 12 megapixels; boards of other kinds under the conditions of their benchmark, in shadows and in
+trouble. Photographs of the real sets, and pictures without a board.
 """
 
 from __future__ import annotations
@@ -29,6 +29,11 @@ from calibgui.engine.images.reading import read_image
 from tests.benchmarks import board_readers, boards, corner_partial, corner_unseen, corners
 from tests.benchmarks.board_readers import BOARDS
 from tests.conftest import find_data_dir
+from tests.scenes.boards_in_trouble import (
+    BEFORE_TEXTURE,
+    BOARD_TROUBLES,
+    photograph_in_trouble,
+)
 from tests.scenes.checkerboards import draw
 from tests.scenes.conditions import Conditions
 from tests.scenes.perspective import photograph_pattern
@@ -57,6 +62,8 @@ _FRAMES = 8
 """Number of frames that are taken of each video."""
 _SHADOWS = ((0.5, 4.0), (0.8, 1.0))
 """Depth, and penumbra in px, of the shadows over boards of other kinds."""
+_IN_TROUBLE = 20
+"""Number of photographs of each trouble of boards of other kinds."""
 _STATED: dict[str, Pattern] = {
     "checkerboard": CHECKERBOARD,
     "charuco": Charuco(),
@@ -169,8 +176,8 @@ def _draw_conditions(seed: int) -> Pictures:
 
 
 def _draw_boards(kind: str, seed: int) -> Pictures:
-    """Draw boards of another kind under the conditions of their benchmark, in shadows, and one in
-    12 megapixels, whose corners are not known."""
+    """Draw boards of another kind under the conditions of their benchmark, in shadows and in
+    trouble, and one in 12 megapixels, whose corners are not known."""
     board = BOARDS[kind]
     stated = _STATED.get(kind, board.pattern)
     size = board.grid_size
@@ -195,6 +202,13 @@ def _draw_boards(kind: str, seed: int) -> Pictures:
             shade = cast_shadow(board, k, depth, penumbra)
             name = f"{kind} shadow {depth}/{k}"
             yield Picture(name, RENDERED, shade.image, stated, size, shade.boards)
+    for trouble in BOARD_TROUBLES if "circles" not in kind else ():  # these have no numbers
+        known = None if trouble == BEFORE_TEXTURE else size
+        for k in range(seed, seed + _IN_TROUBLE):
+            hard = photograph_in_trouble(board, k, trouble)
+            assert hard.hidden is not None
+            name = f"{kind} {trouble}/{k}"
+            yield Picture(name, RENDERED, hard.image, stated, known, hard.boards, ~hard.hidden)
     image = photograph_pattern(_LARGE, board, 0.7, 1.2)
     yield Picture(f"{kind} 12 MP", REAL, image, stated, size)
 

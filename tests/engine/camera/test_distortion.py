@@ -17,11 +17,7 @@ from calibgui.engine.camera.distortion import (
     project_points,
     undistort_points,
 )
-from calibgui.engine.geometry.frames import (
-    array_from_paper,
-    intrinsics_from_paper,
-    paper_from_array,
-)
+from calibgui.engine.geometry.frames import array_from_paper, paper_from_array
 from calibgui.engine.geometry.pose import Pose
 from tests.engine.scenes import barrel, brown, central_differences
 
@@ -36,6 +32,15 @@ CAMERAS = {
     "pixel radius": Camera((640, 480), barrel(aspect=0.9).params, "lucchese-pixels"),
     "brown-conrady": brown(aspect=1.1),
 }
+
+
+def intrinsics_from_paper(values: Array, size: tuple[int, int]) -> Array:
+    """The paper's ten intrinsics in the array frame: inverse to `paper_from_intrinsics`."""
+    xp, yp, *coefficients, fx, fy = values
+    powers = np.array([2.0, 4.0, 6.0, 1.0, 1.0, 2.0])
+    signs = np.array([1.0, 1.0, 1.0, 1.0, -1.0, 1.0])
+    cx, cy = array_from_paper(np.array([xp, yp]), size)
+    return np.concatenate([[fx, fy, cx, cy], signs * fx**powers * np.asarray(coefficients)])
 
 
 def grid(step: int = 80) -> Array:

@@ -50,9 +50,8 @@ def test_mapping_what_is_projected_is_projecting_what_is_mapped(model: str, mode
     stream = sensor_mode.adapt_camera(camera)
     rays = rays_from_pixels(seen(camera), camera)
     expected = sensor_mode.map_points(pixels_from_rays(rays, camera))
-    np.testing.assert_allclose(
-        pixels_from_rays(sensor_mode.map_rays(rays), stream), expected, atol=1e-9
-    )
+    mirrored = rays * np.append(np.sign(sensor_mode.factor), 1.0)
+    np.testing.assert_allclose(pixels_from_rays(mirrored, stream), expected, atol=1e-9)
     back = sensor_mode.invert().adapt_camera(stream)
     assert back.size == camera.size
     np.testing.assert_allclose(back.params, camera.params, rtol=1e-12, atol=1e-12)

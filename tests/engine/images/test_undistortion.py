@@ -172,7 +172,7 @@ def test_a_lens_that_folds_within_its_circle_is_refused() -> None:
 
 
 @pytest.mark.parametrize("view", ["all", "no-border", "same-scale"])
-@pytest.mark.parametrize("aspect", [1.33, 0.75, 1.0])
+@pytest.mark.parametrize("aspect", [2.0, 1.5, 1.33, 910 / 834, 0.75, 1.0])
 def test_square_pixels(view: str, aspect: float) -> None:
     """The output is stretched, and every pixel of it has the light of its own ray."""
     camera = brown(aspect)

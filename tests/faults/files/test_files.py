@@ -35,6 +35,7 @@ _STEPS = {
     "read_json": "a language",
     "read_toml": "a language",
     "read_numbered_csv_rows": "a language",
+    "read_known_camera": "as read_camera",
     "read_colour": "as read_image",
     "read_image_size": "as read_image_header",
     "read_thumbnail": "as read_image",

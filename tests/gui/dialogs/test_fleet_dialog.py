@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from PySide6.QtCore import Qt
+from PySide6.QtCore import QLocale, Qt
 from PySide6.QtWidgets import QFileDialog
 from pytestqt.qtbot import QtBot
 
@@ -15,11 +15,16 @@ from calibgui.app.projects.project_file import read_project, write_project
 from calibgui.dataset import Result
 from calibgui.dataset.fleet import Estimate, FleetCamera, FleetEntry, FleetFigures, FleetStatus
 from calibgui.engine.assessment import Grade, PixelError
+from calibgui.engine.images import write_image
 from calibgui.formats import export
 from calibgui.formats.fleet_ledger import open_ledger
+from calibgui.formats.result_json import read_result
+from calibgui.gui.dialogs import fleet_dialog
 from calibgui.gui.dialogs.fleet_dialog import FleetDialog
+from calibgui.gui.widgets import theme
 from calibgui.gui.window.main_window import MainWindow
 
+FOREGROUND = Qt.ItemDataRole.ForegroundRole
 NAMES = ("fx", "fy", "cx", "cy", "k1", "k2", "p1", "p2", "k3", "skew")
 
 
@@ -129,3 +134,50 @@ def test_a_camera_whose_photographs_are_at_addresses_opens_and_is_saved(
     saved = read_project(tmp_path / "project.json")
     assert [view.image for view in saved.views] == [view.image for view in views]
     assert saved.is_current(saved.results["far"])
+
+
+def shown(dialog: FleetDialog) -> list[str]:
+    return [line.split(",")[0] for line in dialog.table.as_csv().splitlines()[1:]]
+
+
+def test_what_fails_is_in_another_colour_and_can_be_shown_alone(dialog: FleetDialog) -> None:
+    model, column = dialog.table.model(), 3
+    inks = {
+        model.index(row, column).data(): model.index(row, column).data(FOREGROUND).color().name()
+        for row in range(model.rowCount())
+    }
+    assert inks == {"pass": theme.LIGHT.good, "fail": theme.LIGHT.bad}
+    dialog.kind.setCurrentIndex(1)
+    assert shown(dialog) == ["lost"]
+    dialog.kind.setCurrentIndex(2)
+    assert shown(dialog) == ["camera 4"]
+    dialog.kind.setCurrentIndex(0)
+    dialog.filter.setText("s1")
+    assert sorted(shown(dialog)) == ["camera 1", *(f"camera 1{k}" for k in range(10))]
+    dialog.filter.setText("found in none")
+    assert shown(dialog) == ["lost"], "a reason is found, too"
+    dialog.reject()
+
+
+def test_dates_are_in_the_systems_language(dialog: FleetDialog) -> None:
+    before = QLocale()
+    QLocale.setDefault(QLocale("de_DE"))
+    try:
+        assert fleet_dialog._format_date("2026-05-01") == "01.05.26"
+        assert fleet_dialog._format_date("in May") == "in May"
+    finally:
+        QLocale.setDefault(before)
+        dialog.reject()
+
+
+def test_a_camera_is_known_by_its_first_photograph(
+    dialog: FleetDialog, ledger: Path, qtbot: QtBot
+) -> None:
+    image = ledger.parent / "results" / read_result(ledger.parent / "results/4.json").used[0].image
+    write_image(image, np.full((240, 320), 200, np.uint8))
+    dialog._pick(0)
+    qtbot.waitUntil(lambda: not dialog.picture.pixmap().isNull())
+    assert dialog.picture.pixmap().toImage().pixelColor(20, 20).red() == 200
+    dialog._pick(1)
+    assert dialog.picture.pixmap().isNull(), "it has none"
+    dialog.reject()

@@ -205,7 +205,7 @@ def test_work_on_a_file_stays_until_it_is_decided_about(
 
 
 def test_the_time_of_unsaved_work_is_told_as_the_users_language_has_it(
-    window: MainWindow, tmp_path: Path
+    window: MainWindow, qtbot: QtBot, tmp_path: Path
 ) -> None:
     path = tmp_path / "project.json"
     autosave(examples.calibrated(tmp_path), path)
@@ -216,7 +216,7 @@ def test_the_time_of_unsaved_work_is_told_as_the_users_language_has_it(
         for language, told in (("de_DE", "22.11.26 12:30"), ("en_GB", "22/11/2026 12:30")):
             QLocale.setDefault(QLocale(language))
             window.files.recoverable.emit(path)
-            assert told in window.banner.text.text()
+            qtbot.waitUntil(lambda told=told: told in window.banner.text.text())
     finally:
         QLocale.setDefault(before)
 
@@ -352,6 +352,20 @@ def test_what_another_program_saved_is_not_replaced_without_a_question(
     assert (path.read_bytes() == theirs) is (answer != "Yes")
     assert aside.exists() is (answer == "SaveAll")
     assert window.session.document.saved is (answer != "Cancel")
+
+
+def test_work_without_a_name_is_known_by_its_photographs(
+    window: MainWindow, qtbot: QtBot, tmp_path: Path
+) -> None:
+    slot = window.files.saver.file
+    autosave(examples.calibrated(tmp_path), slot)
+    window.files.recoverable.emit(slot)
+    qtbot.waitUntil(lambda: f"7 photographs in {tmp_path}" in window.banner.text.text())
+    get_autosave_path(slot).write_text('{"format": "calibgui-pro', encoding="utf-8")
+    window.banner.dismiss.click()
+    window.files.recoverable.emit(slot)
+    qtbot.waitUntil(lambda: "had no name yet. Its state" in window.banner.text.text())
+    get_autosave_path(slot).unlink()
 
 
 def test_what_is_discarded_is_kept(

@@ -166,7 +166,13 @@ def test_every_setting_is_in_the_panel_and_none_disturbs_another(full: MainWindo
         once=True,
         improve=True,
     )
-    changed = {f.name for f in fields(Settings)} - {"cost", "model", "candidates", "method"}
+    changed = {f.name for f in fields(Settings)} - {
+        "cost",
+        "model",
+        "candidates",
+        "method",
+        "known",
+    }
     assert all(getattr(everything, name) != getattr(Settings(), name) for name in changed)
     session.edit("Settings", lambda p: replace(p, settings=everything))
     panel.robust.click()

@@ -30,8 +30,8 @@ from calibgui.gui.panels.evidence.coverage import CoveragePanel
 from calibgui.gui.panels.evidence.residuals import ResidualsPanel
 from calibgui.gui.verdict import verdict_bar
 from calibgui.gui.verdict.before_after import BeforeAndAfter
-from calibgui.gui.verdict.texts import describe_fit
 from calibgui.gui.verdict.verdict_bar import VerdictBar
+from calibgui.gui.widgets.fit_text import describe_fit
 from calibgui.gui.widgets.lengths import describe_condition
 from calibgui.gui.widgets.tables import Table
 from calibgui.gui.widgets.wrapped_label import WrappedLabel

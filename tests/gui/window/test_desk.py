@@ -35,6 +35,7 @@ from calibgui.gui.panels.method.convergence import ConvergencePanel
 from calibgui.gui.panels.method.stage_one import StageOnePanel
 from calibgui.gui.panels.mode_page import PANEL_WIDTH
 from calibgui.gui.panels.modes import Mode
+from calibgui.gui.settings.limits_choice import LimitsChoice
 from calibgui.gui.widgets.elided import ElidedLabel
 from calibgui.gui.widgets.reserved_label import ReservedLabel
 from calibgui.gui.window.body import Place
@@ -134,8 +135,10 @@ def test_the_set_up_of_a_new_project_needs_no_scrolling(
 
 def test_the_folds_of_the_set_up_show_and_hide_their_parts(full: MainWindow, qtbot: QtBot) -> None:
     full.show_setup()
-    parts = (full.board, full.settings.lens, full.settings.experts)
-    assert [part.isVisible() for part in parts] == [True, True, False]
+    limits = full.setup.findChild(LimitsChoice)
+    assert isinstance(limits, LimitsChoice)
+    parts = (full.board, full.settings.lens, limits, full.settings.experts)
+    assert [part.isVisible() for part in parts] == [True, True, True, False]
     for fold, part in zip(full.setup.folds, parts, strict=True):
         before = part.isVisible()
         qtbot.mouseClick(fold, Qt.MouseButton.LeftButton)

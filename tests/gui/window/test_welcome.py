@@ -115,3 +115,21 @@ def test_the_icons_follow_the_theme(welcome: Welcome, qapp: QApplication) -> Non
             drawn = max(pixels, key=QColor.alpha)
             accent = QColor(colours.accent)
             assert np.allclose(drawn.getRgb()[:3], accent.getRgb()[:3], atol=3), button.text()
+
+
+def test_a_good_set_is_shown_by_photographs_of_the_sample(welcome: Welcome, qtbot: QtBot) -> None:
+    shots = welcome.good_set.shots.values()
+    qtbot.waitUntil(lambda: all(not shot.pixmap().isNull() for shot in shots))
+    assert len({shot.pixmap().toImage().pixelColor(20, 20).rgb() for shot in shots}) > 3
+    assert all(shot.accessibleName() for shot in shots)
+
+
+@pytest.mark.parametrize(("width", "columns"), [(1280, 3), (960, 2), (600, 1)])
+def test_the_parts_stand_side_by_side_where_there_is_room(
+    welcome: Welcome, folder: Path, qtbot: QtBot, width: int, columns: int
+) -> None:
+    welcome.show_recent([Recent(folder, "")])
+    welcome.resize(width, 660)
+    qtbot.wait(20)
+    assert len({part.x() for part in welcome._parts}) == columns
+    assert all(part.geometry().right() <= welcome.viewport().width() for part in welcome._parts)

@@ -27,7 +27,7 @@ import numpy as np
 from calibgui.engine.arrays import Array
 from calibgui.engine.assessment.causes.mixed_views import Split, find_two_kinds
 from calibgui.engine.assessment.causes.rival_lens import Rival, fit_rival
-from calibgui.engine.assessment.changes.camera_uncertainty import estimate_camera_uncertainty
+from calibgui.engine.assessment.changes.camera_uncertainty import split_camera_uncertainty
 from calibgui.engine.assessment.changes.comparison import find_covered_pixels
 from calibgui.engine.assessment.finding import MIN_VIEWS_TO_JUDGE
 from calibgui.engine.assessment.residuals.residual_checks import NoiseReport, check_residuals
@@ -36,6 +36,7 @@ from calibgui.engine.assessment.residuals.systematic_errors import prepare_fit
 from calibgui.engine.calibration.observations import Observation
 from calibgui.engine.calibration.result import Calibration
 from calibgui.engine.images.sampling import make_mesh
+from calibgui.engine.numbers import format_two_digits
 from calibgui.engine.uncertainty.projection_uncertainty import compute_worst_sigma
 
 
@@ -65,8 +66,12 @@ class Case:
     """(n, 2, 2) part of it that the corners' noise explains, px^2."""
     rms: float
     """Root mean square residual, px."""
+    shown_rms: float
+    """Root mean square residual of the calibration that the user sees, px."""
     check: Callable[[], None]
     """Function that is called now and then, and raises to abandon the work."""
+    how_shown: str = ""
+    """Words for what makes that calibration another than this one; empty if it is the same."""
 
     @cached_property
     def report(self) -> NoiseReport:
@@ -86,6 +91,16 @@ class Case:
             return None
         self.check()
         return find_two_kinds(prepare_fit(self.calibration, self.views))
+
+    def follow(self, case: Case, how_shown: str) -> Case:
+        """Return this case as one that follows from another, told from it by some words."""
+        words = " and ".join(filter(None, (case.how_shown, how_shown)))
+        return replace(self, shown_rms=case.shown_rms, how_shown=words)
+
+    def describe_rms(self) -> str:
+        """Describe the residuals by their RMS, beside that which the user sees if it is another."""
+        own, shown = (f"{format_two_digits(rms)} px" for rms in (self.rms, self.shown_rms))
+        return f"{own} RMS" if own == shown else f"{own} RMS ({shown} {self.how_shown})"
 
     def measure_harm(self, share: float = 0.0) -> float:
         """Measure what a cause of a share of the squared residuals does to pixels, px rms.
@@ -115,15 +130,14 @@ def prepare_case(
 ) -> Case:
     """Prepare a case: find out how well pixels are known, by everything and by noise alone."""
     check()
-    total = estimate_camera_uncertainty(calibration, views)
+    total, by_noise = split_camera_uncertainty(calibration, views)
     over_image = total.worst_direction
     known = over_image[np.isfinite(over_image)]  # a lens may image nothing in the corners
     if not known.size:
         known = np.array(calibration.camera.size)
-    noise_only = replace(calibration, covariance=calibration.noise_covariance)
-    by_noise = estimate_camera_uncertainty(noise_only, views)
     noise = by_noise.worst_direction[np.isfinite(over_image)]
     covered = find_covered_pixels(make_mesh(total.u, total.v), views)
+    rms = summarise_residuals(calibration.residuals).rms
     return Case(
         calibration,
         views,
@@ -135,6 +149,7 @@ def prepare_case(
         part=float(covered[~np.isnan(over_image)].sum() / max(np.sum(~np.isnan(over_image)), 1)),
         total=total.covariance[covered],
         by_noise=by_noise.covariance[covered],
-        rms=summarise_residuals(calibration.residuals).rms,
+        rms=rms,
+        shown_rms=rms,
         check=check,
     )

@@ -161,17 +161,14 @@ def _find_cause_beside_board(case: Case, failed: Mapping[str, NoiseCheck]) -> Fi
     except CalibrationError:
         return None
     beside = prepare_case(free, case.views, case.names, case.check)
-    beside = replace(beside, numbers=case.numbers)
+    beside = replace(beside, numbers=case.numbers).follow(case, "with the board as calibrated")
     found = _find_wrong_lens(beside)
-    if found is None:
-        split = beside.split
-        if split is None or split.share < MIN_SHARE_OF_KINDS:
-            return None
-        found = _describe_two_kinds(beside, split)
-    if case.calibration.board_shape is not None:  # as the calibration itself does
+    if found is not None:
         return found
-    basis = "These figures are of a fit that estimates the board's shape as well."
-    return replace(found, evidence=f"{found.evidence} {basis}")
+    split = beside.split
+    if split is None or split.share < MIN_SHARE_OF_KINDS:
+        return None
+    return _describe_two_kinds(beside, split)
 
 
 def _find_wrong_lens(case: Case) -> Finding | None:
@@ -240,7 +237,7 @@ def _describe_two_kinds(case: Case, split: Split) -> Finding:
         Cause.MIXED_VIEWS,
         f"The photographs are of two kinds: {list_names([case.names[k] for k in odd])} "
         f"{'disagree' if len(odd) > 1 else 'disagrees'} with the others about the {split.what}.",
-        f"If each kind had its own, {left:.2g} px would be left of {case.rms:.2g} px RMS; "
+        f"If each kind had its own, {left:.2g} px would be left of {case.describe_rms()}; "
         f"{describe_harm(harm)}.",
         f"Look for {_SOUGHT.get(split.what, _SOUGHT_AT_LARGE)}, and calibrate each kind by itself.",
         harm,
@@ -259,7 +256,7 @@ def describe_turned_views(case: Case, turned: Turned) -> Finding:
         f"{list_names([case.names[k] for k in turned.views])} "
         f"{'are' if len(views) > 1 else 'is'} {turned.how} against the others, stored by a program "
         "that turned what the camera wrote.",
-        f"Turned back they leave {left:.2g} px of {case.rms:.2g} px RMS; {describe_harm(harm)}.",
+        f"Turned back they leave {left:.2g} px of {case.describe_rms()}; {describe_harm(harm)}.",
         f"{turned.remedy}, or take the files as the camera wrote them. If they are of another "
         "camera, calibrate it by itself.",
         harm,
@@ -283,7 +280,7 @@ def describe_strangers(case: Case, found: Strangers) -> Finding | None:
     return Finding(
         Cause.MIXED_VIEWS,
         f"{names} {'does' if is_one else 'do'} not belong to the others.",
-        f"Without {'it' if is_one else 'them'} {left:.2g} px are left of {case.rms:.2g} px RMS; "
+        f"Without {'it' if is_one else 'them'} {left:.2g} px are left of {case.describe_rms()}; "
         f"{describe_harm(harm)}.",
         f"Look whether {'it is' if is_one else 'they are'} of another camera, zoom, focus or board,"
         " or cropped or edited, and leave them out.",
@@ -306,11 +303,11 @@ def _describe_lens(case: Case, error: float, harm: float) -> Finding:
     """
     calibration = case.calibration
     cause = f"{error:.2g} px that all views share and the board does not explain"
-    evidence = f"Of {case.rms:.3g} px RMS it leaves {cause}."
+    evidence = f"Of {case.describe_rms()} it leaves {cause}."
     if calibration.lens_error > 0 and calibration.board_shape is not None:
         evidence = (
             f"With the board as drawn, it leaves {cause}; with the board's estimated shape, which "
-            f"stands in for the lens, {case.rms:.3g} px RMS are left in all."
+            f"stands in for the lens, {case.describe_rms()} are left in all."
         )
     lens = find_model(calibration.camera.model).short_title
     return Finding(
@@ -333,8 +330,8 @@ def _describe_check(case: Case, check: NoiseCheck) -> Finding | None:
         return None
     is_open = tested.cause is Cause.DISAGREEMENT
     evidence = (
-        f"{'Smooth displacements, others in each view, explain' if is_open else 'It explains'} "
-        f"{100 * check.share:.0f} % of the squared residuals of {case.rms:.3g} px RMS"
+        f"{'Distortions, others in each view, explain' if is_open else 'It explains'} "
+        f"{100 * check.share:.0f} % of the squared residuals of {case.describe_rms()}"
     )
     if tested.cause is Cause.BOARD_SHAPE and case.calibration.board_shape_error > 0:
         evidence += f"; corners of the board are off by {case.calibration.board_shape_error:.2g} mm"

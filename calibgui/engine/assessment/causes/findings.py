@@ -119,7 +119,7 @@ def _find(
     open_coefficients = _find_open_coefficients(case)
     if calibration.cost is not Cost.IMAGE:
         calibration = _minimise_image_cost(calibration, views)
-        case = prepare_case(calibration, views, names, check)
+        case = prepare_case(calibration, views, names, check).follow(case, "as it was calibrated")
     pictures = find_two_pictures(calibration, views)
     if pictures is not None:
         yield _describe_two_pictures(case, pictures)
@@ -129,7 +129,7 @@ def _find(
         yield describe_turned_views(case, odd.turned)
         return
     screening = screen_misplaced_corners(calibration, views)
-    left = None if screening is None else _leave_out(screening, views, names, check)
+    left = None if screening is None else _leave_out(screening, case)
     if left is not None and _misses_views(case, left):
         left = None
     if left is None and odd.strangers is not None and _are_strangers(case, odd.strangers):
@@ -138,7 +138,7 @@ def _find(
             yield strangers
             return
     if screening is not None and left is not None:
-        misplaced = describe_misplaced_corners(calibration, screening, views, names)
+        misplaced = describe_misplaced_corners(case, screening)
         if misplaced is not None:
             yield misplaced
         case = left  # large errors of a few corners leave coefficients open, too
@@ -176,7 +176,7 @@ def _describe_two_pictures(case: Case, found: TwoPictures) -> Finding:
         "The photographs show two pictures of different cameras, as a stereo camera stores them: "
         f"the board is {where} in {list_names([case.names[k] for k in views])}, and on the other "
         "side in the others.",
-        f"With a camera for each side, {found.rms:.2g} px would be left of {case.rms:.3g} px RMS; "
+        f"With a camera for each side, {found.rms:.2g} px would be left of {case.describe_rms()}; "
         f"{describe_harm(harm)}.",
         "Cut the photographs apart, and calibrate each side by itself.",
         harm,
@@ -200,17 +200,12 @@ def _are_strangers(case: Case, found: Strangers) -> bool:
     return not _is_cause_of_all(case, prepare_case(found.others, views, names, case.check))
 
 
-def _leave_out(
-    screening: Screening,
-    views: Sequence[Observation],
-    names: Sequence[str],
-    check: Callable[[], None],
-) -> Case:
-    """Prepare what is left without the corners that were rejected."""
+def _leave_out(screening: Screening, case: Case) -> Case:
+    """Prepare what is left of a case without the corners that were rejected."""
     used = [k for k, kept in enumerate(screening.kept) if kept.any()]
-    left = screening.select_kept(views)
-    case = prepare_case(screening.calibration, left, [names[k] for k in used], check)
-    return replace(case, numbers=used)
+    kept, names = screening.select_kept(case.views), [case.names[k] for k in used]
+    left = prepare_case(screening.calibration, kept, names, case.check)
+    return replace(left, numbers=used).follow(case, "with the corners that do not fit")
 
 
 def _misses_views(case: Case, left: Case) -> bool:

@@ -17,6 +17,7 @@ import numpy as np
 
 from calibgui.engine.arrays import Array
 from calibgui.engine.assessment.action import Action, ActionKind
+from calibgui.engine.assessment.causes.case import Case
 from calibgui.engine.assessment.changes.comparison import compare_cameras
 from calibgui.engine.assessment.finding import (
     MAX_LISTED,
@@ -236,32 +237,25 @@ def _measure_rejected(
     return np.where(np.isfinite(found), found, np.inf)
 
 
-def describe_misplaced_corners(
-    calibration: Calibration,
-    screening: Screening,
-    views: Sequence[Observation],
-    names: Sequence[str],
-) -> Finding | None:
+def describe_misplaced_corners(case: Case, screening: Screening) -> Finding | None:
     """Describe misplaced corners and what they do to the camera; None if that is nothing."""
     worst = sorted(screening.rejected, key=lambda r: len(r.corners), reverse=True)
     listed = ", ".join(
-        f"{names[r.view]} ({'all' if r.is_whole_view else len(r.corners)})"
+        f"{case.names[r.view]} ({'all' if r.is_whole_view else len(r.corners)})"
         for r in worst[:MAX_LISTED]
     )
     others = len(worst) - MAX_LISTED
     more = f" and {others} other view{'s' * (others > 1)}" if others > 0 else ""
-    before, after = (
-        summarise_residuals(c.residuals).rms for c in (calibration, screening.calibration)
-    )
-    kept = screening.select_kept(views)
-    harm = measure_displacement(calibration.camera, screening.calibration.camera, kept)
+    after = summarise_residuals(screening.calibration.residuals).rms
+    kept = screening.select_kept(case.views)
+    harm = measure_displacement(case.calibration.camera, screening.calibration.camera, kept)
     if harm < MIN_HARM_PX:
         return None
     chosen = tuple(r.view for r in worst)
     return Finding(
         Cause.MISPLACED_CORNERS,
         f"Corners are not where the others say, in {listed}{more}.",
-        f"Without them the RMS falls from {before:.3g} to {after:.3g} px; {describe_harm(harm)}.",
+        f"Without them {after:.2g} px are left of {case.describe_rms()}; {describe_harm(harm)}.",
         "Leave outliers out, or look at the corners of these views.",
         harm,
         chosen,

@@ -22,7 +22,9 @@ At first all views are read as they are. The view that gains most by another rea
 none does: a view that is read wrongly draws the camera, so that good ones look odd beside it. A
 view that suits the others in no reading counts as a stranger, which is left out of J. Several that
 are turned hide each other, as they draw the camera together: so cameras of half of the views are
-tried as well, and what costs least is taken. Under a lens in the middle of the image a turned view
+tried as well, and what costs least is taken. A board of free shape takes a part of a turned view's
+errors up: where it was estimated and all views suit each other, they are read on the board as it is
+drawn as well. Under a lens in the middle of the image a turned view
 is not to be told, and does no harm.
 
 Where as many are turned as are not, none stands out. Then the views part in two kinds
@@ -34,6 +36,7 @@ were turned, a camera of their own leaves hardly less of them.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
@@ -47,6 +50,7 @@ from calibgui.engine.assessment.residuals.systematic_errors import (
     multiply_columns,
     prepare_fit,
 )
+from calibgui.engine.boards.shape import BoardShapeModel
 from calibgui.engine.calibration.calibrate import calibrate
 from calibgui.engine.calibration.observations import Observation, pack_observations
 from calibgui.engine.calibration.problem import prepare_observations, recover_image_arguments
@@ -120,6 +124,8 @@ def find_odd_views(case: Case) -> OddViews:
         return OddViews()
     try:
         chosen = _Readings(case).choose()
+        if not chosen.any() and case.calibration.settings.board_shape is BoardShapeModel.FREE:
+            chosen = _Readings(_take_board_as_drawn(case)).choose()
     except CalibrationError:
         return OddViews()
     readings = np.where(chosen == _STRANGER, 0, chosen)
@@ -129,6 +135,18 @@ def find_odd_views(case: Case) -> OddViews:
         return OddViews(turned)
     others = _calibrate(case, [view for k, view in enumerate(case.views) if k not in odd])
     return OddViews(turned, None if others is None else Strangers(tuple(odd), others))
+
+
+def _take_board_as_drawn(case: Case) -> Case:
+    """Return a case with the calibration from its views on the board as it is drawn.
+
+    Raises:
+        CalibrationError: if they determine no camera then.
+    """
+    settings = recover_image_arguments(case.calibration)
+    settings |= {"board_shape": BoardShapeModel.NOMINAL, "prior": None}
+    drawn = calibrate(case.views, case.calibration.camera.size, **settings)
+    return replace(case, calibration=drawn)
 
 
 def find_turn(case: Case, is_odd: BoolArray) -> Turned | None:
@@ -310,7 +328,7 @@ class _Readings:
         for turn in range(1, _STRANGER):
             views = _turn_back(self.case, np.where(wanted, turn, 0))
             turned += [views[k] for k in unread]
-        fit = _fit_poses(self.case, self.fit, turned)
+        fit = _fit_poses(self.case, self.fit, turned, int(unread[0]))
         forms = multiply_columns(fit, self._make_board_columns)
         self.forms[1:_STRANGER, unread] = forms.reshape(-1, len(unread), *forms.shape[1:])
         return True
@@ -325,10 +343,18 @@ class _Readings:
         return np.concatenate([bent, by_place[..., :2] * y[..., None]], axis=-1)
 
 
-def _fit_poses(case: Case, fit: LinearisedFit, views: Sequence[Observation]) -> LinearisedFit:
-    """Fit the poses of other views to the camera of a case."""
+def _fit_poses(
+    case: Case, fit: LinearisedFit, views: Sequence[Observation], first: int
+) -> LinearisedFit:
+    """Fit the poses of other views to the camera of a case; they weigh as those of the case do, of
+    which the view at index `first` is the first one turned."""
     start = estimate_poses(fit.camera, pack_observations(views))
     observations = prepare_observations(case.calibration, views)
+    if observations.whitening is not None and fit.observations.whitening is not None:
+        # Whitened by themselves they are in units of their own median noise.
+        unit = np.linalg.norm(fit.observations.whitening[first, 0])
+        unit /= np.linalg.norm(observations.whitening[0, 0])
+        observations = replace(observations, whitening=unit * observations.whitening)
     state = refine_poses(start, observations, fit.camera.model, case.calibration.cost)
     return LinearisedFit(fit.camera, state, observations, fit.free)
 

@@ -35,7 +35,7 @@ _BY_ANGLE, _BY_TANGENT = "kannala-brandt-decentering", "brown-conrady"
 
 
 class Rival(NamedTuple):
-    """What a lens model of another kind makes of the views."""
+    """The views as a lens model of another kind follows them."""
 
     share: float
     """Share of the squared residuals that it explains, the board's shape being estimated if it was;

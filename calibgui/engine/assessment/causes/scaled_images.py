@@ -94,7 +94,7 @@ def find_scaling(case: Case, explained: float) -> Finding | None:
         "The images are interlaced or raw, or were scaled to twice or half their size."
         if is_double
         else "The images were scaled, by the camera or a program.",
-        f"Of the squared residuals of {case.rms:.3g} px RMS {repeating}, in all views alike; "
+        f"Of the squared residuals of {case.describe_rms()} {repeating}, in all views alike; "
         f"{describe_harm(harm)}.",
         "Photograph in another size, best the largest that the camera has, and use the images as "
         "it writes them.",

@@ -80,8 +80,8 @@ def find_shear(case: Case, explained: float) -> Finding | None:
         return Finding(
             Cause.DISAGREEMENT,
             "Either all images or the board are sheared, and these views do not tell which.",
-            f"A skew of {degrees:.2g} degrees leaves {after:.3g} px of {case.rms:.3g} px RMS, a "
-            f"board of unequal or oblique squares {by_board:.3g} px; {describe_harm(harm)}.",
+            f"A skew of {degrees:.2g} degrees leaves {after:.2g} px of {case.describe_rms()}, a "
+            f"board of unequal or oblique squares {by_board:.2g} px; {describe_harm(harm)}.",
             "Measure whether the board's two diagonals are equally long, and add views with the "
             "board turned by 90 degrees in its plane.",
             harm,
@@ -89,8 +89,8 @@ def find_shear(case: Case, explained: float) -> Finding | None:
         )
     return Finding(
         Cause.SHEARED_IMAGES,
-        "All images are sheared alike: each row is shifted sideways against the next.",
-        f"With a skew of {degrees:.2g} degrees {after:.2g} px are left of {case.rms:.3g} px RMS, "
+        "All images are sheared alike: each row is displaced against the next.",
+        f"With a skew of {degrees:.2g} degrees {after:.2g} px are left of {case.describe_rms()}, "
         f"and neither a lens nor a board explains it better; {describe_harm(harm)}.",
         "Photograph again with camera and board on a stand, if the camera moved while a rolling "
         "shutter read the rows. If another camera or program makes all images so, estimate the "

@@ -1,4 +1,4 @@
-"""How far a camera's pixels are uncertain, beside a rotation that makes up for part of it.
+"""A camera's pixels are uncertain, beside a rotation that makes up for part of that.
 
 An error dc of the camera moves the pixels of directions by q_c dc, and a rotation w of the camera
 by q_p B w (``uncertainty/projection_uncertainty.py``). As ``comparison.py`` brings two cameras
@@ -21,7 +21,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from calibgui.engine.arrays import Array, IntArray
+from calibgui.engine.arrays import Array, BoolArray, IntArray
 from calibgui.engine.assessment.changes.comparison import find_covered_pixels
 from calibgui.engine.calibration.observations import Observation
 from calibgui.engine.calibration.problem import find_free_parameters
@@ -44,21 +44,43 @@ def estimate_camera_uncertainty(
         calibration: the calibration.
         views: the views that it was made from.
     """
+    return split_camera_uncertainty(calibration, views)[0]
+
+
+def split_camera_uncertainty(
+    calibration: Calibration, views: Sequence[Observation]
+) -> tuple[ProjectionUncertainty, ProjectionUncertainty]:
+    """Estimate the same, and the part of it that the corners' noise alone explains."""
     camera, free = calibration.camera, find_free_parameters(calibration)
     u, v = make_map_grid(camera.size)
-    by_params, by_motion = compute_sensitivity(camera, make_mesh(u, v), np.inf)
-    J = by_params[..., free] + by_motion[..., :3] @ find_compensating_turn(camera, free, views)
-    covariance = J @ calibration.covariance[np.ix_(free, free)] @ np.swapaxes(J, -1, -2)
-    return ProjectionUncertainty(camera.size, np.inf, u, v, covariance)
+    uv = make_mesh(u, v)
+    by_params, by_turn = _differentiate(camera, free, uv)
+    J = by_params + by_turn @ _fit_turn(by_params, by_turn, find_covered_pixels(uv, views))
+    total, by_noise = (
+        ProjectionUncertainty(
+            camera.size, np.inf, u, v, J @ covariance[np.ix_(free, free)] @ np.swapaxes(J, -1, -2)
+        )
+        for covariance in (calibration.covariance, calibration.noise_covariance)
+    )
+    return total, by_noise
 
 
 def find_compensating_turn(camera: Camera, free: IntArray, views: Sequence[Observation]) -> Array:
     """Find W (3, P), the rotation, rad per unit of the free parameters, that makes up for most of
     an error of the camera where the corners of views cover the image."""
     uv = make_mesh(*make_map_grid(camera.size))
+    return _fit_turn(*_differentiate(camera, free, uv), find_covered_pixels(uv, views))
+
+
+def _differentiate(camera: Camera, free: IntArray, uv: Array) -> tuple[Array, Array]:
+    """Differentiate pixels (m, n, 2) by the free parameters, and by a rotation of the camera."""
     by_params, by_motion = compute_sensitivity(camera, uv, np.inf)
-    by_params, by_turn = by_params[..., free], by_motion[..., :3]
-    known = find_covered_pixels(uv, views) & np.isfinite(by_params).all(axis=(-2, -1))
+    return by_params[..., free], by_motion[..., :3]
+
+
+def _fit_turn(by_params: Array, by_turn: Array, is_covered: BoolArray) -> Array:
+    """Fit W (3, P) to the derivatives of pixels (m, n) of which some are covered."""
+    known = is_covered & np.isfinite(by_params).all(axis=(-2, -1))
     P = by_params.shape[-1]
     turn = np.linalg.lstsq(by_turn[known].reshape(-1, 3), by_params[known].reshape(-1, P))[0]
     return np.asarray(-turn, np.float64)

@@ -1,4 +1,4 @@
-"""How wrong a length is that is measured with a camera, in a plane across its axis.
+"""A length in a plane across the axis is as uncertain as both its ends, and the camera, make it.
 
 The ends of a length L at a depth Z are seen at two pixels, and each pixel's ray meets the plane at
 a point (X, Y). With S = dq/d(X, Y) at an end, its point moves by -S^-1 J dc with an error dc of the

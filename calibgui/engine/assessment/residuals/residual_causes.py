@@ -64,14 +64,13 @@ class ResidualCause:
         return f"{text[:1].upper()}{text[1:]}"
 
 
-_BOARD_IS_OFF = "The board is not as it was drawn."
 CAUSES = (
     ResidualCause(
         "squares",
         Cause.BOARD_SHAPE,
         Family.BOARD,
         BoardShapeModel.AFFINE,
-        _BOARD_IS_OFF,
+        "Your board is not printed true.",
         "The board's squares are not as wide as high, or askew: measure its sides over many "
         "squares, or estimate the board's shape (affine).",
         ActionKind.ESTIMATE_BOARD_SHAPE,
@@ -81,7 +80,7 @@ CAUSES = (
         Cause.BOARD_SHAPE,
         Family.BOARD,
         CURVED,
-        _BOARD_IS_OFF,
+        "Your board is not flat.",
         "The board is bowed or twisted: mount it on something stiff, or estimate its shape (free).",
         ActionKind.ESTIMATE_BOARD_SHAPE,
     ),
@@ -138,10 +137,9 @@ CAUSES = (
         Cause.LINE_JITTER,
         Family.OPEN,
         make_line_columns,
-        "The image's rows are shifted sideways against each other.",
-        "The image's rows are shifted sideways against each other: an analogue camera's lines do "
-        "not start evenly, or the camera trembled while a rolling shutter read them. Many views "
-        "average it; a digital or steady camera avoids it.",
+        "The image's rows do not start evenly.",
+        "The image's rows do not start evenly, as those of an analogue camera, or of a rolling "
+        "shutter that trembled: take many views, which average it, or put the camera on a stand.",
     ),
     ResidualCause(
         "smooth",
@@ -158,7 +156,7 @@ CAUSES = (
         Cause.BOARD_SHAPE,
         Family.BOARD,
         BoardShapeModel.FREE,
-        _BOARD_IS_OFF,
+        "Your board is not flat, or not printed true.",
         "The board is not flat or not printed true: mount it on glass, or estimate its shape "
         "(free).",
         ActionKind.ESTIMATE_BOARD_SHAPE,

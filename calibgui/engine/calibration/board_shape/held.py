@@ -1,4 +1,4 @@
-"""What the errors of a held board shape add to the uncertainty of a calibration.
+"""The errors of a held board shape add to the uncertainty of a calibration.
 
 A shape that was estimated before has errors e of the corners' places, of covariance C
 (``boards/shape.py``). Camera and poses theta that fit best for the held shape follow it: with the
@@ -94,7 +94,7 @@ def describe_held_shape(shape: BoardShape, views: Sequence[str]) -> tuple[str, .
     sentences = []
     if shape.covariance is None and shape.sigma.any():
         sentences.append(
-            "The given board shape does not say how the errors of its corners hang together, as "
+            "The given board shape does not say how the errors of its corners are correlated, as "
             "files of earlier versions do not: every ± takes them for independent, and may be "
             "several times too small. Estimate the shape again and save it."
         )

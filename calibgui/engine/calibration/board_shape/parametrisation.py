@@ -77,14 +77,6 @@ def make_basis(model: BoardShapeModel, points: Array) -> Array:
     return B
 
 
-def fit_basis(B: Array, deviation: Array) -> Array:
-    """Fit the coefficients (Q,) of a basis B (n, 3, Q) to deviations (n, 3), mm."""
-    count, _, Q = B.shape
-    if 3 * count == Q:  # the free board's basis is the identity
-        return deviation.ravel()
-    return np.asarray(np.linalg.lstsq(B.reshape(-1, Q), deviation.ravel(), rcond=None)[0])
-
-
 def make_gauge(points: Array) -> Array:
     """Make the gauge G (3n, 7), orthonormal: motions, turns and scaling of a board (n, 2)."""
     centred = np.column_stack([points - points.mean(axis=0), np.zeros(len(points))])

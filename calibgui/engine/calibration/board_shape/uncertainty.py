@@ -124,7 +124,7 @@ class LinearisedBoard(NamedTuple):
 
 
 class BoardError(NamedTuple):
-    """What the board's deviations, as far as prior and views tell, do to a calibration."""
+    """The effect on a calibration of the board's deviations, as far as prior and views tell."""
 
     covariance: Array
     """(P, P) covariance C of the camera's free parameters of the joint estimate."""

@@ -80,7 +80,7 @@ class RegisteredViews:
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Problem:
-    """What a calibration is to solve: the views, and what is wanted of them (``problem.py``)."""
+    """The problem of a calibration: the views, and what is wanted of them (``problem.py``)."""
 
     observations: Observations
     """The views as they came, on the board as it is drawn."""
@@ -105,7 +105,7 @@ class Problem:
     prior: BoardShapePrior | None
     """What is known beforehand of the board's deviations from its drawing."""
     model_errors: bool
-    """Whether the uncertainties count what the models of board, lens and views miss."""
+    """True if the uncertainties count what the models of board, lens and views miss."""
     max_iterations: int
     """Largest number of iterations of a solve."""
 

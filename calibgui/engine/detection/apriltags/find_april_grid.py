@@ -109,6 +109,7 @@ def _explain_missing_board(
     order = "top row down" if tags.layout.from_top else "bottom row up"
     first = int(tags.numbers.min())
     order += f", with no number below {first}" if first else ""
+    order += f", each tag turned by {90 * tag_print.turn} degrees" if tag_print.turn else ""
     has_squares = has_corner_squares(levels, tags, tag_print.border / tag_print.side)
     stated = "" if grid_size is None else f", not {grid_size[0]} x {grid_size[1]} corners"
     return NoBoardError(
@@ -197,6 +198,7 @@ def _locate_corners(
         tags.layout.from_top,
         has_squares,
         tags.layout.first or stated.first_tag,
+        tag_print.turn or stated.tag_turn,
     )
     return assemble_corners(grey, lattice, fit, outline, rejected, measured)
 

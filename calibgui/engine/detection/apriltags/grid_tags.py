@@ -19,10 +19,16 @@ from calibgui.engine import opencv
 from calibgui.engine.arrays import Array, GreyImage, GridSize, IntArray
 from calibgui.engine.boards.april_grid import AprilGrid, TagLayout
 from calibgui.engine.boards.apriltags import load_family
-from calibgui.engine.detection.apriltags.tag_places import MAX_COLS, MIN_TAGS, list_layouts
+from calibgui.engine.detection.apriltags.tag_places import (
+    MAX_COLS,
+    MIN_TAGS,
+    list_layouts,
+    list_layouts_of_columns,
+)
 from calibgui.engine.detection.apriltags.tag_reader import (
     TagPrint,
     TagReader,
+    draw_tags,
     list_prints,
     rate_borders,
 )
@@ -82,9 +88,10 @@ _MAX_READ, _MAX_SAMPLED = 150, 80
 borders: in brickwork there are thousands. Of rendered boards before textures those of all tags were
 among the first 25; of a board of more tags the others are read beside these."""
 _ALL_LAYOUTS = tuple(
-    layout for cols in range(1, MAX_COLS + 1) for layout in list_layouts(cols, None)
+    layout for cols in range(2, MAX_COLS + 1) for layout in list_layouts(cols, None)
 )
-"""The layouts that are considered where none is stated."""
+"""The layouts that are considered where none is stated: a column of consecutive tags may be a row
+of turned ones."""
 
 GridTags = tuple[TagPrint, Markers[TagLayout]]
 """The print of the tags of a board, and the tags that were read on it."""
@@ -242,12 +249,12 @@ def _read_board(
     for tag_print in list_prints(pattern.family, pattern.border):
         if sure_family not in (None, tag_print.family):
             continue
-        tags = _identify_tags(reader, tag_print, pattern, grid_size, outline)
-        if tags is None:
+        board = _identify_tags(reader, tag_print, pattern, grid_size, outline)
+        if board is None:
             continue
-        right = _describe_tags(tag_print).rate_markers(reader.image, tags)[0]
+        right = _describe_tags(board[0]).rate_markers(reader.image, board[1])[0]
         if right.sum() > most:
-            best, most = (tag_print, tags), float(right.sum())
+            best, most = board, float(right.sum())
         if _is_sure(tag_print):
             if right.mean() > _MIN_SURE_SHARE:
                 break
@@ -261,14 +268,14 @@ def _identify_tags(
     pattern: AprilGrid,
     grid_size: GridSize | None,
     outline: Array | None,
-) -> Markers[TagLayout] | None:
-    """Identify the tags of one print that agree on a board, and read those beside them; None if
-    there are too few, or they do not tell where they are on it."""
+) -> GridTags | None:
+    """Identify the tags of one print that agree on a board, turned as most of them agree, and read
+    those beside them; None if there are too few, or they do not tell where they are on it."""
     tags = reader.read(tag_print)
     if not len(tags.numbers):
         return None
-    turned = (np.arange(4) + tags.turns[:, None]) % 4
-    numbers, corners = drop_repeated(tags.numbers, reader.quads[tags.which[:, None], turned])
+    clockwise = (np.arange(4) + tags.turns[:, None]) % 4
+    numbers, corners = drop_repeated(tags.numbers, reader.quads[tags.which[:, None], clockwise])
     on_board = numbers >= (pattern.first_tag or 0)
     numbers, corners = numbers[on_board], corners[on_board]
     is_open = grid_size is None and _is_sure(tag_print)
@@ -279,7 +286,14 @@ def _identify_tags(
         [layout._replace(first=first) for layout in layouts if order in (None, layout.from_top)]
         for layouts, order in ((likely, None), (stated, pattern.from_top))
     )
-    readings = identify_board(numbers, corners, allowed, known) if allowed else []
+    readings: list[Markers[TagLayout]] = []
+    for turn in range(4) if pattern.tag_turn is None else (pattern.tag_turn,):
+        upright = np.roll(corners, turn, axis=1)
+        turned = identify_board(numbers, upright, allowed, known) if allowed else []
+        if turned and (not readings or len(turned[0].numbers) > len(readings[0].numbers)):
+            readings, tag_print = turned, tag_print._replace(turn=turn)
+        if readings and len(readings[0].numbers) == len(numbers):
+            break
     if not readings:
         return None
     count = None
@@ -298,7 +312,7 @@ def _identify_tags(
     if _is_sure(tag_print) and _is_contradicted(numbers, readings[0]):
         return None
     is_placed = grid_size is not None or tell_rows_apart(readings[0].squares, TAG_NEIGHBOURS)
-    return readings[0] if is_placed else None
+    return (tag_print, readings[0]) if is_placed else None
 
 
 def _is_contradicted(numbers: IntArray, tags: Markers[TagLayout]) -> bool:
@@ -327,10 +341,8 @@ def _count_tags(board: GridTags) -> int:
 @lru_cache
 def _describe_tags(tag_print: TagPrint) -> MarkerPrints:
     """Describe the tags of a print."""
-    b = tag_print.border
-    cells = load_family(tag_print.family).cells
-    drawn = np.pad(cells, ((0, 0), (b, b), (b, b)), constant_values=True)
-    return describe_prints(drawn, TAG_NEIGHBOURS)
+    count = len(load_family(tag_print.family).cells)
+    return describe_prints(draw_tags(tag_print, np.arange(count)), TAG_NEIGHBOURS)
 
 
 def _list_likely_layouts(numbers: IntArray, corners: Array) -> list[TagLayout]:
@@ -339,13 +351,7 @@ def _list_likely_layouts(numbers: IntArray, corners: Array) -> list[TagLayout]:
     centre = corners.mean(axis=1)
     side = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2).max(axis=1)
     near = np.linalg.norm(centre - centre[:, None], axis=2) < _NEIGHBOUR_DISTANCE * side
-    between = np.unique(np.abs(np.subtract.outer(numbers, numbers))[near])
-    return [
-        layout
-        for cols in between.tolist()
-        if 0 < cols <= MAX_COLS
-        for layout in list_layouts(cols, None)
-    ]
+    return list_layouts_of_columns(numbers, near)
 
 
 def _is_wholly_read(tags: Markers[TagLayout]) -> bool:

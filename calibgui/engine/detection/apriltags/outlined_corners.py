@@ -60,8 +60,6 @@ _MIN_SIGMAS = 4.0
 _PATCH = make_mesh(np.array([-1, 0, 1]) / 6, np.array([-1, 0, 1]) / 6).reshape(-1, 2)
 """(9, 2) places whose mean is taken for the level in the middle of a square, the gap or the border,
 over the narrower of both: in noise a single place among paper may look darker than the rest."""
-_MIN_SINE = 0.2
-"""Least sine of the angle at a tag's corners."""
 _MAX_SHIFT, _MIN_MAX_SHIFT = 1.0, 2.0
 """Greatest distance of a corner from where it was read, widths of the border, or px if that is
 more: dark parts end 1 px within the outlines, and blur rounds their corners."""
@@ -143,9 +141,6 @@ def locate_outlined_corners(
     """
     border = read[0].border / read[0].side
     squares, quads = _list_tags(levels, read, first, rows, gap)
-    kept = _are_measurable(quads, image)
-    rejected = list_rejected_corners(quads[~kept].reshape(-1, 2), "not whole in the image")
-    squares, quads = squares[kept], quads[kept]
     doubted: list[tuple[FittedCorners, IntArray, Array, Array]] = []
     while True:
         if len(quads) < 2:
@@ -178,6 +173,7 @@ def locate_outlined_corners(
     # Where tags were read they are smaller than they are, and the gap between them wider.
     gap = measure_gap_of_tags(squares, corners.uv.reshape(-1, 4, 2), gap)
     all_corners, all_grid = corners, grid
+    rejected: list[RejectedCorner] = []
     for unshaded, its_grid, shaded, at in doubted:
         moved = move_edges_outwards(shaded, moves.shift)
         its_corners = unshaded._replace(uv=moved.reshape(-1, 2))
@@ -266,16 +262,6 @@ def _list_tags(
         np.concatenate([tags.squares, squares[seen]]) + first,
         np.concatenate([tags.corners, quads[seen]]),
     )
-
-
-def _are_measurable(quads: Array, image: GreyImage) -> BoolArray:
-    """Return which quadrilaterals (n, 4, 2) px are convex and whole in the image (h, w)."""
-    along = np.roll(quads, -1, axis=1) - quads
-    along /= np.linalg.norm(along, axis=2, keepdims=True) + 1e-12
-    behind = np.roll(along, 1, axis=1)
-    sine = behind[..., 0] * along[..., 1] - behind[..., 1] * along[..., 0]
-    whole = board_ends.are_in_image(quads.reshape(-1, 2), image.shape).reshape(-1, 4)
-    return np.asarray(((sine > _MIN_SINE) & whole).all(axis=1))
 
 
 def _find_good_outlines(fit: TagOutlines, quads: Array, border: float) -> BoolArray:

@@ -43,6 +43,18 @@ def list_layouts(cols: int, from_top: bool | None) -> list[TagLayout]:
     return [TagLayout(cols, order) for order in (False, True) if from_top in (None, order)]
 
 
+def list_layouts_of_columns(numbers: IntArray, may_be_beneath: BoolArray) -> list[TagLayout]:
+    """List the layouts on which two tags are neighbours in a column, of numbers (n,) and pairs
+    (n, n) that may be such."""
+    between = np.unique(np.abs(np.subtract.outer(numbers, numbers))[may_be_beneath])
+    return [
+        layout
+        for cols in between.tolist()
+        if 0 < cols <= MAX_COLS
+        for layout in list_layouts(cols, None)
+    ]
+
+
 def place_tags(
     numbers: IntArray,
     squares: IntArray,
@@ -91,14 +103,7 @@ def _place_on_layout(
 def _list_likely_layouts(numbers: IntArray, squares: IntArray, step: int) -> list[TagLayout]:
     """List the layouts by which two of the tags are neighbours in a column, as they are seen."""
     away = np.abs(squares - squares[:, None])
-    beneath = (away == np.array([step, 0])).all(axis=2)
-    between = np.unique(np.abs(np.subtract.outer(numbers, numbers))[beneath])
-    return [
-        layout
-        for cols in between.tolist()
-        if 0 < cols <= MAX_COLS
-        for layout in list_layouts(cols, None)
-    ]
+    return list_layouts_of_columns(numbers, (away == np.array([step, 0])).all(axis=2))
 
 
 def _find_step(numbers: IntArray, squares: IntArray) -> int | None:

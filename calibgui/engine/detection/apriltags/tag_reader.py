@@ -52,6 +52,8 @@ class TagPrint(NamedTuple):
     family: str
     border: int
     """Width of the border, cells."""
+    turn: int = 0
+    """Number of quarters by which each tag is turned clockwise on the board."""
 
     @property
     def side(self) -> int:
@@ -144,13 +146,13 @@ class TagReader:
 def verify_tags(
     image: GreyImage, quads: Array, tag_print: TagPrint, numbers: IntArray
 ) -> BoolArray:
-    """Verify which quadrilaterals (n, 4, 2) px show the tags of given numbers (n,), upright, by the
+    """Verify which quadrilaterals (n, 4, 2) px show the tags of given numbers (n,), by the
     steps between neighbouring cells: in part of a shadow no level parts dark cells from bright."""
     return rate_tags(image, quads, tag_print, numbers) > MIN_RIGHT_STEPS
 
 
 def rate_tags(image: GreyImage, quads: Array, tag_print: TagPrint, numbers: IntArray) -> Array:
-    """Rate quadrilaterals (n, 4, 2) px as the tags of given numbers (n,), upright, by the share of
+    """Rate quadrilaterals (n, 4, 2) px as the tags of given numbers (n,) by the share of
     the steps between neighbouring cells that have the sign that the number says, (n,)."""
     ink = draw_tags(tag_print, numbers)
     level = measure_cells(image, quads, tag_print.side)
@@ -163,10 +165,10 @@ def rate_tags(image: GreyImage, quads: Array, tag_print: TagPrint, numbers: IntA
 
 
 def draw_tags(tag_print: TagPrint, numbers: IntArray) -> BoolArray:
-    """Draw tags of given numbers (n,) upright: their cells (n, k, k), True where dark, the border
-    included."""
+    """Draw tags of given numbers (n,) as they stand on the board: their cells (n, k, k), True where
+    dark, the border included."""
     width = 2 * ((tag_print.border,) * 2,)
-    cells = load_family(tag_print.family).cells[numbers]
+    cells = np.rot90(load_family(tag_print.family).cells[numbers], -tag_print.turn, axes=(1, 2))
     return np.pad(cells, ((0, 0), *width), constant_values=True)
 
 

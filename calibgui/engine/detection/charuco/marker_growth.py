@@ -38,7 +38,7 @@ MARKER_NEIGHBOURS = np.array([(-2, 0), (-1, -1), (-1, 1), (0, -2), (0, 2), (1, -
 
 @dataclass(frozen=True, eq=False, slots=True)
 class MarkerPrints:
-    """What is printed of the markers of a board."""
+    """The prints of the markers of a board."""
 
     steps: Array
     """(m, s) the steps between neighbouring cells of each number, the border included: 1 where the

@@ -72,7 +72,7 @@ def describe_cut(shape: tuple[int, int]) -> str:
     """Return a sentence that says of which lattice a board is a part."""
     rows, cols = sorted(shape)
     return (
-        f"{rows} x {cols} corners hang together here and were cut where two boards seem to meet; if"
+        f"{rows} x {cols} corners join here and were cut where two boards seem to meet; if"
         " they are one, flatten it, or mark its outermost corners and state its size."
     )
 

@@ -89,7 +89,8 @@ def find_checkerboard(
         raise ValueError(f"a board needs {MIN_LINES} x {MIN_LINES} inner corners, not {grid_size}")
     grey = check_grey_levels(image)
     outline = None if roi is None else region.check_outline(roi)
-    circle = find_image_circle(grey)
+    # Only a stated size asks where boards end, or the light does.
+    circle = None if grid_size is None else find_image_circle(grey)
     others: list[RefinedBoard] = []
     try:
         board, others = _find_wanted_board(grey, grid_size, outline, method, circle)

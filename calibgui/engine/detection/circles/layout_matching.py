@@ -1,4 +1,4 @@
-"""Which of some points in an image are the circles of a listed layout, and which circle each is.
+"""Points in an image are matched with the circles of a listed layout.
 
 A circle and those around it are nearly an affine image of the layout there. From a point in the
 middle every pair of its neighbours is tried for the first two neighbours of every kind of circle,

@@ -1,4 +1,4 @@
-"""Which part of a grid of stated size is seen in an image that cuts it?
+"""The part of a grid of stated size that is seen in an image that cuts it is placed on the grid.
 
 Along each direction the part is placed if it has as many lines as the grid, or if the grid is seen
 to end on one side of it, with nothing but paper where the next line would have its circles, and the

@@ -125,8 +125,8 @@ class StatedBoard:
 
 
 class _Comparison(NamedTuple):
-    """What dots between rows, or between columns, say of the offsets into their map, for each of k
-    shares of wrong ones: parts of log L."""
+    """The evidence of dots between rows, or between columns, on the offsets into their map, for
+    each of k shares of wrong ones: parts of log L."""
 
     even: Array
     """(k,) the same for all offsets."""

@@ -11,7 +11,7 @@ from PySide6.QtWidgets import QTextBrowser, QVBoxLayout
 
 from calibgui.dataset import Result
 from calibgui.dataset.judging import recall_verdict
-from calibgui.engine.calibration import compute_correlations, make_paper_table
+from calibgui.engine.calibration import compute_correlations, is_held, make_paper_table
 from calibgui.engine.camera import Lucchese, find_model
 from calibgui.engine.geometry import PAPER_NAMES
 from calibgui.gui.panels.answer.matrix import Matrix
@@ -71,7 +71,9 @@ class ResultPanel(Panel):
         # Those of another result would be read as this one's.
         self._work.cancel()
         self.words.setPlainText(self.tr("What this result is worth is being found out."))
-        if recall_verdict(result) is not None:
+        if is_held(calibration):
+            self.words.setPlainText("\n".join(calibration.warnings))
+        elif recall_verdict(result) is not None:
             self.note_verdict()
         self.array_frame.show_columns(
             [

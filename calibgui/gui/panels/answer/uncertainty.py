@@ -20,7 +20,6 @@ from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.lengths import describe_condition
 from calibgui.gui.widgets.point_cloud import PointCloud
 from calibgui.gui.widgets.reserved_label import ReservedLabel
-from calibgui.report.quality import describe_distance
 
 _LIMIT = 0.1
 """Uncertainty that a user can live with, until another is stated, px."""
@@ -133,8 +132,9 @@ class UncertaintyPanel(Panel):
             "median, {3} px at worst (1σ). {4:.0f} % of the image is known to {5:g} px or "
             "better{6}."
         ).format(
-            describe_distance(found.distance)
-            + (describe_condition(self._result) if math.isfinite(found.distance) else ""),
+            self.tr("{0:g} mm away").format(found.distance) + describe_condition(self._result)
+            if math.isfinite(found.distance)
+            else self.tr("far away"),
             *map(format_two_digits, (found.centre, found.median, found.worst)),
             100 * share,
             limit,

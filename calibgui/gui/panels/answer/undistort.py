@@ -137,7 +137,7 @@ class UndistortPanel(Panel):
 
     @property
     def choice(self) -> Undistortion | None:
-        """What the user has chosen; None for an image rectified to the board."""
+        """The choice of the user; None for an image rectified to the board."""
         way, view = str(self.way.currentData()), str(self.view.currentData())
         if way == RECTIFIED:
             return None

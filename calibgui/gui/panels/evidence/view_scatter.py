@@ -15,7 +15,7 @@ from calibgui.gui.widgets.point_cloud import PointCloud
 
 
 class ViewScatter(Plot):
-    """What was measured of each view, against something else; a ring marks one view.
+    """A plot of a quantity of each view against another; a ring marks one view.
 
     Args:
         x, y, x_unit, y_unit, square, counts: as for `Plot`.

@@ -11,6 +11,7 @@ from calibgui.engine.calibration import Cost, Iteration, Status
 from calibgui.gui.panels.panel import Panel
 from calibgui.gui.panels.services import Services
 from calibgui.gui.widgets import theme
+from calibgui.gui.widgets.fit_text import describe_fit
 from calibgui.gui.widgets.plots import Plot
 from calibgui.gui.widgets.reserved_label import ReservedLabel
 from calibgui.gui.widgets.tables import format_seconds
@@ -66,6 +67,9 @@ class ConvergencePanel(Panel):
         calibration = result.calibration
         self._iterations = [*calibration.history]
         self._draw()
+        if not calibration.history:
+            self.words.setText(self.tr("The camera is known from a file: nothing was solved."))
+            return
         last = calibration.history[-1]
         self._state_unit(calibration.cost)
         is_weighted = any(view.cov is not None for view in result.observations())
@@ -78,6 +82,7 @@ class ConvergencePanel(Panel):
             self._ending(calibration.status).format(last.index)
             + " "
             + text.format(last.rms, self._unit, format_seconds(last.seconds))
+            + f" {describe_fit(result)}."
         )
 
     def _state_unit(self, cost: Cost) -> None:

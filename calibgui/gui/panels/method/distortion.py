@@ -29,7 +29,7 @@ _ARROWS = 14
 
 
 class DistortionPanel(Panel):
-    """How far the lens moves each pixel from where an ideal camera would see it."""
+    """A map of how far the lens moves each pixel from where an ideal camera would see it."""
 
     title = str(QT_TRANSLATE_NOOP("DistortionPanel", "Distortion"))
     purpose = str(

@@ -107,8 +107,7 @@ class StageOnePanel(Panel):
         row = self._rows[max(k, 0)]
         g = evaluate_cosines_equation(row.backward, _SEARCHED, is_paper)
         self._curve.setData(_SEARCHED, g, connect="finite")
-        has_values = bool(np.isfinite(g).any())
-        self.equation.area.show_numbers(has_values)
+        self.equation.area.show_numbers(bool(np.isfinite(g).any()))
         known = np.isfinite(row.aspect)
         self._root.setData([row.aspect] if known else [], [0.0] if known else [])
         self._current.setData([max(k, 0) + 1] if known else [], [row.aspect] if known else [])
@@ -116,9 +115,7 @@ class StageOnePanel(Panel):
         self.equation.set_title(
             self.tr("{0}<br>r = {1:.4f}").format(name, row.aspect)
             if known
-            else self.tr("{0}<br>aspect ratio not determined").format(name)
-            if has_values
-            else self.tr("{0}<br>no curve: its tilt does not determine r").format(name)
+            else self.tr("{0}<br>r is not determined").format(name)
         )
 
     def _list_columns(self) -> list[Column]:
@@ -183,7 +180,7 @@ class StageOnePanel(Panel):
         marked: dict[int, list[str]] = {}
         for name in ("xp", "yp", "k1", "fx", "rms"):
             values = np.array([getattr(row, name) for row in rows])
-            for k in np.flatnonzero(_far(values)).tolist() if np.isfinite(values).any() else ():
+            for k in np.flatnonzero(_are_far(values)).tolist() if np.isfinite(values).any() else ():
                 marked.setdefault(k, []).append(name)
         for k, row in enumerate(rows):
             if not row.converged:
@@ -201,8 +198,8 @@ def _power(values: Sequence[float]) -> int:
     return int(np.floor(np.log10(np.median(known)))) if known.size else 0
 
 
-def _far(values: Array) -> BoolArray:
-    """Which values are far outside the quartiles of all."""
+def _are_far(values: Array) -> BoolArray:
+    """Return which values are far outside the quartiles of all."""
     low, high = np.nanquantile(values, [0.25, 0.75])
     reach = _OUTLYING * (high - low)
     return np.asarray((values < low - reach) | (values > high + reach))

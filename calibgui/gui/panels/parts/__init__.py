@@ -1,1 +1,1 @@
-"""What several panels are made of: maps, arrows, tables, and places side by side."""
+"""The parts that several panels share are maps, arrows, tables, and places side by side."""

@@ -25,7 +25,7 @@ _LEAST_PX = 1e-3
 
 
 class Difference(Protocol):
-    """How far the images of the same points lie apart, over the image: what the map draws."""
+    """The distances between the images of the same points, over the image."""
 
     @property
     def u(self) -> Array:

@@ -50,7 +50,7 @@ def test_a_fisheye_is_the_cause_where_the_board_is_off_as_well(board: str) -> No
     )
     findings = found(views, board_shape=board)
     assert [finding.cause for finding in findings] == [Cause.LENS]
-    assert ("estimates the board's shape" in findings[0].evidence) is (board == "nominal")
+    assert ("with the board as calibrated" in findings[0].evidence) is (board == "nominal")
     followed = found(views, model="kannala-brandt")
     assert [finding.cause for finding in followed] == [Cause.BOARD_SHAPE]
     assert found(views, model="kannala-brandt", board_shape="free") == ()

@@ -18,11 +18,13 @@ from calibgui.engine.assessment.causes.input_errors import (
 from calibgui.engine.assessment.causes.two_pictures import find_two_pictures
 from calibgui.engine.assessment.changes.comparison import compare_cameras
 from calibgui.engine.assessment.finding import Cause, Finding
+from calibgui.engine.assessment.residuals.residual_statistics import summarise_residuals
 from calibgui.engine.calibration.calibrate import calibrate
 from calibgui.engine.calibration.observations import Observation
 from calibgui.engine.camera.camera import Camera
 from calibgui.engine.errors import CalibrationError, Cancelled
 from calibgui.engine.geometry.pose import Pose
+from calibgui.engine.numbers import format_two_digits
 from tests.engine.scenes import VGA, barrel, looking, scene, scene_in_the_middle, seen
 from tests.faults.campaign import inject_fault
 from tests.faults.sets import draw_rendered_set, photograph
@@ -159,9 +161,13 @@ def test_corners_are_misplaced_on_a_rough_board_and_both_are_named(roughness: fl
     uv = np.array(uv)
     uv[row[:-1]] = uv[row[1:]]
     views[3] = Observation(uv, xy)
-    first, second = found(views)
+    calibration = calibrate(views, VGA)
+    first, second = list_findings(calibration, views)
     assert (first.cause, second.cause) == (Cause.MISPLACED_CORNERS, Cause.BOARD_SHAPE)
     assert 3 in first.views
+    shown = format_two_digits(summarise_residuals(calibration.residuals).rms)
+    assert f"of {shown} px RMS;" in first.evidence
+    assert f" px RMS ({shown} px with the corners that do not fit)" in second.evidence
 
 
 def test_corners_are_misplaced_where_other_views_have_motion_and_long_tails() -> None:

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from calibgui.engine.assessment.action import ActionKind
+from calibgui.engine.assessment.causes import odd_views
 from calibgui.engine.assessment.causes.case import prepare_case
 from calibgui.engine.assessment.causes.findings import list_findings
 from calibgui.engine.assessment.causes.odd_views import OddViews, find_odd_views, turn_view
@@ -30,6 +31,12 @@ def make_views(count: int, seed: int = 4, noise: float = 0.1) -> list[Observatio
         (14, (2, 5), (-1, -1), "upside down"),
         (9, (2, 4, 6), (-1, -1), "upside down"),  # they hide each other
         (9, (3,), (-1, 1), "mirrored left to right"),
+        (9, (0,), (-1, 1), "mirrored left to right"),
+        (10, (4, 7), (-1, 1), "mirrored left to right"),
+        (10, (9,), (1, -1), "mirrored top to bottom"),
+        (12, (1, 6, 8), (1, -1), "mirrored top to bottom"),
+        (8, (0,), (-1, -1), "upside down"),
+        (20, (3, 11), (-1, -1), "upside down"),
         (12, (0, 7), (1, -1), "mirrored top to bottom"),
     ],
 )
@@ -44,6 +51,20 @@ def test_turned_photographs_are_named_before_any_cause(
     assert finding.cause is Cause.MIXED_VIEWS and finding.views == turned
     assert how in finding.message and all(names[k] in finding.message for k in turned)
     assert finding.action is not None and finding.action.kind is ActionKind.LEAVE_OUT_VIEWS
+
+
+@pytest.mark.parametrize(("turn", "how"), [((-1, -1), "upside down"), ((1, -1), "top to bottom")])
+def test_turned_photographs_are_named_where_the_boards_shape_is_free(
+    turn: tuple[int, int], how: str
+) -> None:
+    """The shape takes up a part of what a turned view leaves."""
+    views = make_views(9, seed=4, noise=0.03)
+    views[8] = turn_view(views[8], turn, VGA, ENDS)
+    calibration = calibrate(views, VGA, board_shape="free")
+    found = find_odd_views(prepare_case(calibration, views, [str(k) for k in range(9)]))
+    assert found.turned is not None
+    assert found.turned.views == (8,)
+    assert how in found.turned.how
 
 
 def test_a_view_of_another_zoom_is_a_stranger() -> None:
@@ -64,6 +85,19 @@ def test_rows_read_in_motion_make_no_view_turned() -> None:
     ]
     names = [str(k) for k in range(len(views))]
     assert find_odd_views(prepare_case(calibrate(views, VGA), views, names)) == OddViews()
+
+
+def test_a_view_weighs_alike_in_every_reading() -> None:
+    """One of large covariances does not suit the others better because it is read by itself."""
+    views = [
+        view._replace(cov=np.tile((0.1 * (1 + (k == 6))) ** 2 * np.eye(2), (len(view.uv), 1, 1)))
+        for k, view in enumerate(make_views(8))
+    ]
+    case = prepare_case(calibrate(views, VGA), views, [str(k) for k in range(8)])
+    by_itself, with_others = odd_views._Readings(case), odd_views._Readings(case)
+    by_itself._read(np.arange(8) == 6)
+    with_others._read(np.ones(8, dtype=bool))
+    np.testing.assert_allclose(by_itself.forms[:, 6], with_others.forms[:, 6], rtol=1e-6)
 
 
 def test_a_turned_view_is_the_same_once_it_is_turned_back() -> None:

@@ -60,7 +60,7 @@ def test_a_shape_without_its_covariance_says_so() -> None:
         for held in (shape, replace(shape, covariance=None))
     )
     assert known.warnings == ()
-    assert "does not say how the errors of its corners hang together" in unknown.warnings[0]
+    assert "does not say how the errors of its corners are correlated" in unknown.warnings[0]
     assert (unknown.sigma[:9] > unknown.sigma_by_noise[:9]).all()
     assert (unknown.sigma[:4] < known.sigma[:4]).all()
 

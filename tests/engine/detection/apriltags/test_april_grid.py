@@ -589,3 +589,36 @@ def test_a_board_of_another_first_tag_is_told() -> None:
         find_corners(image, (8, 10), pattern=AprilGrid(first_tag=0))
     with pytest.raises(CalibrationError, match="cannot have the number -1"):
         AprilGrid(first_tag=-1)
+
+
+@pytest.mark.parametrize("corner_squares", [True, False])
+@pytest.mark.parametrize("from_top", [False, True])
+@pytest.mark.parametrize("turn", [1, 2, 3])
+def test_tags_that_are_turned_on_the_board_are_read(
+    turn: int, from_top: bool, corner_squares: bool
+) -> None:
+    """OpenCV's tags are turned by a half; along columns counted ones by a quarter."""
+    pattern = AprilGrid("t36h11", 0.3, 2, from_top, corner_squares, None, turn)
+    scene = replace(KALIBR, board=Board(6, 8, 24.0, pattern))
+    corners = find_corners(scene.image(), pattern=AprilGrid())
+    assert corners.shape == (6, 8)
+    assert corners.complete
+    assert isinstance(corners.pattern, AprilGrid)
+    assert (corners.pattern.tag_turn, corners.pattern.from_top) == (turn, from_top)
+    assert_at_bound(scene, corners)
+
+
+def test_a_row_of_turned_tags_is_no_board_of_one_column() -> None:
+    pattern = AprilGrid("t36h11", 0.3, 2, False, True, None, 1)
+    scene = replace(KALIBR, board=Board(8, 10, 20.0, pattern))
+    one_row = cover_tags(scene.image(), tuple(range(5, 10)))
+    with pytest.raises(NoBoardError):
+        find_corners(one_row, pattern=AprilGrid())
+    corners = find_corners(one_row, (8, 10), pattern=AprilGrid(from_top=False))
+    assert_at_bound(scene, corners)
+    with pytest.raises(NoBoardError, match="each tag turned by 90 degrees"):
+        find_corners(scene.image(), (10, 8), pattern=AprilGrid())
+    with pytest.raises(NoBoardError, match="each tag turned by 90 degrees"):
+        find_corners(scene.image(), (8, 10), pattern=AprilGrid(tag_turn=0))
+    with pytest.raises(CalibrationError, match="turned by 4 quarters"):
+        AprilGrid(tag_turn=4)

@@ -129,7 +129,7 @@ def test_why_a_plot_is_empty_is_told_without_numbers(
     one = replace(result, calibration=replace(result.calibration, stage_one=tuple(rows)))
     panel = shown(StageOnePanel, one)
     panel.select(0)
-    assert "no curve" in panel.equation.area.title.text
+    assert "not determined" in panel.equation.area.title.text
     assert "No view determines" in panel.aspects.area.title.text
 
     def count_numbers() -> list[int]:
