@@ -212,8 +212,8 @@ class _Scene:
                 )
                 values[row, :, col][..., some] = halves.mean(axis=(1, 3))
         rows, cols = -(-len(v) // 2), -(-len(u) // 2)
-        values = values.reshape(4, 4, rows, cols).transpose(2, 0, 3, 1)
-        return values.reshape(4 * rows, 4 * cols)[: 2 * len(v), : 2 * len(u)]
+        ordered = values.reshape(4, 4, rows, cols).transpose(2, 0, 3, 1)
+        return ordered.reshape(4 * rows, 4 * cols)[: 2 * len(v), : 2 * len(u)]
 
     def _compute_levels(
         self,
