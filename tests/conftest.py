@@ -19,6 +19,7 @@ from hypothesis import HealthCheck, settings
 
 from calibgui.app.system.workers import do_tasks_here
 from calibgui.engine.kernels import COMPILED
+from calibgui.engine.threads import limit_blas_threads
 from tests.photographs import write_photographs
 
 settings.register_profile(
@@ -46,13 +47,17 @@ _M_TRIM_THRESHOLD, _M_MMAP_THRESHOLD = -1, -3
 
 
 def pytest_configure(config: pytest.Config) -> None:
-    """Keep the memory of freed arrays for later ones.
+    """Keep the memory of freed arrays for later ones, and one thread of BLAS in this process.
 
     A drawn photograph has arrays of 40 MB. To have each of them from the system anew takes half
-    of the time of drawing. Other C libraries than glibc are left as they are, and so is the
-    program where its speed is measured.
+    of the time of drawing. Other C libraries than glibc are left as they are. Threads of BLAS that
+    wait for a processor, which xdist keeps busy, wait in a loop: small products cost twice as much.
+    The program is left as it is where its speed is measured.
     """
-    if sys.platform == "linux" and not config.getoption("benchmark_only"):
+    if config.getoption("benchmark_only"):
+        return
+    limit_blas_threads()
+    if sys.platform == "linux":
         with contextlib.suppress(AttributeError):  # only glibc has it
             for option in (_M_TRIM_THRESHOLD, _M_MMAP_THRESHOLD):
                 ctypes.CDLL(None).mallopt(option, _KEPT_BYTES)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
+
 import cv2
 import numpy as np
 
@@ -29,17 +31,7 @@ def cast_shadow(board: Board, seed: int, depth: float, penumbra: float) -> Photo
         penumbra: width of the edge, px.
     """
     rng = np.random.default_rng([seed, 111])
-    middle = (np.array(_SIZE) * _PARTS - 1) / 2
-    focal = 560.0 * _PARTS
-    lens = np.array([focal, focal, *middle, 0.1, 0.02, 0.0, 1e-4, 0.0, 0.0])
-    camera = Camera((_SIZE[0] * _PARTS, _SIZE[1] * _PARTS), lens)
-    rvec = np.append(rng.uniform(-0.45, 0.45, 2), rng.uniform(-0.5, 0.5))
-    points = board.points()
-    distance = 560.0 * float(np.ptp(points, axis=0).max()) / (0.62 * _SIZE[0])
-    aside = rotation_from_vector(rvec)[:, :2] @ points.mean(axis=0)
-    pose = Pose(tuple(rvec), np.array([0.0, 0.0, distance]) - aside)
-    light = compute_irradiance(camera, pose, board, appearance=Appearance(_INK, 205.0))
-    corners = project_points(points, camera, pose)
+    light, corners = _draw_lit(board, (*rng.uniform(-0.45, 0.45, 2), rng.uniform(-0.5, 0.5)))
 
     v, u = np.mgrid[: light.shape[0], : light.shape[1]]
     place = corners[rng.integers(len(corners))] + rng.uniform(-10, 10, 2) * _PARTS
@@ -54,3 +46,19 @@ def cast_shadow(board: Board, seed: int, depth: float, penumbra: float) -> Photo
     levels = np.asarray(cv2.resize(levels, _SIZE, interpolation=cv2.INTER_AREA))
     uv: Array = ((corners + 0.5) / _PARTS - 0.5).reshape(board.rows, board.cols, 2)
     return Photograph(as_bytes(add_noise(levels, 2.0, seed)), (uv,))
+
+
+@lru_cache(maxsize=1)
+def _draw_lit(board: Board, rvec: tuple[float, float, float]) -> tuple[Array, Array]:
+    """Return the levels of the parts of the pixels without a shadow, and the corners (n, 2) in
+    them; it takes most of the time, and several shadows fall on the same board."""
+    middle = (np.array(_SIZE) * _PARTS - 1) / 2
+    focal = 560.0 * _PARTS
+    lens = np.array([focal, focal, *middle, 0.1, 0.02, 0.0, 1e-4, 0.0, 0.0])
+    camera = Camera((_SIZE[0] * _PARTS, _SIZE[1] * _PARTS), lens)
+    points = board.points()
+    distance = 560.0 * float(np.ptp(points, axis=0).max()) / (0.62 * _SIZE[0])
+    aside = rotation_from_vector(np.array(rvec))[:, :2] @ points.mean(axis=0)
+    pose = Pose(rvec, np.array([0.0, 0.0, distance]) - aside)
+    light = compute_irradiance(camera, pose, board, appearance=Appearance(_INK, 205.0))
+    return light, project_points(points, camera, pose)

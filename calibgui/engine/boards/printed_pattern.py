@@ -92,7 +92,7 @@ class PrintedRectangles:
         (i, off_x), (j, off_y) = (
             _find_nearest_line(lines, along) for lines, along in ((self.x, X), (self.y, Y))
         )
-        share = cells[j + (off_y > 0), i + (off_x > 0)]
+        share = cells.take((j + (off_y > 0)) * cells.shape[1] + i + (off_x > 0))
         cut = (np.abs(off_x) < width / 2) | (np.abs(off_y) < height / 2)
         i, j = i[cut], j[cut]
         beyond, below = (

@@ -35,11 +35,12 @@ from calibgui.engine.geometry.frames import centre_of_array
 from calibgui.engine.geometry.pose import Pose
 from calibgui.engine.geometry.rotations import rotation_from_vector
 from calibgui.engine.images.sampling import make_mesh
+from calibgui.engine.threads import with_one_blas_thread
 
 _DIVISIONS_PER_PIXEL = 4
 """Number of parts of each side of a pixel that an edge crosses, a multiple of 2."""
-_PIXELS_PER_CHUNK = 1 << 17
-"""Number of pixels mapped at once, which bounds the memory for the derivatives."""
+_PIXELS_PER_CHUNK = 1 << 15
+"""Number of pixels, or of their parts, worked on at once: their arrays stay in the cache."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -93,6 +94,7 @@ def render_view(
     return np.clip(np.rint(levels), 0, 255).astype(np.uint8)
 
 
+@with_one_blas_thread
 def compute_irradiance(
     camera: Camera,
     pose: Pose,
@@ -113,16 +115,16 @@ def compute_irradiance(
         )
     (w, h), margin = camera.size, int(np.ceil(4 * blur))
     u = np.arange(-margin, w + margin, dtype=np.float64)
-    rows = max(1, _PIXELS_PER_CHUNK // len(u))
+    rows = 2 * max(1, _PIXELS_PER_CHUNK // (2 * len(u)))
     scene = _Scene(camera, pose, board, board.pattern.draw(board.grid_size), look)
-    bands = []
-    for first in range(0, h, rows):
-        v = np.arange(first - margin, min(first + rows, h) + margin, dtype=np.float64)
-        halves = scene.compute_half_pixels(u, v)
-        if blur > 0:
-            halves = scipy.ndimage.gaussian_filter(halves, 2 * blur, truncate=4.0)
-        seen = halves.reshape(len(v), 2, len(u), 2).mean(axis=(1, 3))
-        bands.append(seen[margin : len(v) - margin, margin : w + margin])
+    halves, bands = np.empty((0, 2 * len(u))), []
+    for first in range(-margin, h + margin, rows):
+        v = np.arange(first, min(first + rows, h + margin), dtype=np.float64)
+        halves = np.concatenate([halves, scene.compute_half_pixels(u, v)])
+        spread = scipy.ndimage.gaussian_filter(halves, 2 * blur, truncate=4.0) if blur else halves
+        seen = spread.reshape(-1, 2, len(u), 2).mean(axis=(1, 3))
+        bands.append(seen[margin : len(seen) - margin, margin : w + margin])
+        halves = halves[max(0, len(halves) - 4 * margin) :]  # what the next rows are blurred with
     levels = np.concatenate(bands)
     centre = centre_of_array(camera.size)
     light = 1 + look.shading[0] * (np.arange(w) - centre[0]) / w
@@ -155,20 +157,23 @@ class _Blocks:
     centres: Array
     """(n, 2) px."""
     coefficients: Array
-    """(n, 2, 6) of X and of Y, in squares, for 1, u, v, u^2, u v and v^2 from the centre, px."""
+    """(6, 2, n) for 1, u, v, u^2, u v and v^2 from the centre, px, of X and of Y, in squares."""
     smooth: BoolArray
     """(n,) True where the board's plane is seen here and in all neighbours, as the series needs."""
 
     def expand(self, which: IntArray | slice, offsets: Array) -> tuple[Array, Array]:
-        """Return XY (m, k, 2) of m blocks at `offsets` (k, 2) from their centres, and its gradient
-        (m, k, 2, 2) along u and v."""
+        """Return XY (k, m, 2) of m blocks at `offsets` (k, 2) from their centres, and its gradient
+        (k, m, 2, 2) along u and v.
+
+        In memory the blocks are next to each other, as all that follows is done on long rows.
+        """
         u, v = offsets.T
         zero, one = np.zeros_like(u), np.ones_like(u)
         value = [one, u, v, u * u, u * v, v * v]
         by_u, by_v = [zero, one, zero, 2 * u, v, zero], [zero, zero, one, zero, u, 2 * v]
-        terms = np.stack([value, by_u, by_v], axis=1).reshape(6, -1)
-        found = self.coefficients[which].reshape(-1, 6) @ terms
-        found = found.reshape(-1, 2, 3, len(u)).transpose(0, 3, 1, 2)
+        terms = np.moveaxis(np.array([value, by_u, by_v]), 1, -1).reshape(-1, 6)
+        found = terms @ self.coefficients[:, :, which].reshape(6, -1)
+        found = found.reshape(3, len(u), 2, -1).transpose(1, 3, 2, 0)
         return found[..., 0], found[..., 1:]
 
 
@@ -188,42 +193,58 @@ class _Scene:
         parts = (np.arange(_DIVISIONS_PER_PIXEL) + 0.5) / _DIVISIONS_PER_PIXEL - 0.5
         offsets = make_mesh(parts, parts).reshape(-1, 2)
         step = _PIXELS_PER_CHUNK // len(offsets)
-        values = np.empty((len(blocks.centres), 2, 2, 2, 2))
+        values = np.empty((2, 2, 2, 2, len(blocks.centres)))
         for row, col in np.ndindex(2, 2):
             pixel = np.array([col, row]) - 0.5
-            levels, mixed = self._compute_levels(blocks, slice(None), pixel[None], 1.0)
-            values[:, row, col] = levels[..., None]
-            which = np.flatnonzero(mixed)
+            nowhere = np.zeros(len(blocks.centres), np.bool_)
+            (levels,), (paper,), (mixed,) = self._compute_levels(
+                blocks, slice(None), pixel[None], 1.0, nowhere
+            )
+            values[row, :, col] = levels
+            on_paper, which = paper == 1, np.flatnonzero(mixed)
             for i in range(0, len(which), step):
                 some, width = which[i : i + step], 1 / _DIVISIONS_PER_PIXEL
-                fine, _ = self._compute_levels(blocks, some, pixel + offsets, width)
-                halves = fine.reshape(
-                    -1, 2, _DIVISIONS_PER_PIXEL // 2, 2, _DIVISIONS_PER_PIXEL // 2
+                fine, _, _ = self._compute_levels(
+                    blocks, some, pixel + offsets, width, on_paper[some]
                 )
-                values[some, row, col] = halves.mean(axis=(2, 4))
+                halves = fine.reshape(
+                    2, _DIVISIONS_PER_PIXEL // 2, 2, _DIVISIONS_PER_PIXEL // 2, -1
+                )
+                values[row, :, col][..., some] = halves.mean(axis=(1, 3))
         rows, cols = -(-len(v) // 2), -(-len(u) // 2)
-        values = values.reshape(rows, cols, 2, 2, 2, 2).transpose(0, 2, 4, 1, 3, 5)
-        return values.reshape(4 * rows, 4 * cols)[: 2 * len(v), : 2 * len(u)]
+        ordered = values.reshape(4, 4, rows, cols).transpose(2, 0, 3, 1)
+        return ordered.reshape(4 * rows, 4 * cols)[: 2 * len(v), : 2 * len(u)]
 
     def _compute_levels(
-        self, blocks: _Blocks, which: IntArray | slice, offsets: Array, width: float
-    ) -> tuple[Array, BoolArray]:
-        """Compute mean levels (m, k) of squares of side `width` px at `offsets` (k, 2) from the
-        centres of m blocks, and where edges may cross them."""
+        self,
+        blocks: _Blocks,
+        which: IntArray | slice,
+        offsets: Array,
+        width: float,
+        on_paper: BoolArray,
+    ) -> tuple[Array, Array, BoolArray]:
+        """Compute mean levels (k, m) of squares of side `width` px at `offsets` (k, 2) from the
+        centres of m blocks, the share of each that is paper, and where edges may cross them.
+
+        Of blocks `on_paper` (m,) it is known that the paper does not end there.
+        """
         XY, gradient = blocks.expand(which, offsets)
         visible = np.ones(XY.shape[:2], dtype=np.bool_)
         torn = ~blocks.smooth[which]
         if torn.any():
-            exact = self._map_to_board(blocks.centres[which][torn, None] + offsets)
-            XY[torn], gradient[torn], visible[torn] = exact
+            exact = self._map_to_board(blocks.centres[which][torn] + offsets[:, None])
+            XY[:, torn], gradient[:, torn], visible[:, torn] = exact
         look = self.look
         widths = gradient * width
+        paper = np.ones(XY.shape[:2])
         # The paper ends far from any point: that its edges are not divided does no harm.
-        paper, _ = _make_paper(self.ink, look.quiet_zone).compute_ink_share(XY, widths)
+        paper[:, ~on_paper], _ = _make_paper(self.ink, look.quiet_zone).compute_ink_share(
+            XY[:, ~on_paper], widths[:, ~on_paper]
+        )
         ink, mixed = self.ink.compute_ink_share(XY, widths)
         levels = look.background + (look.white - look.background) * paper
         levels = np.where(visible, levels - (look.white - look.black) * ink, look.background)
-        return levels, visible & mixed
+        return levels, paper, visible & mixed
 
     def _map_blocks(self, u: Array, v: Array) -> _Blocks:
         """Map the blocks of 2 x 2 pixels that hold rows `v` and columns `u` of pixels."""
@@ -236,7 +257,7 @@ class _Scene:
         XY, gradient, centres = XY[inner], gradient[inner], around[inner]
         mixed = (by_u[..., 1] + by_v[..., 0]) / 2
         series = [XY, gradient[..., 0], gradient[..., 1], by_u[..., 0] / 2, mixed, by_v[..., 1] / 2]
-        coefficients = np.stack(series, axis=-1).reshape(-1, 2, 6)
+        coefficients = np.moveaxis(np.stack(series), -1, 1).reshape(6, 2, -1)
         return _Blocks(centres.reshape(-1, 2), coefficients, (smooth & visible[inner]).ravel())
 
     def _map_to_board(self, uv: Array) -> tuple[Array, Array, BoolArray]:

@@ -355,7 +355,8 @@ def test_the_first_tag_that_most_photographs_tell_is_that_of_all(
             image = image[: int(uv[4 * 8 :, 1].min())]
             image = np.pad(image, ((0, CAMERA.size[1] - len(image)), (0, 0)), mode="edge")
         write_image(tmp_path / f"view{k}.png", image)
-    found = find_views(find_images([str(tmp_path)]), stated, pattern=AprilGrid())
+    with workers.do_tasks_here():
+        found = find_views(find_images([str(tmp_path)]), stated, pattern=AprilGrid())
     assert found.grid_size == (6, 8)
     assert isinstance(found.pattern, AprilGrid)
     assert found.pattern.first_tag == 24

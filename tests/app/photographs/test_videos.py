@@ -24,6 +24,8 @@ from calibgui.engine.errors import CalibrationError
 from calibgui.engine.features import Corners
 from calibgui.engine.images import read_colour, write_image
 
+pytestmark = pytest.mark.usefixtures("search_here")
+
 _WIDTH, _HEIGHT = 320, 240
 _POSES = 6
 

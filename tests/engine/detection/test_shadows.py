@@ -29,27 +29,18 @@ _SHADOWS = [(0.3, 1.0), (0.7, 30.0), (0.4, 80.0)]
 times as good as they are."""
 
 
-@pytest.mark.parametrize(
-    ("pattern", "size", "depth", "penumbra"),
-    [
-        (*board, *shadow)
-        for board in _PATTERNS
-        for shadow in (_SHADOWS[:2] if board[0] == CHECKERBOARD else _SHADOWS)
-    ],
-    ids=lambda p: getattr(p, "kind", ""),
-)
-def test_no_corner_is_sure_of_a_wrong_place(
-    pattern: Pattern, size: tuple[int, int], depth: float, penumbra: float
-) -> None:
+@pytest.mark.parametrize(("pattern", "size"), _PATTERNS, ids=lambda p: getattr(p, "kind", ""))
+def test_no_corner_is_sure_of_a_wrong_place(pattern: Pattern, size: tuple[int, int]) -> None:
     """Near the shadow's edge, corners of ChArUco boards lay five times as far off as they said, of
     AprilGrids three times; in a penumbra of 80 px those of tagged checkerboards five times."""
-    photograph = cast_shadow(Board(*size, 26.0, pattern), 3, depth, penumbra)
-    corners = find_corners(photograph.image, size, pattern=pattern)
-    (truth,) = photograph.boards
-    distance = np.linalg.norm(corners.uv[:, None] - truth.reshape(-1, 2), axis=2)
-    error = corners.uv - truth.reshape(-1, 2)[np.argmin(distance, axis=1)]
-    assert len(error) > 0.95 * truth[..., 0].size
-    assert corners.cov is not None
-    chi2 = np.einsum("ni,nij,nj->n", error, np.linalg.inv(corners.cov), error) / 2
-    assert np.mean(chi2) < 1.6
-    assert np.sqrt(np.mean(error**2)) < 0.05
+    for depth, penumbra in _SHADOWS[:2] if pattern == CHECKERBOARD else _SHADOWS:
+        photograph = cast_shadow(Board(*size, 26.0, pattern), 3, depth, penumbra)
+        corners = find_corners(photograph.image, size, pattern=pattern)
+        (truth,) = photograph.boards
+        distance = np.linalg.norm(corners.uv[:, None] - truth.reshape(-1, 2), axis=2)
+        error = corners.uv - truth.reshape(-1, 2)[np.argmin(distance, axis=1)]
+        assert len(error) > 0.95 * truth[..., 0].size
+        assert corners.cov is not None
+        chi2 = np.einsum("ni,nij,nj->n", error, np.linalg.inv(corners.cov), error) / 2
+        assert np.mean(chi2) < 1.6, (depth, penumbra)
+        assert np.sqrt(np.mean(error**2)) < 0.05, (depth, penumbra)

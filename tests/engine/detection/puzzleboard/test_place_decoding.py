@@ -63,18 +63,18 @@ def _count(
 @pytest.mark.parametrize(
     ("size", "wrong", "sigma", "stated", "least"),
     [
-        ((5, 5), 0.0, 0.1, False, 39),
-        ((5, 5), 0.0, 0.2, False, 39),
-        ((8, 8), 0.10, 0.1, False, 35),
-        ((12, 16), 0.2, 0.1, False, 40),
-        ((4, 4), 0.0, 0.1, True, 40),
-        ((8, 8), 0.30, 0.1, True, 38),
+        ((5, 5), 0.0, 0.1, False, 19),
+        ((5, 5), 0.0, 0.2, False, 19),
+        ((8, 8), 0.10, 0.1, False, 17),
+        ((12, 16), 0.2, 0.1, False, 20),
+        ((4, 4), 0.0, 0.1, True, 20),
+        ((8, 8), 0.30, 0.1, True, 19),
     ],
 )
 def test_places_are_found_and_none_is_wrong(
     size: tuple[int, int], wrong: float, sigma: float, stated: bool, least: int
 ) -> None:
-    right, false = _count(size, wrong, sigma, 40, stated)
+    right, false = _count(size, wrong, sigma, 20, stated)
     assert right >= least
     assert false == 0
 
@@ -83,7 +83,7 @@ def test_places_are_found_and_none_is_wrong(
 @pytest.mark.parametrize("stated", [False, True])
 def test_dots_at_random_have_no_place(size: tuple[int, int], stated: bool) -> None:
     rng = np.random.default_rng(6)
-    for _ in range(15):
+    for _ in range(8):
         rows, cols = size
         dots = Dots(
             rng.choice([-1.0, 1.0], (rows, cols - 1)), rng.choice([-1.0, 1.0], (rows - 1, cols))
@@ -141,7 +141,7 @@ def test_a_mirror_or_an_inverse_print_makes_no_other_place(
 ) -> None:
     """Seen as they are the dots may look like another part of the pattern."""
     rng = np.random.default_rng(5)
-    for k in range(12):
+    for k in range(4):
         origin = int(rng.integers(490)), int(rng.integers(490))
         dots = _see_dots(origin, (8, 8), k % 4, 0.0, 0.15, rng)
         dots = _invert(dots) if is_inverted else dots
