@@ -195,10 +195,11 @@ def test_from_photographs_to_an_exported_camera(
     window.files.rename_result(session.result_name)
     window.files.delete_result(next(iter(session.project.results)))
     window.images.remove([unreadable.image])
+    window.verdict.square.confirm.setFocus()
+    hand.key(Qt.Key.Key_Space)
     window.show_setup()
     window.setup.folds[-1].setChecked(True)
     for widget, key in (
-        (window.verdict.square.confirm, Qt.Key.Key_Space),
         (window.board.by_hand, Qt.Key.Key_Space),
         (window.board.by_hand, Qt.Key.Key_Space),
         (window.board.unit, Qt.Key.Key_Down),
@@ -207,6 +208,7 @@ def test_from_photographs_to_an_exported_camera(
         (window.settings.method, Qt.Key.Key_Down),
     ):
         widget.setFocus()
+        assert widget.hasFocus()
         hand.key(key)
 
     # Undo all, redo all: every step is the same on the way back and forward.
