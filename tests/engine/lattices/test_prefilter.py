@@ -196,7 +196,7 @@ def test_a_board_whose_rows_are_shifted_is_none_though_it_stands_alone(shift: fl
         find_corners(gaussian_filter(image, 2.0).astype(np.uint8))
 
 
-@pytest.mark.parametrize(("seed", "says"), [(2, "waves"), (8, "printed dots")])
+@pytest.mark.parametrize(("seed", "says"), [(2, "too ragged"), (8, "printed dots")])
 def test_the_message_names_the_rule_by_which_the_search_refused(seed: int, says: str) -> None:
     with pytest.raises(NoBoardError, match=says) as caught:
         find_corners(draw_without_board(seed))

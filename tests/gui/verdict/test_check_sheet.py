@@ -89,7 +89,7 @@ def test_photographs_on_the_desk_join_the_project(
 ) -> None:
     opened: list[str] = []
     monkeypatch.setattr(full.files, "open_paths", opened.extend)
-    monkeypatch.setattr(full, "_are_of_rig", lambda _: False)
+    monkeypatch.setattr(full.own_pages, "are_of_rig", lambda _: False)
     drop(full, full.pages.mapTo(full, full.pages.rect().center()))
     assert [Path(name).name for name in opened] == ["new.png"]
     assert full.check.isHidden()
