@@ -28,9 +28,6 @@ _WITH_WORKERS = 3
 _BY_THE_HANDLER, _BY_THE_SYSTEM = 143, -signal.SIGTERM
 """Exit codes: 143 once a command is loaded; before that the system ends it, which a shell calls
 143 as well."""
-_BY_A_LIBRARY = -signal.SIGSEGV
-"""Now and then a library does not stand that its own code is left by an exception: what counts is
-that no file is torn."""
 
 
 @pytest.fixture(scope="module")
@@ -141,14 +138,13 @@ def test_a_command_ends_at_any_moment(
             ask(process.pid, signal.SIGTERM)
             said = read_errors(process)
         assert "Traceback" not in said, (moment, said)
-        expected = (0, _BY_THE_HANDLER, _BY_THE_SYSTEM, _BY_A_LIBRARY)
-        assert process.returncode in expected, (moment, said)
+        if process.returncode not in (0, _BY_THE_HANDLER, _BY_THE_SYSTEM):
+            pytest.fail(f"moment {moment}: code {process.returncode}\n{said}")  # the whole stack
         assert not wait_for_end(process.pid), moment
         check(out)
         shutil.rmtree(out)
         codes.append(process.returncode)
     assert _BY_THE_HANDLER in codes
-    assert codes.count(_BY_A_LIBRARY) <= 1
 
 
 @pytest.mark.slow

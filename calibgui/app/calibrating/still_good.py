@@ -1,4 +1,4 @@
-"""Whether a calibration is still good, asked with a few new photographs of a board.
+"""The check of a calibration with a few new photographs of a board: is it still good?
 
 The command line and the window ask by the same function. Nothing is calibrated, and nothing that is
 stored changes.

@@ -80,7 +80,7 @@ class RecordedFrame(NamedTuple):
 
 @dataclass(frozen=True, eq=False, slots=True)
 class CaptureProgress:
-    """What was taken, and how far the camera is known by it."""
+    """The pictures that were taken, and how far the camera is known by them."""
 
     pictures: Mapping[Path, Picture]
     """The pictures that count, by the files that they were written to."""

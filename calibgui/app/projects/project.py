@@ -71,7 +71,7 @@ class Project:
     lengths_confirmed: bool = False
     """True once the user has stated the side of a square, or confirmed it."""
     limits: Limits | None = None
-    """What is demanded of the camera; None if nothing is."""
+    """Limits that the camera has to keep; None if nothing is demanded."""
     settings: Settings = field(default_factory=Settings)
     results: Mapping[str, Result] = field(default_factory=lambda: MappingProxyType({}))
     """Results by name, the oldest first."""

@@ -6,9 +6,9 @@ from collections.abc import Mapping
 from pathlib import Path
 
 _DEVICES = Path("/sys/class/video4linux")
-"""Where Linux lists video devices, each in a folder of its own."""
+"""Folder in which Linux lists video devices, each in a folder of its own."""
 _IS_CAMERA = "0"
-"""What the file `index` of a device holds for the images of a camera; others are its side data."""
+"""Content of the file `index` of a device that gives a camera's images; others are side data."""
 
 
 def list_cameras(devices: Path = _DEVICES) -> Mapping[int, str]:

@@ -74,7 +74,7 @@ class BoardScreen(QWidget):
 
     @property
     def _room(self) -> QRectF:
-        """Where the board is shown."""
+        """The rectangle in which the board is shown."""
         foot = self._bar.sizeHint().height() + 3 * _RULER_HEIGHT
         return QRectF(0, 0, self.width(), self.height() - foot)
 

@@ -68,7 +68,7 @@ _SILENT = "silent"
 
 
 class _Seen(NamedTuple):
-    """What the job tells of a frame."""
+    """A frame that was looked at, as the job tells of it."""
 
     recorded: RecordedFrame
     progress: CaptureProgress
@@ -90,14 +90,14 @@ class LivePage(QWidget):
         self._jobs = jobs
         self._job: Job | None = None
         self.session: CaptureSession | None = None
-        """What looks at the frames; None before the start."""
+        """The session that looks at the frames; None before the start."""
         self._recorder: Recorder | None = None
         self._frames: LatestFrames | None = None
         self._has_failed = False
         self._shown: object = None
         """The image that is on the screen."""
         self.folder = Path()
-        """Where the pictures are written."""
+        """The folder that the pictures are written to."""
         self.view, self.strip, self.figure = LiveView(), TakenStrip(), ProgressFigure(_LIMIT)
         self._make_controls()
         self._lay_out()

@@ -1,4 +1,4 @@
-"""How far a capture has come: a ring, the sensor with what was seen of it, and the tilts."""
+"""The progress of a capture: a ring, the sensor with the corners seen on it, and the tilts."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a rig is worth, in words and tables."""
+"""The worth of a rig, in words and tables."""
 
 from __future__ import annotations
 

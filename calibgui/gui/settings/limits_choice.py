@@ -1,4 +1,4 @@
-"""What is demanded of the camera: nothing, a preset of limits, or those in a file."""
+"""The choice of what is demanded of a camera: nothing, a preset of limits, or those in a file."""
 
 from __future__ import annotations
 
