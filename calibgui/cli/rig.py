@@ -184,6 +184,7 @@ def _pair(options: argparse.Namespace, console: Console, output: Path | None) ->
     """Pair the photographs, or the frames of videos, of the cameras."""
     videos = find_videos(options.cameras)
     times: Times = {}
+    groups: Mapping[str, Sequence[Path]]
     if videos:
         folder = output.parent if output else Path()
         groups = write_frames(videos, folder, options.every, console.show_progress)

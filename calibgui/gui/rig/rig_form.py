@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import Signal
+from PySide6.QtCore import QSignalBlocker, Signal
 from PySide6.QtWidgets import QCheckBox, QDoubleSpinBox, QFormLayout, QSpinBox, QWidget
 
 from calibgui.dataset import DEFAULT_SQUARE, RigPairing
@@ -72,10 +72,9 @@ class RigForm(QWidget):
 
     def begin(self) -> None:
         """Forget how other photographs were paired."""
-        for box in (self.within, self.every):
-            box.blockSignals(True)
-            box.setValue(box.minimum())
-            box.blockSignals(False)
+        with QSignalBlocker(self.within), QSignalBlocker(self.every):
+            self.within.setValue(self.within.minimum())
+            self.every.setValue(self.every.minimum())
 
     @property
     def side(self) -> float | None:
