@@ -51,8 +51,9 @@ def read_times(
     for line, row in rows:
         time = parse_cell(path, line, row, "time_s")
         if "file" in head:
-            parts = PurePosixPath(row["file"].replace("\\", "/")).parts
-            meant = [one for one in by_name[parts[-1]] if one[1].parts[-len(parts) :] == parts]
+            name = PurePosixPath(row["file"].replace("\\", "/"))
+            count = len(name.parts)
+            meant = [one for one in by_name[name.name] if one[1].parts[-count:] == name.parts]
             if len(meant) > 1:
                 raise CalibrationError(
                     f"{path}, line {line}: several photographs are called {row['file']}.",

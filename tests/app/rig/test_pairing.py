@@ -154,7 +154,7 @@ def test_photographs_without_times_cannot_be_paired_by_them(tmp_path: Path) -> N
 def test_a_table_tells_the_times(tmp_path: Path) -> None:
     files = {c: [Path(c) / f"{k}.png" for k in range(3)] for c in ("x", "y")}
     table = tmp_path / "times.csv"
-    table.write_text("file,time_s\nx/0.png,0\nx/1.png,1\ny/0.png,1.01\ny/2.png,5\n")
+    table.write_text("file,time_s\nx/0.png,0\nx/1.png,1\ny/0.png,1.01\ny/2.png,5\n,7\n")
     times = read_times(table, files)
     pairing = pair_by_times(files, times, 0.1)
     (shared,) = pairing.shared
