@@ -324,6 +324,8 @@ def _describe_check(case: Case, check: NoiseCheck) -> Finding | None:
     """Describe the cause that a test of the residuals points to; None if it does no harm."""
     tested, harm = find_cause(check.name), case.measure_harm(check.share)
     if tested.cause is Cause.LENS:
+        if case.rival.share > check.share:  # what a model misses is no part of its covariance
+            harm = max(harm, case.rival.displacement)
         error = case.calibration.lens_error or float(np.sqrt(check.share)) * case.rms
         return _describe_lens(case, error, harm) if harm > MIN_HARM_PX else None
     if harm < MIN_HARM_PX:
