@@ -93,6 +93,8 @@ _CAUSES_BESIDE_SCALE = (
 """Causes of each view's own, beside which a scale of the images may explain more."""
 _OF_BOARD, _OF_VIEWS = list_tests(Family.BOARD), list_tests(Family.OF_VIEW)
 """Tests of a board that is the same in all views, and of causes of each view's own."""
+_TESTED = list_tests(*Family)
+"""Tests of all causes."""
 _EXPLAINING = [*list_tests(Family.BOARD, Family.LENS, Family.OF_VIEW), "lines"]
 """Tests of causes that explain what they do, and do not merely follow it."""
 
@@ -172,7 +174,12 @@ def _find_cause_beside_board(case: Case, failed: Mapping[str, NoiseCheck]) -> Fi
 
 
 def _find_wrong_lens(case: Case) -> Finding | None:
-    """Find a lens that a model of another kind follows better by far; None if it does not."""
+    """Find a lens that a model of another kind follows better by far; None if it does not.
+
+    None is fitted where no test of a cause fails: they see a part of what a lens leaves.
+    """
+    if not any(check.share for check in case.report.checks if check.name in _TESTED):
+        return None
     share, displacement = case.rival
     if share < MIN_SHARE_OF_RIVAL or displacement < MIN_HARM_PX:
         return None

@@ -61,6 +61,7 @@ from calibgui.engine.camera.models.splined_stereographic import SplinedStereogra
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.numbers import format_two_digits
 from calibgui.engine.threads import with_one_blas_thread
+from calibgui.engine.uncertainty.projection_uncertainty import ProjectionUncertainty
 
 _MAX_POOR_PX = 1.0
 """Uncertainty of a pixel, median over the image, above which the views are too few, px. A choice,
@@ -85,6 +86,7 @@ def list_findings(
     views: Sequence[Observation],
     names: Sequence[str] | None = None,
     check: Callable[[], None] = lambda: None,
+    known: tuple[ProjectionUncertainty, ProjectionUncertainty] | None = None,
 ) -> tuple[Finding, ...]:
     """List what is wrong with a calibration, the most harmful first.
 
@@ -93,8 +95,9 @@ def list_findings(
         views: the views that it was made from.
         names: names of the views, for messages; numbers by default.
         check: a function that is called now and then, and raises to abandon the work.
+        known: what ``split_camera_uncertainty`` says of it, if that is at hand.
     """
-    found = _find(calibration, views, names or name_views(len(views)), check)
+    found = _find(calibration, views, names or name_views(len(views)), check, known)
     return tuple(sorted(found, key=lambda finding: finding.harm, reverse=True))
 
 
@@ -103,6 +106,7 @@ def _find(
     views: Sequence[Observation],
     names: Sequence[str],
     check: Callable[[], None],
+    known: tuple[ProjectionUncertainty, ProjectionUncertainty] | None,
 ) -> Iterator[Finding]:
     """Yield what is wrong; the order of the tests is that of the description above."""
     frame = find_wrong_frame(calibration.camera, views)
@@ -115,7 +119,7 @@ def _find(
     if wrong is not None:
         yield wrong
         return
-    case = prepare_case(calibration, views, names, check)
+    case = prepare_case(calibration, views, names, check, known)
     open_coefficients = _find_open_coefficients(case)
     if calibration.cost is not Cost.IMAGE:
         calibration = _minimise_image_cost(calibration, views)

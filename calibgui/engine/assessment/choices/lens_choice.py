@@ -396,7 +396,8 @@ def _recommend(
     sound = _prefer_determined(usable)
     best = min(sound, key=lambda trial: trial.held_out)
     adequate = [trial for trial in sound if _predicts_as_well(trial, best)]
-    adequate = [trial for trial in adequate if _fills_image(trial)] or adequate
+    if _does_lens_fill_image(adequate):
+        adequate = [trial for trial in adequate if trial.valid_share == 1.0]
     errors = {trial.model: _measure_error(trial, adequate, views) for trial in adequate}
     least = MIN_GAIN_TO_ACT * min(errors.values())
     chosen = next(trial for trial in adequate if errors[trial.model] <= least)
@@ -421,9 +422,12 @@ def _predicts_as_well(trial: LensTrial, best: LensTrial) -> bool:
     return not predicts_better(best.validation.by_view, trial.validation.by_view)
 
 
-def _fills_image(trial: LensTrial) -> bool:
-    """Return whether a map is one-to-one over an image that the lens fills to its corners."""
-    return trial.valid_share == 1.0 and bool(trial.field_of_view[2] < _MAX_FILLING_DIAGONAL)
+def _does_lens_fill_image(trials: Sequence[LensTrial]) -> bool:
+    """Return whether a lens fills the image to its corners, by the best of the candidates whose map
+    is one-to-one over all of it; False if there is none."""
+    whole = [trial for trial in trials if trial.valid_share == 1.0]
+    best = min(whole, key=lambda trial: trial.held_out, default=None)
+    return best is not None and bool(best.field_of_view[2] < _MAX_FILLING_DIAGONAL)
 
 
 def _measure_error(

@@ -35,6 +35,8 @@ from calibgui.engine.calibration.initialisation.stage_one import (
     register_views,
 )
 from calibgui.engine.calibration.initialisation.start import compute_reference_points, find_facing
+from calibgui.engine.calibration.methods import find_method
+from calibgui.engine.calibration.methods.method import start_from_calibration
 from calibgui.engine.calibration.observations import (
     REFERENCE_PITCH,
     Observation,
@@ -44,7 +46,7 @@ from calibgui.engine.calibration.observations import (
     pack_observations,
 )
 from calibgui.engine.calibration.resection import estimate_poses, refine_poses
-from calibgui.engine.calibration.result import Calibration, Cost
+from calibgui.engine.calibration.result import DEFAULT_METHOD, Calibration, Cost
 from calibgui.engine.camera.projection import pixels_from_rays
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.geometry.frames import paper_from_array
@@ -132,14 +134,19 @@ def screen_outliers(
         name: settings[name] for name in ("fix", "free", "model") if name in settings
     }
     asked: set[int] = set()
+    found: Calibration | None = None
+    before: list[int] = []
     for _ in range(_MAX_SOLVES):
-        found = _calibrate_kept(given, size, names, kept, nominal)
+        how = nominal | _start_from(found, before, kept)
+        found, before = _calibrate_kept(given, size, names, kept, how), _list_used(kept)
         if not _screen_by_residual(found, given, kept):
             lost = [k for k, why in reasons.items() if k not in asked and why.endswith(_LOST)]
             asked.update(lost)
             if not _take_back_views(found, given, kept, reasons, lost):
                 break
         _leave_out_poor_views(kept, reasons)
+    if settings.get("method", DEFAULT_METHOD) == DEFAULT_METHOD:
+        settings |= _start_from(found, before, kept)
     calibration = _calibrate_kept(given, size, names, kept, settings)
     return Screening(tuple(kept), tuple(_list_rejections(kept, reasons)), calibration)
 
@@ -152,9 +159,26 @@ def _calibrate_kept(
     settings: dict[str, Any],
 ) -> Calibration:
     """Calibrate from the kept corners of the views that keep any."""
-    used = [k for k, good in enumerate(kept) if good.any()]
+    used = _list_used(kept)
     parts = [select_corners(given[k], kept[k]) for k in used]
     return calibrate(parts, size, names=[names[k] for k in used], **settings)
+
+
+def _list_used(kept: Sequence[BoolArray]) -> list[int]:
+    """List the views that keep any corners."""
+    return [k for k, good in enumerate(kept) if good.any()]
+
+
+def _start_from(
+    found: Calibration | None, before: Sequence[int], kept: Sequence[BoolArray]
+) -> dict[str, Any]:
+    """Return the method that starts from what was found of the views `before`, as an argument of
+    `calibrate`; none if there was nothing, or if one of the views was not among them."""
+    used = _list_used(kept)
+    if found is None or not set(used).issubset(before):
+        return {}
+    places = [list(before).index(k) for k in used]
+    return {"method": start_from_calibration(find_method(DEFAULT_METHOD), found, places)}
 
 
 def _screen_by_stage_one(
@@ -201,7 +225,7 @@ def _screen_by_residual(
     calibration: Calibration, given: Sequence[Observation], kept: list[BoolArray]
 ) -> bool:
     """Keep the corners within the noise of the prediction, and return whether that changed any."""
-    used = [k for k, good in enumerate(kept) if good.any()]
+    used = _list_used(kept)
     turns = rotation_from_vector(np.array([pose.rvec for pose in calibration.poses]))
     places = np.array([pose.tvec for pose in calibration.poses])
     lengths = _measure_lengths(calibration, [given[k] for k in used], turns, places)
