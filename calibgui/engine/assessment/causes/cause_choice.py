@@ -55,6 +55,7 @@ from calibgui.engine.assessment.residuals.residual_statistics import summarise_r
 from calibgui.engine.boards.shape import BoardShapeModel
 from calibgui.engine.calibration.calibrate import calibrate
 from calibgui.engine.calibration.problem import recover_image_arguments
+from calibgui.engine.calibration.result import Calibration
 from calibgui.engine.camera.models import find_model
 from calibgui.engine.errors import CalibrationError
 
@@ -190,6 +191,21 @@ def _find_blur(case: Case, failed: dict[str, NoiseCheck]) -> Finding | None:
     """Find views whose corners scatter more than the others'; None if that does no harm."""
     check = failed.get("views")
     return None if check is None else _describe_blur(case, check)
+
+
+def estimate_board(case: Case) -> Calibration | None:
+    """Estimate the board's shape if it is the most probable cause; None if it is not, or if the
+    views do not determine it."""
+    check = _choose_shared_cause(case.report.checks)
+    if check is None or check.name not in _OF_BOARD:
+        return None
+    adds = find_cause(check.name).adds
+    model = adds if adds == BoardShapeModel.AFFINE else BoardShapeModel.FREE
+    settings = recover_image_arguments(case.calibration) | {"board_shape": model}
+    try:
+        return calibrate(case.views, case.calibration.camera.size, **settings)
+    except CalibrationError:
+        return None
 
 
 def _choose_shared_cause(checks: Sequence[NoiseCheck]) -> NoiseCheck | None:

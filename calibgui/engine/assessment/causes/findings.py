@@ -30,6 +30,7 @@ from calibgui.engine.assessment.causes.cause_choice import (
     MIN_SHARE_OF_RIVAL,
     describe_strangers,
     describe_turned_views,
+    estimate_board,
     explain_most,
     find_systematic_cause,
     list_names,
@@ -38,9 +39,10 @@ from calibgui.engine.assessment.causes.input_errors import (
     describe_misplaced_corners,
     find_wrong_frame,
     find_wrong_values,
+    has_outlying_corners,
     screen_misplaced_corners,
 )
-from calibgui.engine.assessment.causes.odd_views import Strangers, find_odd_views
+from calibgui.engine.assessment.causes.odd_views import Strangers, Turned, find_odd_views
 from calibgui.engine.assessment.causes.two_pictures import TwoPictures, find_two_pictures
 from calibgui.engine.assessment.finding import (
     MIN_VIEWS_TO_JUDGE,
@@ -52,6 +54,7 @@ from calibgui.engine.assessment.finding import (
 )
 from calibgui.engine.assessment.residuals.outliers import Screening
 from calibgui.engine.assessment.residuals.residual_causes import Family, list_tests
+from calibgui.engine.assessment.residuals.residual_statistics import summarise_residuals
 from calibgui.engine.calibration.calibrate import calibrate
 from calibgui.engine.calibration.observations import Observation, name_views
 from calibgui.engine.calibration.problem import recover_image_arguments
@@ -129,7 +132,7 @@ def _find(
         yield _describe_two_pictures(case, pictures)
         return
     odd = find_odd_views(case)
-    if odd.turned is not None and not _are_of_two_kinds(case, odd.turned.views):
+    if odd.turned is not None and _are_turned(case, odd.turned):
         yield describe_turned_views(case, odd.turned)
         return
     screening = screen_misplaced_corners(calibration, views)
@@ -194,6 +197,15 @@ def _are_of_two_kinds(case: Case, odd: tuple[int, ...]) -> bool:
     return case.split is not None and tuple(np.flatnonzero(case.split.is_odd).tolist()) != odd
 
 
+def _are_turned(case: Case, found: Turned) -> bool:
+    """Return whether views are turned against the others, and not of two other kinds, or those that
+    suit a lens better that the model does not follow: a lens of another kind leaves more."""
+    if _are_of_two_kinds(case, found.views):
+        return False
+    left = summarise_residuals(found.calibration.residuals).rms
+    return left <= case.rms * float(np.sqrt(1 - case.rival.share))
+
+
 def _are_strangers(case: Case, found: Strangers) -> bool:
     """Return whether views do not belong to the others, and are not of a kind with some of them,
     or those that a cause of all makes the model miss most."""
@@ -218,11 +230,15 @@ def _misses_views(case: Case, left: Case) -> bool:
     Such a cause is a lens that another model follows better. Or it explains the residuals of the
     other corners, too: of corners that are misplaced a cause may explain much by chance, but
     without them it explains nothing. Two kinds of views explain most, and nothing is left of them
-    where one kind is left out.
+    where one kind is left out. With a board that was far from its drawing all corners fit once its
+    shape is estimated; misplaced ones do not.
     """
     split = case.split
     is_of_two_kinds = split is not None and split.share > MIN_SHARE_OF_KINDS
-    return is_of_two_kinds or _is_cause_of_all(case, left)
+    if is_of_two_kinds or _is_cause_of_all(case, left):
+        return True
+    shaped = estimate_board(case)
+    return shaped is not None and not has_outlying_corners(shaped, case.views)
 
 
 def _is_cause_of_all(case: Case, left: Case) -> bool:
