@@ -13,6 +13,10 @@ After each the camera is calibrated and the next view proposed. Every fifth pict
 the camera is not calibrated with it, and it tells how well what was not seen is predicted. The
 capture is complete when the worst pixel's uncertainty has come down to what was asked for.
 
+A first frame may show but a part of a board whose size nobody stated. When the finder meets a
+larger one, the pictures that were taken are found again as parts of it. Which part of a plain board
+they show does not matter for the camera.
+
 The lens is the best fitting of three (`MODELS`); the choice among all is left to the calibration
 that follows the capture.
 """
@@ -20,9 +24,9 @@ that follows the capture.
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -107,7 +111,8 @@ class CaptureSession:
     """Follows the board, says what to do, and takes the frames that are worth it.
 
     Args:
-        find: finds the board in an image (h, w), or raises `NoBoardError`.
+        find: finds the board in an image (h, w), or raises `NoBoardError`. It may come to know that
+            the board is larger than it took it to be.
         square: side of a square or distance of circles, mm.
         limit: uncertainty of the worst pixel's projection at which the capture is complete, px.
     """
@@ -194,7 +199,7 @@ class CaptureSession:
         grey = check_grey_levels(frame.image)
         self._check_size(grey)
         try:
-            corners = self._find(grey)
+            corners = self._find_board(grey)
         except NoBoardError as error:
             self._advice = error.message
             return None
@@ -207,9 +212,7 @@ class CaptureSession:
         if self._board is None:
             self._board = Board(*corners.shape, self._square, corners.pattern)
         try:
-            observation = make_observation(
-                corners.uv, self._board.points(corners.grid), corners.cov
-            )
+            observation = self._make_observation(corners)
         except CalibrationError as error:
             self._advice = error.message
             return None
@@ -231,7 +234,9 @@ class CaptureSession:
 
     def restore(self, picture: Picture) -> None:
         """Take a picture again that was taken back."""
-        self.pictures.append(picture)
+        assert self._board is not None
+        is_whole = picture.corners.shape == self._board.grid_size
+        self.pictures += [picture] if is_whole else self._find_again([picture])
         self._learn()
 
     def compute_tilts(self) -> Array:
@@ -280,7 +285,7 @@ class CaptureSession:
         self._motions.append(np.inf if corners is None else _measure_motion(self._corners, corners))
         if corners is None or time - self._found_at >= _SEARCH_SECONDS:
             try:
-                corners = self._find(grey)
+                corners = self._find_board(grey)
                 self._found_at = time
             except NoBoardError:
                 pass  # a blurred one can be followed where it cannot be found
@@ -290,6 +295,35 @@ class CaptureSession:
     def _is_still(self) -> bool:
         full = len(self._motions) == _STILL_FRAMES
         return full and max(self._motions) <= _STILL_PX
+
+    def _find_board(self, grey: GreyImage) -> Corners:
+        """Find the board, and with it those of earlier pictures if it is larger than they told.
+
+        Raises:
+            NoBoardError: if there is none.
+        """
+        corners = self._find(grey)
+        board = self._board
+        if board is not None and corners.shape != board.grid_size:
+            self._board = Board(*corners.shape, self._square, corners.pattern)
+            self.pictures = self._find_again(self.pictures)
+            self._learn()
+        return corners
+
+    def _find_again(self, pictures: Iterable[Picture]) -> list[Picture]:
+        """Return pictures with their corners as parts of the board, without those that show none."""
+        again = []
+        for each in pictures:
+            with suppress(CalibrationError):
+                corners = self._find(check_grey_levels(each.frame.image))
+                observation = self._make_observation(corners)
+                again.append(replace(each, corners=corners, observation=observation))
+        return again
+
+    def _make_observation(self, corners: Corners) -> Observation:
+        """Make the view of these corners; raises CalibrationError as `make_observation`."""
+        assert self._board is not None
+        return make_observation(corners.uv, self._board.points(corners.grid), corners.cov)
 
     def _locate(self, corners: Corners) -> Pose | None:
         """Locate the board with the camera so far."""
