@@ -311,7 +311,7 @@ class CaptureSession:
         return corners
 
     def _find_again(self, pictures: Iterable[Picture]) -> list[Picture]:
-        """Return pictures with their corners as parts of the board, without those that show none."""
+        """Find the board in pictures again; those in which it is not found are left out."""
         again = []
         for each in pictures:
             with suppress(CalibrationError):
