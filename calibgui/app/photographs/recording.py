@@ -168,7 +168,7 @@ class Recorder:
             if frame is None:
                 return
             self._toggle_pictures()
-            yield self._look_at(frame, is_film=source.is_continuous)
+            yield self._look_at(frame, source)
 
     def measure_progress(self) -> CaptureProgress:
         """Measure how far the camera is known; between two frames."""
@@ -190,10 +190,14 @@ class Recorder:
             for file, picture in self.measure_progress().pictures.items()
         )
 
-    def _look_at(self, frame: Frame, *, is_film: bool) -> RecordedFrame:
+    def _look_at(self, frame: Frame, source: FrameSource) -> RecordedFrame:
         session, is_wanted = self._session, self._is_wanted
         self._is_wanted = False
-        state = session.observe(frame) if is_film else session.examine(frame)
+        state = (
+            session.observe(frame, is_live=source.is_live)
+            if source.is_continuous
+            else session.examine(frame)
+        )
         if is_wanted and state.taken is None:
             state = session.examine(frame)
         if state.taken is None:

@@ -7,7 +7,9 @@ whenever it was lost. A frame is taken by itself if it is
 - new: it lowers the uncertainty of the worst pixel by at least half of what the best view would
   (`uncertainty/next_view.py`), or, while the views do not determine the camera, it is near the pose
   that is wanted,
-- sharp: its edges are not much more blurred than those of the sharpest one taken.
+- sharp: its edges are not much more blurred than those of the sharpest one taken,
+- well exposed: neither white nor black of the board are cut off (`exposure`), where the light or
+  the camera can still be changed.
 
 After each the camera is calibrated and the next view proposed. Every fifth picture is put aside:
 the camera is not calibrated with it, and it tells how well what was not seen is predicted. The
@@ -38,6 +40,7 @@ from calibgui.engine.calibration.observations import Observation, make_observati
 from calibgui.engine.calibration.result import Calibration, DegenerateError
 from calibgui.engine.camera.distortion import project_points
 from calibgui.engine.capture.board_tracking import track_corners
+from calibgui.engine.capture.exposure import judge_exposure
 from calibgui.engine.capture.frame_sources import Frame
 from calibgui.engine.capture.guidance import guide_board
 from calibgui.engine.detection.detector_io import check_grey_levels
@@ -152,8 +155,12 @@ class CaptureSession:
         """The views that the camera is calibrated from."""
         return [each.observation for each in self.pictures if not each.for_validation]
 
-    def observe(self, frame: Frame) -> CaptureState:
-        """Look at a frame, and take it if it is still, new and sharp.
+    def observe(self, frame: Frame, *, is_live: bool = True) -> CaptureState:
+        """Look at a frame, and take it if it is still, new, sharp and well exposed.
+
+        Args:
+            frame: the frame.
+            is_live: False if its exposure can no longer be changed, and does not matter.
 
         Raises:
             CalibrationError: if its size is not that of the frames before.
@@ -170,8 +177,9 @@ class CaptureSession:
             return self._state(instruction, match)
         taken = None
         if not self._has_judged:
-            self._has_judged = True
-            if self._is_worth_taking(self._corners, pose, match):
+            self._advice = judge_exposure(grey, self._corners) if is_live else ""
+            self._has_judged = not self._advice  # the light may change while the board does not
+            if self._has_judged and self._is_worth_taking(self._corners, pose, match):
                 taken = self.take(frame)
         if taken is None:
             return self._state(self._advice or instruction, match)
