@@ -92,9 +92,11 @@ def run(options: argparse.Namespace, console: Console) -> None:
         if source.remark:
             console.print_text(source.remark)
         try:
-            said = ""
+            said = readout = ""
             for recorded in recorder.record(source, lambda: False):
                 said = _tell(recorded, session, said, console)
+                if not readout and (readout := session.describe_readout()):
+                    console.print_text(f"  {readout}")
         except KeyboardInterrupt:
             console.print_text("Stopped.")
         except CalibrationError as error:

@@ -110,6 +110,8 @@ class CaptureProgress:
     there are none."""
     unseen_corners: int
     """Number of such corners."""
+    readout: str
+    """How long the camera's rows take, where what moved told; "" if it did not."""
 
 
 def check_recording_folder(folder: Path) -> None:
@@ -181,6 +183,7 @@ class Recorder:
             session.compute_tilts(),
             session.measure_unseen_error(),
             sum(len(each.corners) for each in aside) if session.calibration else 0,
+            session.describe_readout(),
         )
 
     def list_views(self) -> tuple[View, ...]:

@@ -43,9 +43,11 @@ from calibgui.engine.capture.board_tracking import track_corners
 from calibgui.engine.capture.exposure import judge_exposure
 from calibgui.engine.capture.frame_sources import Frame
 from calibgui.engine.capture.guidance import guide_board
+from calibgui.engine.capture.row_readout import RowReadout
 from calibgui.engine.detection.detector_io import check_grey_levels
 from calibgui.engine.errors import CalibrationError, NoBoardError
 from calibgui.engine.features.corners import Corners
+from calibgui.engine.geometry.homography import apply_homography, fit_homography
 from calibgui.engine.geometry.pose import Pose
 from calibgui.engine.geometry.rotations import rotation_from_vector
 from calibgui.engine.uncertainty.next_view import (
@@ -140,6 +142,8 @@ class CaptureSession:
         self._corners: Corners | None = None
         self._found_at = -np.inf
         self._motions: deque[float] = deque(maxlen=_STILL_FRAMES)
+        self._before_time = -np.inf
+        self._readout = RowReadout()
         self._has_judged = False
         """True if this pose was judged since the board last moved."""
         self._advice = ""
@@ -287,17 +291,39 @@ class CaptureSession:
     def _follow(self, grey: GreyImage, time: float) -> None:
         """Follow the board to this frame, or find it."""
         before, self._before = self._before, grey
+        seconds, self._before_time = time - self._before_time, time
         corners = None
         if self._corners is not None and before is not None:
             corners = track_corners(before, grey, self._corners)
         self._motions.append(np.inf if corners is None else _measure_motion(self._corners, corners))
         if corners is None or time - self._found_at >= _SEARCH_SECONDS:
-            try:
-                corners = self._find_board(grey)
+            with suppress(NoBoardError):  # a blurred one can be followed where it cannot be found
+                found = self._find_board(grey)
                 self._found_at = time
-            except NoBoardError:
-                pass  # a blurred one can be followed where it cannot be found
+                if corners is not None and self._corners is not None:
+                    self._time_rows(found, self._corners, corners, seconds)
+                corners = found
         self._corners = corners
+
+    def _time_rows(self, found: Corners, before: Corners, after: Corners, seconds: float) -> None:
+        """Learn how long rows take from corners found, and how they were followed to there."""
+        if self.calibration is None or self.calibration.diagnosis is not None or seconds <= 0:
+            return
+        pose = self._locate(found)
+        if pose is None or self._board is None:
+            return
+        came_from = _map_back(before, after, found.uv)
+        self._readout.add_frame(
+            self.calibration.camera,
+            pose,
+            self._board.points(found.grid),
+            found.uv,
+            (found.uv - came_from) / seconds,
+        )
+
+    def describe_readout(self) -> str:
+        """Say how long the camera's rows take, where what moved told; else ""."""
+        return self._readout.describe()
 
     @property
     def _is_still(self) -> bool:
@@ -403,6 +429,14 @@ def _calibrate(views: list[Observation], size: Size) -> Calibration | None:
             continue
     whole = [each for each in found if each.diagnosis is None]
     return min(whole or found, key=lambda each: each.noise, default=None)
+
+
+def _map_back(before: Corners, after: Corners, uv: Array) -> Array:
+    """Return where points (n, 2) px near corners after came from, as a plane between two frames."""
+    places = {tuple(cell): k for k, cell in enumerate(before.grid.tolist())}
+    kept = [places[tuple(cell)] for cell in after.grid.tolist()]
+    H = fit_homography(after.uv, before.uv[kept], np.ones(len(kept)))
+    return apply_homography(H, uv)
 
 
 def _measure_motion(before: Corners | None, after: Corners) -> float:

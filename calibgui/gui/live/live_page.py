@@ -349,7 +349,7 @@ class LivePage(QWidget):
 
     def _describe(self, progress: CaptureProgress) -> None:
         """Say how the camera is set, and how well pictures that were put aside are predicted."""
-        said = [self._remark] if self._remark else []
+        said = [each for each in (self._remark, progress.readout) if each]
         if progress.unseen_corners:
             text = self.tr("Pictures put aside are predicted to {0} px rms ({1} corners).").format(
                 format_two_digits(progress.unseen_error), progress.unseen_corners
