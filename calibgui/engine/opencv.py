@@ -54,6 +54,11 @@ def halve_image(image: GreyImage) -> GreyImage:
     return np.asarray(cv2.resize(even, (width, height), interpolation=cv2.INTER_AREA))
 
 
+def average_colours(image: GreyImage, weights: Array) -> GreyImage:
+    """Average the colours of an image (h, w, 3) with weights (3,), rounded to its type."""
+    return np.asarray(cv2.transform(image, weights[None])).reshape(image.shape[:2])
+
+
 def blur_image(image: GreyImage, sigma: float) -> tuple[GreyImage, float]:
     """Blur `image` (h, w) by a Gaussian of standard deviation `sigma` px, edges reflected.
 

@@ -34,7 +34,7 @@ import numpy as np
 
 from calibgui.engine.arrays import Array, GreyImage, Size
 from calibgui.engine.boards.board import Board
-from calibgui.engine.calibration.board_poses import locate_board
+from calibgui.engine.calibration.board_poses import follow_board, locate_board
 from calibgui.engine.calibration.calibrate import calibrate
 from calibgui.engine.calibration.observations import Observation, make_observation
 from calibgui.engine.calibration.result import Calibration, DegenerateError
@@ -140,6 +140,8 @@ class CaptureSession:
         """(rows, cols, 2) px, where that view shows the corners; None if there is none."""
         self._before: GreyImage | None = None
         self._corners: Corners | None = None
+        self._pose: Pose | None = None
+        """The pose of the board in the frame before, as long as it is followed."""
         self._found_at = -np.inf
         self._motions: deque[float] = deque(maxlen=_STILL_FRAMES)
         self._before_time = -np.inf
@@ -299,11 +301,13 @@ class CaptureSession:
         if corners is None or time - self._found_at >= _SEARCH_SECONDS:
             with suppress(NoBoardError):  # a blurred one can be followed where it cannot be found
                 found = self._find_board(grey)
-                self._found_at = time
+                self._found_at, self._pose = time, None
                 if corners is not None and self._corners is not None:
                     self._time_rows(found, self._corners, corners, seconds)
                 corners = found
         self._corners = corners
+        if corners is None:
+            self._pose = None
 
     def _time_rows(self, found: Corners, before: Corners, after: Corners, seconds: float) -> None:
         """Learn how long rows take from corners found, and how they were followed to there."""
@@ -360,14 +364,19 @@ class CaptureSession:
         return make_observation(corners.uv, self._board.points(corners.grid), corners.cov)
 
     def _locate(self, corners: Corners) -> Pose | None:
-        """Locate the board with the camera so far."""
+        """Locate the board with the camera so far, near where it was if it was followed."""
         if self.calibration is None or self._board is None:
             return None
+        view, camera = (corners.uv, self._board.points(corners.grid)), self.calibration.camera
         try:
-            xy = self._board.points(corners.grid)
-            return locate_board(self.calibration.camera, (corners.uv, xy)).pose
+            self._pose = (
+                locate_board(camera, view).pose
+                if self._pose is None
+                else follow_board(camera, view, self._pose)
+            )
         except CalibrationError:
-            return None
+            self._pose = None
+        return self._pose
 
     def _guide(self, pose: Pose | None) -> tuple[float, str]:
         """Return the match with the wanted view, and what to do."""
