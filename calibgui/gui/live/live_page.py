@@ -163,7 +163,7 @@ class LivePage(QWidget):
         self.size.addItem(self.tr("as the camera has it"), None)
         for width, height in _SIZES:
             self.size.addItem(self.tr("{0} × {1} px").format(width, height), (width, height))
-        self.exposure, self.focus = _make_wish(self), _make_wish(self)
+        self.exposure, self.focus = self._make_wish(), self._make_wish()
         for wish, name in (
             (self.exposure, self.tr("Exposure, the same in all pictures")),
             (self.focus, self.tr("Focus, the same in all pictures")),
@@ -203,6 +203,15 @@ class LivePage(QWidget):
             (self.leave, self._leave),
         ):
             button.clicked.connect(run)
+
+    def _make_wish(self) -> QDoubleSpinBox:
+        """Make a field for a setting that is the camera's own unless a number is typed in."""
+        field = QDoubleSpinBox()
+        field.setDecimals(0)
+        field.setRange(_AS_IT_IS, 100_000)
+        field.setSpecialValueText(self.tr("as it is"))
+        field.setValue(_AS_IT_IS)
+        return field
 
     def _lay_out(self) -> None:
         form = QWidget()
@@ -423,16 +432,6 @@ class LivePage(QWidget):
 
     def paintEvent(self, event: QPaintEvent) -> None:  # noqa: N802, ARG002 - Qt's name
         QPainter(self).fillRect(self.rect(), QColor(theme.current().base))
-
-
-def _make_wish(page: QWidget) -> QDoubleSpinBox:
-    """Make a field for a setting that is the camera's own unless a number is typed in."""
-    field = QDoubleSpinBox()
-    field.setDecimals(0)
-    field.setRange(_AS_IT_IS, 100_000)
-    field.setSpecialValueText(page.tr("as it is"))
-    field.setValue(_AS_IT_IS)
-    return field
 
 
 def _read_wish(field: QDoubleSpinBox) -> float | None:
