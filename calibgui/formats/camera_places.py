@@ -13,8 +13,8 @@ from calibgui.engine.arrays import Array
 from calibgui.engine.geometry import Pose, rotation_from_vector
 
 M_PER_MM = 1e-3
-_HALF_TURN = np.diag([1.0, -1.0, -1.0, 1.0])
-"""The turn by half about X, in homogeneous coordinates."""
+Y_UP_FROM_Y_DOWN = np.diag([1.0, -1.0, -1.0, 1.0])
+"""The turn by half about X between both, either way, in homogeneous coordinates."""
 
 
 def world_from_camera_upright(pose: Pose) -> Array:
@@ -22,4 +22,4 @@ def world_from_camera_upright(pose: Pose) -> Array:
     R, t = rotation_from_vector(pose.rvec), pose.tvec * M_PER_MM
     motion = np.eye(4)
     motion[:3, :3], motion[:3, 3] = R.T, -R.T @ t
-    return _HALF_TURN @ motion @ _HALF_TURN
+    return Y_UP_FROM_Y_DOWN @ motion @ Y_UP_FROM_Y_DOWN
