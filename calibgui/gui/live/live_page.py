@@ -17,7 +17,6 @@ from PySide6.QtWidgets import (
     QApplication,
     QCheckBox,
     QComboBox,
-    QDoubleSpinBox,
     QFileDialog,
     QFormLayout,
     QHBoxLayout,
@@ -53,6 +52,7 @@ from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.buttons import Button, Kind
 from calibgui.gui.widgets.elided import ElidedLabel
 from calibgui.gui.widgets.kept_settings import keep, read_kept_text
+from calibgui.gui.widgets.number_box import NumberBox
 from calibgui.gui.widgets.wrapped_label import WrappedLabel
 
 _SIDE = 340
@@ -152,7 +152,7 @@ class LivePage(QWidget):
                 "http://…), or the folder that a camera's program fills"
             )
         )
-        self.limit = QDoubleSpinBox()
+        self.limit = NumberBox()
         self.limit.setRange(0.01, 10.0)
         self.limit.setSingleStep(0.05)
         self.limit.setValue(_LIMIT)
