@@ -42,7 +42,7 @@ class SyntheticPanel(OnDemandPanel[SyntheticCheck]):
     purpose = str(
         QT_TRANSLATE_NOOP(
             "SyntheticPanel",
-            "Whether the method finds this camera again in pictures that are rendered with it.",
+            "Whether the method finds this camera again.",
         )
     )
 

@@ -164,12 +164,16 @@ def test_the_button_compares_and_the_tables_hold_the_figures(
     assert not panel.run.isEnabled()
     qtbot.waitUntil(lambda: panel.found is not None, timeout=60_000)
     assert panel.compared.isVisible() and panel.run.isEnabled()
-    assert panel.words.toPlainText() == describe_method_comparison(comparison, by_label=True)
+    corners = sum(len(view.uv) for view in few_views.observations())
+    count, _, words = panel.words.toPlainText().partition(" views. ")
+    assert f"of {corners:,} corners in {len(few_views.used)}" in count
+    assert words == describe_method_comparison(comparison, by_label=True)
+    names = ("RMS", "σ", "Unseen", "Differs", "in RMS")
     errors, cameras = read_table(panel.tables.errors), read_table(panel.tables.camera)
     for row, error, camera in zip(list_method_rows(comparison), errors, cameras, strict=True):
         assert error["Method"] == camera["Method"] == row.name
-        figures = [float(error[f"{name} [px]"]) for name in ("RMS", "Unseen", "Differs", "in RMS")]
-        expected = (row.rms, row.unseen, row.difference_worst, row.difference_rms)
+        figures = [float(error[f"{name} [px]"]) for name in names]
+        expected = (row.rms, row.sigma, row.unseen, row.difference_worst, row.difference_rms)
         np.testing.assert_allclose(figures, expected, equal_nan=True, atol=1e-9)
         nothing = (math.nan, math.nan)
         for name in ("fx", "fy", "cx", "cy", "skew"):
