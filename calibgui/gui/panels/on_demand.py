@@ -4,18 +4,19 @@ from __future__ import annotations
 
 from typing import ClassVar, Generic, TypeVar
 
-from PySide6.QtWidgets import QApplication, QHBoxLayout, QPushButton, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QApplication, QHBoxLayout, QVBoxLayout, QWidget
 
 from calibgui.dataset import Result
 from calibgui.gui.jobs.job import Job
 from calibgui.gui.panels.latest import Latest
 from calibgui.gui.panels.panel import Panel
 from calibgui.gui.panels.services import Services
+from calibgui.gui.widgets.buttons import Button
 from calibgui.gui.widgets.scrolling_text import ScrollingText
 
 Found = TypeVar("Found")
 
-_LINES = 4
+_LINES = 6
 """Lines of the text above what was found that are shown at once."""
 
 
@@ -51,7 +52,7 @@ class OnDemandPanel(Panel, Generic[Found]):
         self._shown_if_found: tuple[QWidget, ...] = ()
         self.found: Found | None = None
         """What the work found; None before its end."""
-        self.run = QPushButton(button)
+        self.run = Button(button)
         self.run.setToolTip(tip)
         self.run.clicked.connect(self._start)
         self.words = ScrollingText(_LINES)

@@ -8,7 +8,7 @@ import textwrap
 import numpy as np
 from PySide6.QtCore import Signal, SignalInstance
 from PySide6.QtGui import QResizeEvent
-from PySide6.QtWidgets import QHBoxLayout, QPushButton, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QHBoxLayout, QVBoxLayout, QWidget
 
 from calibgui.engine.assessment import CameraDifference, Verdict, compare_cameras
 from calibgui.engine.numbers import format_two_digits
@@ -19,6 +19,7 @@ from calibgui.gui.session.session import Session
 from calibgui.gui.verdict.remedy_runner import CarriedOut
 from calibgui.gui.verdict.texts import describe_grade
 from calibgui.gui.widgets import theme
+from calibgui.gui.widgets.buttons import Button, Kind
 from calibgui.gui.widgets.sheet import Sheet
 from calibgui.gui.widgets.tables import Column, Table, with_decimals
 from calibgui.gui.widgets.wrapped_label import WrappedLabel
@@ -60,9 +61,8 @@ class BeforeAndAfter(Sheet):
                 "brings the two closest where corners (dots) were seen."
             )
         )
-        self.keep = QPushButton(self.tr("&Keep"))
-        self.keep.setDefault(True)
-        self.back = QPushButton(self.tr("&Take back"))
+        self.keep = Button(self.tr("&Keep"), Kind.MAIN)
+        self.back = Button(self.tr("&Take back"))
         self.keep.clicked.connect(lambda: self._answer(self.kept))
         self.back.clicked.connect(lambda: self._answer(self.taken_back))
         head = QHBoxLayout()

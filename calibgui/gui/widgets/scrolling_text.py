@@ -9,6 +9,7 @@ from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import QFrame, QSizePolicy, QTextBrowser
 
 from calibgui.gui.widgets.focus_ring import FocusRing
+from calibgui.gui.widgets.scrolling import make_thin
 from calibgui.gui.widgets.wrapped_label import typeset
 
 _SHARE = 0.1
@@ -31,6 +32,7 @@ class ScrollingText(QTextBrowser):
         self.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
         self.viewport().setAutoFillBackground(False)
         self.document().setDocumentMargin(0)
+        make_thin(self)
         FocusRing(self)
 
     def show_text(self, text: str) -> None:

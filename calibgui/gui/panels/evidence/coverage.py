@@ -86,7 +86,7 @@ class CoveragePanel(Panel):
         for plot in (self.tilts, self.distances):
             plot.picked.connect(self._pick)
         layout = QVBoxLayout(self.body)
-        sensor = Split(900, (self.density, 3), (self.distances, 2))
+        sensor = Split(820, (self.density, 3), (self.distances, 2))
         layout.addWidget(self.advice)
         layout.addWidget(Split(1100, (sensor, 3), (self.tilts, 2)), 1)
 
