@@ -20,6 +20,7 @@ from calibgui.gui.verdict.remedy_runner import CarriedOut
 from calibgui.gui.verdict.texts import describe_grade
 from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.buttons import Button, Kind
+from calibgui.gui.widgets.scrolling import make_scrollable
 from calibgui.gui.widgets.sheet import Sheet
 from calibgui.gui.widgets.tables import Column, Table, with_decimals
 from calibgui.gui.widgets.wrapped_label import WrappedLabel
@@ -28,6 +29,8 @@ from calibgui.report.verdict import format_times
 
 _TABLES_SHARE = 0.55
 """Share of the width that the tables have at most: the map takes what they leave."""
+_LEAST_HEIGHT = 280
+"""Height below which tables and map scroll: less would show nothing, device-independent px."""
 _HEADING_LETTERS = 12
 """Letters of a grade that stand in one line over its errors, where the map needs the width."""
 
@@ -72,13 +75,16 @@ class BeforeAndAfter(Sheet):
         tables = QVBoxLayout()
         tables.addWidget(self.errors)
         tables.addWidget(self.parameters, 1)
-        sides = QHBoxLayout()
+        inside = QWidget()
+        inside.setMinimumHeight(_LEAST_HEIGHT)
+        sides = QHBoxLayout(inside)
+        sides.setContentsMargins(0, 0, 0, 0)
         sides.addLayout(tables)
         sides.addWidget(self.map, 1)
         layout = QVBoxLayout(self)
         layout.setContentsMargins(*[theme.SPACING] * 4)
         layout.addLayout(head)
-        layout.addLayout(sides, 1)
+        layout.addWidget(make_scrollable(inside), 1)
         # Work that goes on keeps what was done.
         session.changed.connect(lambda _, after: self._close_for_other(after))
 

@@ -123,11 +123,16 @@ class CameraValues(QWidget):
 
 
 def _list_rows(result: Result) -> list[tuple[str, str, str]]:
-    """List the name of each value, the value and its ±, with the unit behind the last."""
+    """List the name of each value, the value and its ±, with the unit behind the last.
+
+    A coefficient that is held at 0 is none of the lens.
+    """
     calibration = result.calibration
     camera = calibration.camera
     rows = []
     for name, value, sigma in zip(camera.names, camera.params, calibration.sigma, strict=True):
+        if value == 0 and name in calibration.fixed:
+            continue
         text = format_with_sigma(float(value), float(sigma))
         unit = " px" if name in PINHOLE else ""
         digits, _, power = text.strip("(").partition(")")

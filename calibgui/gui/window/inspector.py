@@ -89,10 +89,8 @@ class Inspector(QWidget):
         foot.addWidget(calibrate)
         self._hint = self._make_hint()
         self._grid = QGridLayout(self)
-        self._grid.setContentsMargins(theme.MARGIN, 12, theme.MARGIN - _BAR, 12)
         verdict.setContentsMargins(0, 0, _BAR, 0)
         self._grid.setHorizontalSpacing(theme.MARGIN)
-        self._grid.setVerticalSpacing(12)
         self._is_row: bool | None = None
         self.stand_in_row(False)
 
@@ -115,6 +113,8 @@ class Inspector(QWidget):
             self._grid.addWidget(self._verdict, 0, 0)
             self._grid.addWidget(self._lower, 1, 0)
             self._grid.addWidget(self._foot, 2, 0)
+        edge = theme.SPACING if is_row else 12
+        self._grid.setContentsMargins(theme.MARGIN, edge, theme.MARGIN - _BAR, edge)
         self._grid.setVerticalSpacing(4 if is_row else 12)
         for row in range(3):
             self._grid.setRowStretch(row, int(row == (0 if is_row else 1)))

@@ -91,7 +91,7 @@ class LensModelsPanel(OnDemandPanel[LensChoice]):
             self.tr("{0} cannot be calibrated: {1}").format(get_lens_title(model), reason)
             for model, reason in found.refused.items()
         ]
-        self.words.show_text("\n".join([describe_lens_choice(found), *refused]))
+        self.words.setText("\n".join([describe_lens_choice(found), *refused]))
         self._rows = list_lens_rows(found)
         self.tables.show_rows(self._rows)
         models = [row.model for row in self._rows]

@@ -102,7 +102,7 @@ class MethodsPanel(OnDemandPanel[MethodComparison]):
             sentences.append(
                 self.tr("Differences are from the calibration that was shown when they were found.")
             )
-        self.words.show_text(" ".join(sentences))
+        self.words.setText(" ".join(sentences))
         self._rows = list_method_rows(found)
         self.tables.show_rows(self._rows)
         names = [row.name for row in self._rows]
