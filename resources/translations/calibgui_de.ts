@@ -1977,6 +1977,10 @@ nach der Drehung, die beide dort am nächsten zusammenbringt, wo Ecken (Punkte) 
         <translation>Ohne Namen</translation>
     </message>
     <message>
+        <source>1 photograph</source>
+        <translation>1 Foto</translation>
+    </message>
+    <message>
         <source>{0} photographs</source>
         <translation>{0} Fotos</translation>
     </message>

@@ -1977,6 +1977,10 @@ tras el giro que más las acerca donde se vieron esquinas (puntos).</translation
         <translation>Sin nombre</translation>
     </message>
     <message>
+        <source>1 photograph</source>
+        <translation>1 fotografía</translation>
+    </message>
+    <message>
         <source>{0} photographs</source>
         <translation>{0} fotos</translation>
     </message>

@@ -1977,6 +1977,10 @@ after the rotation that brings the two closest where corners (dots) were seen.</
         <translation>未命名</translation>
     </message>
     <message>
+        <source>1 photograph</source>
+        <translation>1 张照片</translation>
+    </message>
+    <message>
         <source>{0} photographs</source>
         <translation>{0} 张照片</translation>
     </message>

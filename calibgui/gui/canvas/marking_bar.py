@@ -15,7 +15,6 @@ from PySide6.QtWidgets import (
 )
 
 from calibgui.engine.arrays import GridSize
-from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.buttons import Button, Kind
 from calibgui.gui.widgets.reserved_label import ReservedLabel
 
@@ -30,11 +29,9 @@ class _Bar(QFrame):
         super().__init__()
         self.accept, self.leave = accept, leave
         self.setFrameShape(QFrame.Shape.NoFrame)
-        self.setAutoFillBackground(True)
-        self.setBackgroundRole(self.backgroundRole().AlternateBase)
         self.words = ReservedLabel(_LINES)
         self._rows = QVBoxLayout(self)
-        self._rows.setContentsMargins(0, theme.SPACING, 0, 0)
+        self._rows.setContentsMargins(0, 0, 0, 0)
         self._rows.addWidget(self.words)
         self.hide()
 
