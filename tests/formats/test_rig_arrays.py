@@ -141,7 +141,7 @@ def test_frames_of_nerfstudio_see_the_board_where_we_do(tmp_path: Path, lens: Ca
         np.testing.assert_allclose(uv, observation.uv - view.residuals, atol=1e-6)
 
 
-def test_tables_of_ten_cameras_keep_their_order(tmp_path: Path) -> None:
+def test_tables_of_ten_cameras_keep_their_order() -> None:
     names = [f"camera {c}" for c in range(11)]
     text = format_calibration([BROWN] * 11, "", names, [WORLD] * 11)
     tables = [line for line in text.splitlines() if line.startswith("[cam_")]

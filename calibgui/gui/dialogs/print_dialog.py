@@ -9,7 +9,6 @@ from PySide6.QtWidgets import (
     QComboBox,
     QDialog,
     QDialogButtonBox,
-    QDoubleSpinBox,
     QFormLayout,
     QHBoxLayout,
     QLabel,
@@ -33,6 +32,7 @@ from calibgui.engine.errors import CalibrationError
 from calibgui.gui.settings.pattern_choice import PatternChoice
 from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.actions import add_close_button
+from calibgui.gui.widgets.number_box import NumberBox
 from calibgui.gui.widgets.save_names import ask_for_name
 from calibgui.gui.widgets.wrapped_label import WrappedLabel
 
@@ -80,7 +80,7 @@ class PrintDialog(QDialog):
         self.counted, self.side = QLabel(), QLabel()
         self.rows.setAccessibleName(self.tr("Rows"))
         self.cols.setAccessibleName(self.tr("Columns"))
-        self.square = QDoubleSpinBox(decimals=2, minimum=1.0, maximum=500.0, suffix=self.tr(" mm"))
+        self.square = NumberBox(decimals=2, minimum=1.0, maximum=500.0, suffix=self.tr(" mm"))
         self.square.setValue(board.square)
         self.side.setBuddy(self.square)
         self.paper = QComboBox()

@@ -13,7 +13,6 @@ from PySide6.QtWidgets import (
     QFormLayout,
     QHBoxLayout,
     QLineEdit,
-    QPushButton,
     QVBoxLayout,
     QWidget,
 )
@@ -25,6 +24,7 @@ from calibgui.dataset.details import Details
 from calibgui.gui.jobs.job import Job
 from calibgui.gui.session.session import Session
 from calibgui.gui.widgets.actions import add_close_button
+from calibgui.gui.widgets.buttons import Button, Kind
 from calibgui.gui.widgets.save_names import ask_for_name
 from calibgui.gui.widgets.wrapped_label import WrappedLabel
 from calibgui.report.calibration_report import Layout
@@ -88,7 +88,7 @@ class ReportDialog(QDialog):
             age
             or self.tr("What stands here is kept with the project. PDF needs the extra “report”.")
         )
-        self.save = QPushButton(self.tr("&Save…"), default=True)
+        self.save = Button(self.tr("&Save…"), Kind.MAIN)
         buttons = add_close_button(self)
         buttons.addButton(self.save, QDialogButtonBox.ButtonRole.ActionRole)
         self.save.clicked.connect(self._save)

@@ -17,7 +17,6 @@ from PySide6.QtWidgets import (
     QApplication,
     QCheckBox,
     QComboBox,
-    QDoubleSpinBox,
     QFileDialog,
     QFormLayout,
     QHBoxLayout,
@@ -54,6 +53,7 @@ from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.buttons import Button, Kind
 from calibgui.gui.widgets.elided import ElidedLabel
 from calibgui.gui.widgets.kept_settings import keep, read_kept_text
+from calibgui.gui.widgets.number_box import NumberBox
 from calibgui.gui.widgets.wrapped_label import WrappedLabel
 
 _SIDE = 340
@@ -172,7 +172,7 @@ class LivePage(QWidget):
             wish.setToolTip(
                 self.tr("{0}, in the camera's own unit, of a camera at this computer").format(name)
             )
-        self.limit = QDoubleSpinBox()
+        self.limit = NumberBox()
         self.limit.setRange(0.01, 10.0)
         self.limit.setSingleStep(0.05)
         self.limit.setValue(_LIMIT)
@@ -204,9 +204,9 @@ class LivePage(QWidget):
         ):
             button.clicked.connect(run)
 
-    def _make_wish(self) -> QDoubleSpinBox:
+    def _make_wish(self) -> NumberBox:
         """Make a field for a setting that is the camera's own unless a number is typed in."""
-        field = QDoubleSpinBox()
+        field = NumberBox()
         field.setDecimals(0)
         field.setRange(_AS_IT_IS, 100_000)
         field.setSpecialValueText(self.tr("as it is"))
@@ -434,7 +434,7 @@ class LivePage(QWidget):
         QPainter(self).fillRect(self.rect(), QColor(theme.current().base))
 
 
-def _read_wish(field: QDoubleSpinBox) -> float | None:
+def _read_wish(field: NumberBox) -> float | None:
     """Read what is wanted of a setting; None if nothing is."""
     return None if field.value() == _AS_IT_IS else field.value()
 

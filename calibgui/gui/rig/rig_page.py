@@ -12,7 +12,6 @@ from PySide6.QtCore import Signal
 from PySide6.QtGui import QColor, QPainter, QPaintEvent
 from PySide6.QtWidgets import (
     QCheckBox,
-    QDoubleSpinBox,
     QFileDialog,
     QFormLayout,
     QHBoxLayout,
@@ -51,6 +50,7 @@ from calibgui.gui.rig.pairing_matrix import PairingMatrix
 from calibgui.gui.rig.rig_answer import RigAnswer
 from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.buttons import Button, Kind
+from calibgui.gui.widgets.number_box import NumberBox
 from calibgui.gui.widgets.save_names import ask_for_name
 from calibgui.gui.widgets.scrolling import make_scrollable
 from calibgui.gui.widgets.tab_bar import TabWidget
@@ -130,7 +130,7 @@ class RigPage(QWidget):
         return self._job is not None
 
     def _make_controls(self) -> None:
-        self.square = QDoubleSpinBox(decimals=3, minimum=0.0, maximum=10_000.0)
+        self.square = NumberBox(decimals=3, minimum=0.0, maximum=10_000.0)
         self.square.setSuffix(self.tr(" mm"))
         self.square.setSpecialValueText(self.tr("not measured (as if {0} mm)").format("30"))
         self.square.setAccessibleName(self.tr("Side of a square"))

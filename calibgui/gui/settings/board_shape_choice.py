@@ -5,7 +5,6 @@ from __future__ import annotations
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import (
     QCheckBox,
-    QDoubleSpinBox,
     QFileDialog,
     QFormLayout,
     QHBoxLayout,
@@ -16,6 +15,7 @@ from calibgui.engine.boards import BoardShape, BoardShapeModel, BoardShapePrior
 from calibgui.engine.errors import CalibrationError
 from calibgui.formats.board_shape_json import read_board_shape
 from calibgui.gui.widgets.narrow_combo import NarrowCombo
+from calibgui.gui.widgets.number_box import NumberBox
 
 _OFFICE_PRIOR = BoardShapePrior(in_plane=0.1, out_of_plane=0.3)
 """Standard deviations of a board from an office printer that is glued to something stiff, mm."""
@@ -134,11 +134,11 @@ class BoardShapeChoice(QWidget):
         self.model.addItem(text, model)
         self.model.setItemData(self.model.count() - 1, tip, Qt.ItemDataRole.ToolTipRole)
 
-    def _make_length(self, value: float, unit: str, tip: str) -> QDoubleSpinBox:
-        box = QDoubleSpinBox(decimals=3, minimum=0.001, maximum=9.0, singleStep=0.05, suffix=unit)
+    def _make_length(self, value: float, unit: str, tip: str) -> NumberBox:
+        box = NumberBox(decimals=3, minimum=0.001, maximum=9.0, singleStep=0.05, suffix=unit)
         box.setValue(value)
         box.setKeyboardTracking(False)
-        box.setButtonSymbols(QDoubleSpinBox.ButtonSymbols.NoButtons)
+        box.setButtonSymbols(NumberBox.ButtonSymbols.NoButtons)
         box.setToolTip(tip)
         box.setAccessibleName(tip)
         box.valueChanged.connect(self.slid)

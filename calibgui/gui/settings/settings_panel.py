@@ -60,6 +60,7 @@ class SettingsPanel(QWidget):
 
     Attributes:
         lens, experts: two parts of it, which are laid out where they are shown.
+        labels: what stands before its fields.
     """
 
     def __init__(self, session: Session) -> None:
@@ -152,9 +153,7 @@ class SettingsPanel(QWidget):
         label.setBuddy(self.cost)
         held.setBuddy(self.values)
         lens, known = QLabel(self.tr("Lens model")), QLabel(self.tr("Camera"))
-        # In line with the labels of the board's shape, which stand between.
-        for each in (label, held, lens, known):
-            each.setMinimumWidth(self.board_shape.known.sizeHint().width())
+        self.labels = label, held, lens, known, self.board_shape.known
         self.lens, self.experts = QWidget(self), QWidget(self)
         model = QFormLayout()
         model.addRow(known, self.known)

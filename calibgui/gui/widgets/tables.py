@@ -15,6 +15,7 @@ from PySide6.QtCore import (
     QItemSelectionModel,
     QModelIndex,
     QPoint,
+    QRect,
     QSize,
     QSortFilterProxyModel,
     Qt,
@@ -25,6 +26,7 @@ from PySide6.QtGui import (
     QColor,
     QGuiApplication,
     QKeySequence,
+    QPainter,
     QResizeEvent,
     QShowEvent,
     QStandardItem,
@@ -45,6 +47,7 @@ from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.actions import COPY_TABLE
 from calibgui.gui.widgets.glossary import explain, list_terms
 from calibgui.gui.widgets.save_names import ask_for_name
+from calibgui.gui.widgets.scrolling import make_thin
 
 _SORT_ROLE = Qt.ItemDataRole.UserRole
 
@@ -131,6 +134,8 @@ class _Model(QStandardItemModel):
             self._colour_texts(place, column)
             heading = QStandardItem(_join_heading(column))
             heading.setToolTip(column.tip or explain(column.title))
+            if len(column.values) and isinstance(column.values[0], _NUMBER_TYPES):
+                heading.setTextAlignment(_NUMBERS)
             self.setHorizontalHeaderItem(place, heading)
 
     def hover(self, row: int) -> None:
@@ -229,6 +234,8 @@ _MORE = 40
 """Room that a column gets beyond its contents at most, device-independent px."""
 _LEGIBLE = 8
 """Characters of the first column that are shown however narrow the table is."""
+_INSET = 3
+"""Room beside a title, as beside the texts below it, device-independent px."""
 _TINT = 60
 """Opacity of the accent behind a row that the cursor is over, of 255."""
 
@@ -274,12 +281,27 @@ class _Titles(QHeaderView):
 
     def __init__(self, parent: QWidget) -> None:
         super().__init__(Qt.Orientation.Horizontal, parent)
+        self.setFont(theme.make_font(theme.CAPTION))
         self.setSectionsClickable(True)
         self.setHighlightSections(False)  # every row is selected as a whole
         # Measuring thousands of rows would be felt; a table of values is measured whole.
         self.setResizeContentsPrecision(_MEASURED_ROWS)
         # The table measures its columns when that is due: Qt would at every change.
         self.setSectionResizeMode(QHeaderView.ResizeMode.Fixed)
+
+    def paintSection(self, painter: QPainter, rect: QRect, column: int) -> None:  # noqa: N802
+        """Paint a title over a line, with an arrow if the rows are sorted by its column."""
+        model, colours = self.model(), theme.current()
+        role, side = Qt.ItemDataRole, Qt.Orientation.Horizontal
+        place = model.headerData(column, side, role.TextAlignmentRole) or Qt.AlignmentFlag.AlignLeft
+        text = model.headerData(column, side, role.DisplayRole)
+        if column == self.sortIndicatorSection():
+            is_falling = self.sortIndicatorOrder() is Qt.SortOrder.DescendingOrder
+            text = f"{'▴▾'[is_falling]} {text}"
+        painter.setPen(QColor(colours.muted))
+        flags = int(Qt.AlignmentFlag(place) | Qt.AlignmentFlag.AlignVCenter)
+        painter.drawText(rect.adjusted(_INSET, 0, -_INSET, -1), flags, text)
+        painter.fillRect(rect.x(), rect.bottom(), rect.width(), 1, QColor(colours.line))
 
     def sectionSizeFromContents(self, column: int) -> QSize:  # noqa: N802 - Qt's name
         size = super().sectionSizeFromContents(column)
@@ -312,6 +334,7 @@ class Table(QTableView):
         self.sortByColumn(-1, Qt.SortOrder.AscendingOrder)
         self.setSelectionBehavior(QAbstractItemView.SelectionBehavior.SelectRows)
         self.setFrameShape(QFrame.Shape.NoFrame)
+        make_thin(self)
         self.setShowGrid(False)
         self.setEditTriggers(QAbstractItemView.EditTrigger.NoEditTriggers)
         self.setAccessibleName(self.tr("Table"))
