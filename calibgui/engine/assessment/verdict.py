@@ -53,7 +53,10 @@ from calibgui.engine.assessment.changes.camera_uncertainty import (
 )
 from calibgui.engine.assessment.changes.comparison import compare_cameras, find_covered_pixels
 from calibgui.engine.assessment.finding import (
+    MAX_GOOD_PX,
     MAX_TELLING_PX,
+    MAX_USABLE_PX,
+    MIN_GAIN_TO_ACT,
     Cause,
     Finding,
     describe_narrow_views,
@@ -68,18 +71,9 @@ from calibgui.engine.numbers import format_two_digits
 from calibgui.engine.threads import with_one_blas_thread
 from calibgui.engine.uncertainty.projection_uncertainty import make_map_grid
 
-MAX_GOOD_PX = 0.5
-"""Largest error of any pixel among corners, and of half of the image's, up to which a calibration
-is good, px. A choice, which no benchmark fixed."""
-MAX_USABLE_PX = 1.0
-"""Median error over the image up to which a calibration is usable, px: the limit above which the
-findings call views too few. A choice, which no benchmark fixed."""
 MIN_TIMES_BETTER = 1.5
 """Ratio by which a remedy must make the error smaller to be worth the headline. A choice, which no
 benchmark fixed."""
-_MIN_GAIN = 1.1
-"""Ratio by which an estimated shape, another lens or weights must make the error smaller to be
-offered."""
 _REMEDY_OF_BLUR = (
     "Take these again, sharp, in good light and from nearer: to weigh them less brings little."
 )
@@ -202,10 +196,10 @@ def judge_calibration(
             if times < MIN_TIMES_BETTER and not np.nanmedian(after) <= MAX_USABLE_PX:
                 tried.append(_ask_for_photographs(finding))
                 continue
-            if times < _MIN_GAIN:
+            if times < MIN_GAIN_TO_ACT:
                 continue
         is_weighed = trial.action.kind is ActionKind.WEIGH_VIEWS
-        if is_weighed and times < _MIN_GAIN and _is_small(finding.harm, before[covered]):
+        if is_weighed and times < MIN_GAIN_TO_ACT and _is_small(finding.harm, before[covered]):
             continue
         if not tried and times >= MIN_TIMES_BETTER:
             mended = after
@@ -244,13 +238,13 @@ def _state_gain(finding: Finding, trial: Trial, times: float) -> Finding:
     wrong even where the camera does not gain by it.
     """
     found = replace(finding, action=trial.action, times_better=times)
-    if times < _MIN_GAIN and trial.action.kind is ActionKind.CHOOSE_LENS_MODEL:
+    if times < MIN_GAIN_TO_ACT and trial.action.kind is ActionKind.CHOOSE_LENS_MODEL:
         message, count = found.message, len(trial.calibration.poses)
         if count < MIN_VIEWS_TO_BE_GOOD:
             message = f"{count} views are too few: {message[:1].lower()}{message[1:]}"
         photograph = Action(ActionKind.PHOTOGRAPH_MORE)
         return replace(found, message=message, remedy=_REMEDY_OF_BEST_LENS, action=photograph)
-    if times < _MIN_GAIN and trial.action.kind is ActionKind.WEIGH_VIEWS:
+    if times < MIN_GAIN_TO_ACT and trial.action.kind is ActionKind.WEIGH_VIEWS:
         return replace(found, action=None, remedy=_REMEDY_OF_BLUR)
     return found
 
@@ -258,7 +252,7 @@ def _state_gain(finding: Finding, trial: Trial, times: float) -> Finding:
 def _is_small(harm: float, error: Array) -> bool:
     """Return whether errors, px, would hardly be smaller without a harm, px rms."""
     rms = _compute_rms(error)
-    return float(np.hypot(harm, rms / _MIN_GAIN)) < rms
+    return float(np.hypot(harm, rms / MIN_GAIN_TO_ACT)) < rms
 
 
 def _compare_with_trial(

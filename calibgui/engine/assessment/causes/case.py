@@ -30,7 +30,11 @@ from calibgui.engine.assessment.causes.rival_lens import Rival, fit_rival
 from calibgui.engine.assessment.changes.camera_uncertainty import split_camera_uncertainty
 from calibgui.engine.assessment.changes.comparison import find_covered_pixels
 from calibgui.engine.assessment.finding import MIN_VIEWS_TO_JUDGE
-from calibgui.engine.assessment.residuals.residual_checks import NoiseReport, check_residuals
+from calibgui.engine.assessment.residuals.residual_checks import (
+    NoiseReport,
+    check_residuals,
+    find_largest_share,
+)
 from calibgui.engine.assessment.residuals.residual_statistics import summarise_residuals
 from calibgui.engine.assessment.residuals.systematic_errors import prepare_fit
 from calibgui.engine.calibration.observations import Observation
@@ -85,6 +89,12 @@ class Case:
     def rival(self) -> Rival:
         """The views as a lens model of another kind follows them."""
         return fit_rival(self.calibration, self.views)
+
+    @property
+    def explained(self) -> float:
+        """Share of the squared residuals that the best cause explains, but for a lens of another
+        kind."""
+        return find_largest_share(self.report.checks)
 
     @cached_property
     def split(self) -> Split | None:

@@ -50,7 +50,7 @@ from calibgui.engine.assessment.residuals.residual_causes import (
     find_cause,
     list_tests,
 )
-from calibgui.engine.assessment.residuals.residual_checks import NoiseCheck
+from calibgui.engine.assessment.residuals.residual_checks import NoiseCheck, find_largest_share
 from calibgui.engine.assessment.residuals.residual_statistics import summarise_residuals
 from calibgui.engine.boards.shape import BoardShapeModel
 from calibgui.engine.calibration.calibrate import calibrate
@@ -96,13 +96,6 @@ _OF_BOARD, _OF_VIEWS = list_tests(Family.BOARD), list_tests(Family.OF_VIEW)
 """Tests of a board that is the same in all views, and of causes of each view's own."""
 _TESTED = list_tests(*Family)
 """Tests of all causes."""
-_EXPLAINING = [*list_tests(Family.BOARD, Family.LENS, Family.OF_VIEW), "lines"]
-"""Tests of causes that explain what they do, and do not merely follow it."""
-
-
-def explain_most(case: Case) -> float:
-    """Return the share of the squared residuals that the best cause explains."""
-    return find_largest_share(case.report.checks)
 
 
 def find_systematic_cause(case: Case) -> Finding | None:
@@ -218,11 +211,6 @@ def _choose_shared_cause(checks: Sequence[NoiseCheck]) -> NoiseCheck | None:
     if lens and not is_board and lens[0].share >= least:
         return lens[0]
     return board[0] if board and (is_board or find_largest_share(board) >= least) else None
-
-
-def find_largest_share(checks: Iterable[NoiseCheck]) -> float:
-    """Return the largest share of the squared residuals that any cause explains, but for noise."""
-    return max((check.share for check in checks if check.name in _EXPLAINING), default=0.0)
 
 
 def _choose_cause_of_views(checks: Sequence[NoiseCheck]) -> NoiseCheck | None:

@@ -31,7 +31,6 @@ from calibgui.engine.assessment.causes.cause_choice import (
     describe_strangers,
     describe_turned_views,
     estimate_board,
-    explain_most,
     find_systematic_cause,
     list_names,
 )
@@ -42,9 +41,11 @@ from calibgui.engine.assessment.causes.input_errors import (
     has_outlying_corners,
     screen_misplaced_corners,
 )
-from calibgui.engine.assessment.causes.odd_views import Strangers, Turned, find_odd_views
+from calibgui.engine.assessment.causes.odd_views import Strangers, find_odd_views
 from calibgui.engine.assessment.causes.two_pictures import TwoPictures, find_two_pictures
 from calibgui.engine.assessment.finding import (
+    MAX_GOOD_PX,
+    MAX_USABLE_PX,
     MIN_VIEWS_TO_JUDGE,
     REMEDY_OF_FEW_VIEWS,
     Cause,
@@ -54,7 +55,6 @@ from calibgui.engine.assessment.finding import (
 )
 from calibgui.engine.assessment.residuals.outliers import Screening
 from calibgui.engine.assessment.residuals.residual_causes import Family, list_tests
-from calibgui.engine.assessment.residuals.residual_statistics import summarise_residuals
 from calibgui.engine.calibration.calibrate import calibrate
 from calibgui.engine.calibration.observations import Observation, name_views
 from calibgui.engine.calibration.problem import recover_image_arguments
@@ -66,12 +66,6 @@ from calibgui.engine.numbers import format_two_digits
 from calibgui.engine.threads import with_one_blas_thread
 from calibgui.engine.uncertainty.projection_uncertainty import ProjectionUncertainty
 
-_MAX_POOR_PX = 1.0
-"""Uncertainty of a pixel, median over the image, above which the views are too few, px. A choice,
-as what makes a calibration unusable (``verdict.py``)."""
-_MAX_WORST_PX = 0.5
-"""Uncertainty of the worst pixel of the image above which fewer than `MIN_VIEWS_TO_JUDGE` views
-are too few, px."""
 _MAX_NOISE_PX = 0.5
 """Uncertainty of a pixel by the noise that no cause explains, median over the image, above which
 the views are too much alike, px. Of ten bursts it was 0.2 to 1.8, above this in nine; of 60 faults
@@ -132,7 +126,7 @@ def _find(
         yield _describe_two_pictures(case, pictures)
         return
     odd = find_odd_views(case)
-    if odd.turned is not None and _are_turned(case, odd.turned):
+    if odd.turned is not None and not _are_of_two_kinds(case, odd.turned.views):
         yield describe_turned_views(case, odd.turned)
         return
     screening = screen_misplaced_corners(calibration, views)
@@ -197,15 +191,6 @@ def _are_of_two_kinds(case: Case, odd: tuple[int, ...]) -> bool:
     return case.split is not None and tuple(np.flatnonzero(case.split.is_odd).tolist()) != odd
 
 
-def _are_turned(case: Case, found: Turned) -> bool:
-    """Return whether views are turned against the others, and not of two other kinds, or those that
-    suit a lens better that the model does not follow: a lens of another kind leaves more."""
-    if _are_of_two_kinds(case, found.views):
-        return False
-    left = summarise_residuals(found.calibration.residuals).rms
-    return left <= case.rms * float(np.sqrt(1 - case.rival.share))
-
-
 def _are_strangers(case: Case, found: Strangers) -> bool:
     """Return whether views do not belong to the others, and are not of a kind with some of them,
     or those that a cause of all makes the model miss most."""
@@ -246,7 +231,7 @@ def _is_cause_of_all(case: Case, left: Case) -> bool:
     another model follows better, or one that the case without them shows, too."""
     if case.rival.share > MIN_SHARE_OF_RIVAL:
         return True
-    before, after = (explain_most(each) * each.rms**2 for each in (case, left))
+    before, after = (each.explained * each.rms**2 for each in (case, left))
     return after > _MIN_PART_LEFT * before
 
 
@@ -276,10 +261,10 @@ def _find_lack_of_views(case: Case) -> Finding | None:
     """Find out whether the views are too few, or too much alike; None if they are not."""
     count = len(case.views)
     few = count < MIN_VIEWS_TO_JUDGE
-    if not (case.sigma > _MAX_POOR_PX or (few and case.worst > _MAX_WORST_PX)):
+    if not (case.sigma > MAX_USABLE_PX or (few and case.worst > MAX_GOOD_PX)):
         return None
     harm = case.measure_harm(share=1.0)
-    if not few and harm <= _MAX_POOR_PX:
+    if not few and harm <= MAX_USABLE_PX:
         return describe_narrow_views(case.part, harm, case.sigma)
     return Finding(
         Cause.FEW_VIEWS,
