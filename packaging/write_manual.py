@@ -24,6 +24,7 @@ from calibgui.app.photographs.paths import find_images
 from calibgui.app.system.resources import find_resource
 from calibgui.cli.parser import COMMANDS, build_parser, configure
 from calibgui.formats import EXPORTERS, IMPORTERS
+from calibgui.formats.rig_files import RIG_EXPORTERS
 
 _SQUARE = 25.0
 """Side of a square of the sample's board, mm."""
@@ -39,6 +40,15 @@ def describe_formats(errors: Sequence[str]) -> str:
         rows.append([exporter.title, f"`{exporter.name}`", read, *facts, error])
     head = ["format", "name", "read", "read by", "keeps", "loses", "error"]
     return _tabulate(head, rows)
+
+
+def describe_rig_formats() -> str:
+    """Return the table of formats of rigs."""
+    rows = [
+        [exporter.title, f"`{exporter.name}`", exporter.readers, exporter.keeps]
+        for exporter in RIG_EXPORTERS.values()
+    ]
+    return _tabulate(["file", "name", "read by", "keeps"], rows)
 
 
 def measure_errors() -> list[str]:
@@ -115,6 +125,7 @@ def main() -> None:
     argparse.ArgumentParser(description=__doc__.splitlines()[0]).parse_args()
     parts = {
         "formats": lambda: describe_formats(measure_errors()),
+        "rig_formats": describe_rig_formats,
         "panels": describe_panels,
         "commands": describe_commands,
         "terms": describe_terms,

@@ -3,18 +3,22 @@
 Reader: aniposelib, Pose2Sim and what takes their calibrations, and `read_anipose`. Pixels are
 OpenCV's (0-based, integer at pixel centres), and so are the coefficients: 4, 5, 8 or 12 of
 cv2.projectPoints, or with `fisheye = true` the four of cv2.fisheye, which Pose2Sim does not know.
-`rotation` (a rotation vector) and `translation` lead from the world to the camera: here the camera
-is the world, until these programs find the poses of several.
+`rotation` (a rotation vector) and `translation` lead from the world to the camera: one camera is
+the world, and of a rig (``rig_arrays.py``) its first one.
 Cannot hold: other lens models and skew (they are refitted), standard deviations, poses, corners.
 """
 
 from __future__ import annotations
 
+import json
 import re
+from collections.abc import Sequence
 from pathlib import Path
 
 from calibgui.dataset import Result
 from calibgui.engine.camera import Camera
+from calibgui.engine.geometry import Pose
+from calibgui.formats.camera_places import WORLD
 from calibgui.formats.camera_refit import write_in_models
 from calibgui.formats.exporter import FRAME, Exporter, ExportReport
 from calibgui.formats.importer import CameraText, ImportedCamera, Importer
@@ -34,27 +38,47 @@ _MAX_LENGTH = 1 << 20
 def write_anipose(result: Result, path: Path) -> ExportReport:
     """Write a calibration of one camera."""
     return write_in_models(
-        result, path, EXPORTER, lambda fitted, note: format_calibration(fitted.camera, note)
+        result, path, EXPORTER, lambda fitted, note: format_calibration([fitted.camera], note)
     )
 
 
-def format_calibration(camera: Camera, note: str) -> str:
-    """Return the text of the file; `camera` is in one of the format's models."""
-    return (
-        f'# {note}\n# {FRAME}\n[cam_0]\nname = "cam_0"\n{format_entries(camera)}\n'
-        "[metadata]\nadjusted = false\nerror = 0.0\n"
-    )
+def format_calibration(
+    cameras: Sequence[Camera],
+    note: str,
+    names: Sequence[str] = ("cam_0",),
+    poses: Sequence[Pose] = (WORLD,),
+) -> str:
+    """Return the text of the file.
+
+    Args:
+        cameras: each in one of the format's models.
+        note: the note on the file.
+        names: their names.
+        poses: cam_from_world; translations in the file's unit.
+    """
+    digits = len(str(len(cameras) - 1))  # readers sort the tables by their names
+    tables = [
+        f"[cam_{c:0{digits}}]\nname = {quote(name)}\n{format_entries(camera, pose)}\n"
+        for c, (camera, name, pose) in enumerate(zip(cameras, names, poses, strict=True))
+    ]
+    metadata = "[metadata]\nadjusted = false\nerror = 0.0\n"
+    return f"# {note}\n# {FRAME}\n{''.join(tables)}{metadata}"
 
 
-def format_entries(camera: Camera) -> str:
+def quote(text: str) -> str:
+    """Return a text as TOML writes it."""
+    return json.dumps(text, ensure_ascii=False)
+
+
+def format_entries(camera: Camera, pose: Pose = WORLD) -> str:
     """Return the lines of a camera's table that caliscope reads as well."""
     (fx, fy), (cx, cy) = camera.focal.tolist(), camera.centre.tolist()
     return (
         f"size = {list(camera.size)}\n"
         f"matrix = {[[fx, 0.0, cx], [0.0, fy, cy], [0.0, 0.0, 1.0]]}\n"
         f"distortions = {list_coefficients(camera).tolist()}\n"
-        "rotation = [0.0, 0.0, 0.0]\n"
-        "translation = [0.0, 0.0, 0.0]\n"
+        f"rotation = {pose.rvec.tolist()}\n"
+        f"translation = {pose.tvec.tolist()}\n"
         f"fisheye = {str(camera.model == FISHEYE).lower()}\n"
     )
 

@@ -8,12 +8,15 @@ Cannot hold: other lens models and skew (they are refitted), standard deviations
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 from pathlib import Path
 
 from calibgui.dataset import Result
 from calibgui.engine.camera import Camera
+from calibgui.engine.geometry import Pose
 from calibgui.formats import anipose_toml
 from calibgui.formats.anipose_toml import format_entries, read_tables
+from calibgui.formats.camera_places import WORLD
 from calibgui.formats.camera_refit import write_in_models
 from calibgui.formats.exporter import FRAME, Exporter, ExportReport
 from calibgui.formats.importer import CameraText, ImportedCamera, Importer
@@ -26,13 +29,17 @@ _MAX_LENGTH = 1 << 20
 def write_caliscope(result: Result, path: Path) -> ExportReport:
     """Write an array of one camera."""
     return write_in_models(
-        result, path, EXPORTER, lambda fitted, note: format_array(fitted.camera, note)
+        result, path, EXPORTER, lambda fitted, note: format_array([fitted.camera], note)
     )
 
 
-def format_array(camera: Camera, note: str) -> str:
-    """Return the text of the file; `camera` is in one of the format's models."""
-    return f"# {note}\n# {FRAME}\n[cameras.0]\ncam_id = 0\n{format_entries(camera)}"
+def format_array(cameras: Sequence[Camera], note: str, poses: Sequence[Pose] = (WORLD,)) -> str:
+    """Return the text of the file; as ``anipose_toml.format_calibration``."""
+    tables = [
+        f"[cameras.{c}]\ncam_id = {c}\n{format_entries(camera, pose)}"
+        for c, (camera, pose) in enumerate(zip(cameras, poses, strict=True))
+    ]
+    return f"# {note}\n# {FRAME}\n" + "\n".join(tables)
 
 
 def read_caliscope(source: CameraText) -> ImportedCamera:

@@ -87,7 +87,7 @@ def write_colmap(result: Result, path: Path) -> ExportReport:
     return write_in_models(result, path, EXPORTER, lambda fitted, note: make(fitted.camera, note))
 
 
-def _list_parameters(camera: Camera) -> tuple[str, list[float]]:
+def list_parameters(camera: Camera) -> tuple[str, list[float]]:
     """Return COLMAP's model of a camera in one of the format's models, and its parameters."""
     model = _WRITTEN[camera.model]
     values = {"beta": 1.0} | dict(zip(camera.names, camera.params.tolist(), strict=True))
@@ -98,7 +98,7 @@ def _list_parameters(camera: Camera) -> tuple[str, list[float]]:
 def pack_cameras(camera: Camera, note: str) -> bytes:
     """Return the content of a binary file; the note stands behind the camera, where no reader
     looks."""
-    model, parameters = _list_parameters(camera)
+    model, parameters = list_parameters(camera)
     head = struct.pack("<Q", 1) + _HEAD.pack(1, _NUMBERS[model], *camera.size)
     return head + struct.pack(f"<{len(parameters)}d", *parameters) + note.encode()
 
@@ -136,7 +136,7 @@ def unpack_cameras(content: bytes) -> str:
 
 def format_cameras(camera: Camera, note: str) -> str:
     """Return the text of the file; `camera` is in one of the format's models."""
-    model, parameters = _list_parameters(camera)
+    model, parameters = list_parameters(camera)
     numbers = " ".join(map(repr, parameters))
     width, height = camera.size
     return (

@@ -20,14 +20,13 @@ from typing import NamedTuple
 import numpy as np
 
 from calibgui.dataset import Result
-from calibgui.engine.arrays import Array
 from calibgui.engine.calibration import Calibration, Observation
 from calibgui.engine.camera import Camera
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.files import write_atomically
-from calibgui.engine.geometry import Pose, corner_from_array
+from calibgui.engine.geometry import corner_from_array
 from calibgui.formats import colmap_cameras
-from calibgui.formats.camera_places import M_PER_MM
+from calibgui.formats.camera_places import M_PER_MM, list_motion
 from calibgui.formats.camera_refit import fit_to_format
 from calibgui.formats.exporter import Exporter, ExportReport
 from calibgui.formats.image_names import shorten_names
@@ -106,7 +105,7 @@ def _collect(
             errors[point].append(error)
         uv = corner_from_array(view.uv).tolist()
         corners = [(u, v, point) for (u, v), point in zip(uv, seen, strict=True)]
-        images.append(_Image(number, _list_motion(pose), name, corners))
+        images.append(_Image(number, list_motion(pose), name, corners))
     points = [
         _Point(k, places[place], float(np.mean(errors[k])), tracks[k])
         for place, k in numbers.items()
@@ -125,13 +124,6 @@ def _locate_points(
         found = zip(shape.nominal.tolist(), (real * M_PER_MM).tolist(), strict=True)
         places |= {(x, y): place for (x, y), place in found if (x, y) in places}
     return places
-
-
-def _list_motion(pose: Pose) -> list[float]:
-    """Return the unit quaternion and the translation, m, of a pose."""
-    angle = float(np.linalg.norm(pose.rvec))
-    imaginary: Array = pose.rvec / 2 * np.sinc(angle / (2 * np.pi))
-    return [float(np.cos(angle / 2)), *imaginary.tolist(), *(pose.tvec * M_PER_MM).tolist()]
 
 
 def format_model(

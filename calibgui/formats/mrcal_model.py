@@ -3,7 +3,7 @@
 Reader: mrcal 2, its command-line tools and its Python module, and `read_mrcal`; the newer key
 `rt_cam_ref` is written beside the older `extrinsics`. Pixels are OpenCV's (0-based, integer at
 pixel centres), and so are the coefficients of LENSMODEL_OPENCV4, 5, 8 and 12; a splined model is
-that of mrcal, its control points row by row, x before y. The camera is its own reference.
+that of mrcal, its control points row by row, x before y. A camera by itself is its own reference.
 `valid_intrinsics_region` is the convex hull of the corners that were seen, beyond which a refit
 extrapolates; for a camera without corners it is the region that was converted.
 Cannot hold: other lens models and skew (they are refitted), standard deviations, poses, corners.
@@ -22,6 +22,8 @@ from typing import Any
 from calibgui.dataset import Result
 from calibgui.engine.arrays import Array
 from calibgui.engine.camera import Camera, SplinedStereographic, find_model
+from calibgui.engine.geometry import Pose
+from calibgui.formats.camera_places import WORLD
 from calibgui.formats.camera_refit import find_seen_region, write_in_models
 from calibgui.formats.exporter import FRAME, SPLINED, Exporter, ExportReport
 from calibgui.formats.gate import (
@@ -64,14 +66,16 @@ def write_mrcal(result: Result, path: Path) -> ExportReport:
     )
 
 
-def format_camera_model(camera: Camera, region: Array, note: str) -> str:
+def format_camera_model(camera: Camera, region: Array, note: str, pose: Pose = WORLD) -> str:
     """Return the text of the file.
 
     Args:
         camera: in one of the format's models.
         region: (n, 2) px, an open contour.
         note: on the refit.
+        pose: cam_from_ref, m; a camera by itself is its own reference.
     """
+    motion = [*pose.rvec.tolist(), *pose.tvec.tolist()]
     contour = [*region.tolist(), region[0].tolist()]
     lens = find_model(camera.model)
     if isinstance(lens, SplinedStereographic):
@@ -91,8 +95,8 @@ def format_camera_model(camera: Camera, region: Array, note: str) -> str:
     # fx, fy, cx, cy{listed and f", {listed}"}
     'intrinsics': {intrinsics},
     'valid_intrinsics_region': {contour},
-    'extrinsics': {[0.0] * 6},
-    'rt_cam_ref': {[0.0] * 6},
+    'extrinsics': {motion},
+    'rt_cam_ref': {motion},
     'imagersize': {list(camera.size)},
 }}
 """

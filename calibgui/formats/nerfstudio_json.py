@@ -9,7 +9,8 @@ in the axes of OpenGL (``camera_places.py``) and in metres; the world is the boa
 are relative to the file.
 Cannot hold: other lens models and skew (they are refitted), standard deviations, corners.
 
-A file whose frames have a camera each states none for all of them, and is not read.
+A file whose frames have a camera each, as that of a rig (``rig_arrays.py``), states none for all
+of them, and is not read.
 """
 
 from __future__ import annotations
@@ -20,6 +21,7 @@ from typing import Any
 
 from calibgui.dataset import Result
 from calibgui.engine.calibration import Calibration
+from calibgui.engine.camera import Camera
 from calibgui.engine.geometry import corner_from_array
 from calibgui.formats.camera_places import world_from_camera_upright
 from calibgui.formats.camera_refit import write_in_models
@@ -50,12 +52,28 @@ def format_transforms(calibration: Calibration, images: list[str], note: str) ->
         images: the path of each pose's image.
         note: the note on the file.
     """
-    camera = calibration.camera
-    (fx, fy), (cx, cy) = camera.focal.tolist(), corner_from_array(camera.centre).tolist()
-    values = dict(zip(camera.names, camera.params.tolist(), strict=True))
     content: dict[str, Any] = {
         "note": note,
-        "camera_model": "OPENCV_FISHEYE" if camera.model == FISHEYE else "OPENCV",
+        "camera_model": name_model(calibration.camera),
+        **list_intrinsics(calibration.camera),
+        "frames": [
+            {"file_path": image, "transform_matrix": world_from_camera_upright(pose).tolist()}
+            for image, pose in zip(images, calibration.poses, strict=True)
+        ],
+    }
+    return dumps(content) + "\n"
+
+
+def name_model(camera: Camera) -> str:
+    """Return nerfstudio's name of the model of a camera in one of the format's."""
+    return "OPENCV_FISHEYE" if camera.model == FISHEYE else "OPENCV"
+
+
+def list_intrinsics(camera: Camera) -> dict[str, float]:
+    """Return the entries of a camera, which stand beside all frames or within one."""
+    (fx, fy), (cx, cy) = camera.focal.tolist(), corner_from_array(camera.centre).tolist()
+    values = dict(zip(camera.names, camera.params.tolist(), strict=True))
+    return {
         "w": camera.size[0],
         "h": camera.size[1],
         "fl_x": fx,
@@ -63,12 +81,7 @@ def format_transforms(calibration: Calibration, images: list[str], note: str) ->
         "cx": cx,
         "cy": cy,
         **{name: values.get(name, 0.0) for name in _COEFFICIENTS},
-        "frames": [
-            {"file_path": image, "transform_matrix": world_from_camera_upright(pose).tolist()}
-            for image, pose in zip(images, calibration.poses, strict=True)
-        ],
     }
-    return dumps(content) + "\n"
 
 
 def read_nerfstudio(source: CameraText) -> ImportedCamera:

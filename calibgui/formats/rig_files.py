@@ -1,5 +1,7 @@
 """Rigs in the files of other programs: OpenCV's stereo file, ROS's pair of files, Kalibr's chain.
 
+Those that state each camera's pose in one frame are in ``rig_arrays.py``.
+
 opencv    cv2.FileStorage in YAML, XML or JSON, of two cameras: K1 D1 K2 D2 R T E F R1 R2 P1 P2 Q as
           cv2.stereoCalibrate and cv2.stereoRectify return them, with the images' sizes, and
           fisheye_model, 1 if D1 and D2 are those of cv2.fisheye. Lengths are mm. R1 to Q are those
@@ -17,8 +19,6 @@ file is of one family, perspective or fisheye. No format holds standard deviatio
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -26,35 +26,17 @@ import numpy as np
 from calibgui.dataset import RigResult, StereoRectification, relate_cameras
 from calibgui.engine import opencv
 from calibgui.engine.arrays import Array
-from calibgui.engine.camera import Camera, find_model
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.files import write_atomically
 from calibgui.engine.geometry import Pose, rotation_from_vector
 from calibgui.engine.rig import StereoPair, rectify_pair
 from calibgui.formats import kalibr_camchain, opencv_file, ros_yaml
-from calibgui.formats.camera_conversion import convert_alike, convert_within_limit
-from calibgui.formats.exporter import FRAME, Exporter
+from calibgui.formats.camera_places import M_PER_MM
+from calibgui.formats.exporter import FRAME
 from calibgui.formats.opencv_lens import FISHEYE, list_coefficients
 from calibgui.formats.origin import make_mark
-
-_METRE = 1000.0
-"""Millimetres in a metre, the unit of ROS and Kalibr."""
-
-
-@dataclass(frozen=True, slots=True)
-class RigExporter:
-    """A file format that rigs can be written in."""
-
-    name: str
-    """Name of the format on the command line."""
-    title: str
-    """What is written, in words."""
-    suffixes: tuple[str, ...]
-    """Suffixes of its files, the usual one first."""
-    list_files: Callable[[RigResult, Path, tuple[int, int]], list[Path]]
-    """Function that lists the files that will be written."""
-    write: Callable[[RigResult, Path, tuple[int, int]], str]
-    """Function from a rig, a path and two cameras that writes the files and returns a sentence."""
+from calibgui.formats.rig_arrays import ARRAY_EXPORTERS
+from calibgui.formats.rig_exporter import RigExporter, express_cameras, name_file
 
 
 def write_opencv_stereo(
@@ -67,7 +49,7 @@ def write_opencv_stereo(
             or the file cannot be written.
     """
     cameras, pose = relate_cameras(result.rig, *pair)
-    expressed, note = _express(cameras, opencv_file.EXPORTER, path, of_one_family=True)
+    expressed, note = express_cameras(cameras, opencv_file.EXPORTER, path, of_one_family=True)
     stereo = rectify_pair((expressed[0], expressed[1]), pose, zoom)
     values: dict[str, int | float | str | Array] = {
         "cameras": " ".join(result.rig.names[c] for c in pair),
@@ -104,7 +86,7 @@ def write_opencv_stereo(
 def write_ros_pair(result: RigResult, path: Path, pair: tuple[int, int]) -> str:
     """Write ROS's camera_info files of two cameras. Raises as `write_opencv_stereo`."""
     cameras, pose = relate_cameras(result.rig, *pair)
-    expressed, note = _express(cameras, ros_yaml.EXPORTER, path)
+    expressed, note = express_cameras(cameras, ros_yaml.EXPORTER, path)
     stereo = rectify_pair((expressed[0], expressed[1]), pose)
     files = _list_ros_files(result, path, pair)
     for which, (camera, file) in enumerate(zip(expressed, files, strict=True)):
@@ -118,26 +100,22 @@ def write_ros_pair(result: RigResult, path: Path, pair: tuple[int, int]) -> str:
 def _make_ros_part(stereo: StereoPair, which: int) -> StereoRectification:
     """Return the rectification of one camera, with the baseline in px m."""
     P = stereo.projections[which].copy()
-    P[:, 3] /= _METRE
+    P[:, 3] *= M_PER_MM
     return StereoRectification(stereo.rotations[which], P)
 
 
 def _list_ros_files(result: RigResult, path: Path, pair: tuple[int, int]) -> list[Path]:
-    names = ("".join(c if c.isalnum() else "_" for c in result.rig.names[c]) for c in pair)
-    return [path.with_name(f"{path.stem}-{name}{path.suffix}") for name in names]
+    return [name_file(path, result.rig.names[c]) for c in pair]
 
 
 def write_kalibr_chain(result: RigResult, path: Path, _pair: tuple[int, int]) -> str:
     """Write Kalibr's camchain of all cameras. Raises as `write_opencv_stereo`."""
     rig = result.rig
-    expressed, note = _express(rig.cameras, kalibr_camchain.EXPORTER, path)
+    expressed, note = express_cameras(rig.cameras, kalibr_camchain.EXPORTER, path)
     seen = [{view.instant for view in rig.views if view.camera == c} for c in range(len(expressed))]
     entries = [f"# {make_mark('rig-kalibr')} {note} Lengths are in m.\n# {FRAME}\n"]
     for c, camera in enumerate(expressed):
         before = None if c == 0 else _make_transform(relate_cameras(rig, c - 1, c)[1])
-        seen = [
-            {view.instant for view in rig.views if view.camera == k} for k in range(len(expressed))
-        ]
         overlaps = [k for k in range(len(expressed)) if k != c and seen[k] & seen[c]]
         entries.append(kalibr_camchain.format_camera(camera, c, overlaps, before))
     write_atomically(path, "".join(entries).encode())
@@ -147,30 +125,8 @@ def write_kalibr_chain(result: RigResult, path: Path, _pair: tuple[int, int]) ->
 def _make_transform(pose: Pose) -> Array:
     """Return the (4, 4) matrix of a pose, m."""
     T = np.eye(4)
-    T[:3, :3], T[:3, 3] = rotation_from_vector(pose.rvec), pose.tvec / _METRE
+    T[:3, :3], T[:3, 3] = rotation_from_vector(pose.rvec), pose.tvec * M_PER_MM
     return T
-
-
-def _express(
-    cameras: Sequence[Camera], exporter: Exporter, path: Path, of_one_family: bool = False
-) -> tuple[list[Camera], str]:
-    """Express cameras in lens models that a format holds; return them and a note on it."""
-    is_fisheye = {camera.model == FISHEYE for camera in cameras}
-    if all(map(exporter.holds, cameras)) and not (of_one_family and len(is_fisheye) > 1):
-        models = ", ".join(dict.fromkeys(find_model(camera.model).title for camera in cameras))
-        return list(cameras), f"Lens model {models}, as calibrated."
-    if of_one_family:
-        conversions = convert_alike(cameras, exporter, path)
-        if len({each.camera.model == FISHEYE for each in conversions}) > 1:
-            conversions = [convert_within_limit(camera, FISHEYE) for camera in cameras]
-    else:
-        conversions = [convert_alike([camera], exporter, path)[0] for camera in cameras]
-    models = ", ".join(dict.fromkeys(find_model(c.camera.model).title for c in conversions))
-    worst = max(each.largest_error for each in conversions)
-    note = (
-        f"Lens model {models}, converted; differs by at most {worst:.3g} px over the whole image."
-    )
-    return [each.camera for each in conversions], note
 
 
 RIG_EXPORTERS = {
@@ -180,23 +136,28 @@ RIG_EXPORTERS = {
             "opencv",
             "OpenCV's file of a stereo pair",
             (".yaml", ".yml", ".xml", ".json"),
-            lambda _result, path, _pair: [path],
+            "OpenCV",
+            "two cameras, R and T between them, E, F, and the rectification with Q; mm",
             write_opencv_stereo,
         ),
         RigExporter(
             "ros",
             "two camera_info files of ROS",
             (".yaml", ".yml"),
-            _list_ros_files,
+            "ROS (stereo_image_proc)",
+            "two cameras and their rectification, with the baseline in px m",
             write_ros_pair,
+            _list_ros_files,
         ),
         RigExporter(
             "kalibr",
             "Kalibr's camchain of all cameras",
             (".yaml", ".yml"),
-            lambda _result, path, _pair: [path],
+            "Kalibr, OpenVINS",
+            "all cameras, each from the one before it; m",
             write_kalibr_chain,
         ),
+        *ARRAY_EXPORTERS,
     )
 }
 """Formats of rigs by name."""

@@ -2542,6 +2542,26 @@ nur ihre Lagen angepasst</translation>
         <translation>Eine Kamera an diesem Rechner, die Adresse einer im Netz (rtsp://…, http://…) oder der Ordner, den das Programm einer Kamera füllt</translation>
     </message>
     <message>
+        <source>as the camera has it</source>
+        <translation>wie die Kamera sie hat</translation>
+    </message>
+    <message>
+        <source>{0} × {1} px</source>
+        <translation>{0} × {1} px</translation>
+    </message>
+    <message>
+        <source>Exposure, the same in all pictures</source>
+        <translation>Belichtung, in allen Bildern dieselbe</translation>
+    </message>
+    <message>
+        <source>Focus, the same in all pictures</source>
+        <translation>Fokus, in allen Bildern derselbe</translation>
+    </message>
+    <message>
+        <source>{0}, in the camera&apos;s own unit, of a camera at this computer</source>
+        <translation>{0}, in der Einheit der Kamera, bei einer Kamera an diesem Rechner</translation>
+    </message>
+    <message>
         <source> px</source>
         <translation> px</translation>
     </message>
@@ -2586,8 +2606,24 @@ nur ihre Lagen angepasst</translation>
         <translation>%p % des Wegs zum gelben Ort</translation>
     </message>
     <message>
+        <source>as it is</source>
+        <translation>unverändert</translation>
+    </message>
+    <message>
         <source>Camera, address or folder</source>
         <translation>Kamera, Adresse oder Ordner</translation>
+    </message>
+    <message>
+        <source>Size of its images</source>
+        <translation>Größe ihrer Bilder</translation>
+    </message>
+    <message>
+        <source>Exposure</source>
+        <translation>Belichtung</translation>
+    </message>
+    <message>
+        <source>Focus</source>
+        <translation>Fokus</translation>
     </message>
     <message>
         <source>Until the worst pixel is known to</source>

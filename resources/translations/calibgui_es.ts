@@ -2542,6 +2542,26 @@ ajustando solo sus poses</translation>
         <translation>Una cámara de este ordenador, la dirección de una en la red (rtsp://…, http://…), o la carpeta que llena el programa de una cámara</translation>
     </message>
     <message>
+        <source>as the camera has it</source>
+        <translation>como la tiene la cámara</translation>
+    </message>
+    <message>
+        <source>{0} × {1} px</source>
+        <translation>{0} × {1} px</translation>
+    </message>
+    <message>
+        <source>Exposure, the same in all pictures</source>
+        <translation>Exposición, la misma en todas las imágenes</translation>
+    </message>
+    <message>
+        <source>Focus, the same in all pictures</source>
+        <translation>Enfoque, el mismo en todas las imágenes</translation>
+    </message>
+    <message>
+        <source>{0}, in the camera&apos;s own unit, of a camera at this computer</source>
+        <translation>{0}, en la unidad de la cámara, de una cámara de este equipo</translation>
+    </message>
+    <message>
         <source> px</source>
         <translation> px</translation>
     </message>
@@ -2586,8 +2606,24 @@ ajustando solo sus poses</translation>
         <translation>%p % del camino al lugar amarillo</translation>
     </message>
     <message>
+        <source>as it is</source>
+        <translation>como está</translation>
+    </message>
+    <message>
         <source>Camera, address or folder</source>
         <translation>Cámara, dirección o carpeta</translation>
+    </message>
+    <message>
+        <source>Size of its images</source>
+        <translation>Tamaño de sus imágenes</translation>
+    </message>
+    <message>
+        <source>Exposure</source>
+        <translation>Exposición</translation>
+    </message>
+    <message>
+        <source>Focus</source>
+        <translation>Enfoque</translation>
     </message>
     <message>
         <source>Until the worst pixel is known to</source>

@@ -2542,6 +2542,26 @@ with only their poses fitted</source>
         <translation>本机的相机，网络相机的地址 (rtsp://…, http://…)，或相机程序写入的文件夹</translation>
     </message>
     <message>
+        <source>as the camera has it</source>
+        <translation>保持相机的设置</translation>
+    </message>
+    <message>
+        <source>{0} × {1} px</source>
+        <translation>{0} × {1} px</translation>
+    </message>
+    <message>
+        <source>Exposure, the same in all pictures</source>
+        <translation>曝光，所有照片相同</translation>
+    </message>
+    <message>
+        <source>Focus, the same in all pictures</source>
+        <translation>对焦，所有照片相同</translation>
+    </message>
+    <message>
+        <source>{0}, in the camera&apos;s own unit, of a camera at this computer</source>
+        <translation>{0}，以相机自己的单位，用于本机的相机</translation>
+    </message>
+    <message>
         <source> px</source>
         <translation> px</translation>
     </message>
@@ -2586,8 +2606,24 @@ with only their poses fitted</source>
         <translation>到黄色位置的 %p %</translation>
     </message>
     <message>
+        <source>as it is</source>
+        <translation>不变</translation>
+    </message>
+    <message>
         <source>Camera, address or folder</source>
         <translation>相机、地址或文件夹</translation>
+    </message>
+    <message>
+        <source>Size of its images</source>
+        <translation>图像尺寸</translation>
+    </message>
+    <message>
+        <source>Exposure</source>
+        <translation>曝光</translation>
+    </message>
+    <message>
+        <source>Focus</source>
+        <translation>对焦</translation>
     </message>
     <message>
         <source>Until the worst pixel is known to</source>

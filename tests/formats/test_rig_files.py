@@ -145,8 +145,8 @@ def test_other_pairs_of_a_rig(tmp_path: Path) -> None:
 
 
 def test_unknown_formats_and_suffixes_are_refused() -> None:
-    with pytest.raises(CalibrationError, match="no format 'colmap'"):
-        find_rig_exporter("colmap", Path("a.txt"))
+    with pytest.raises(CalibrationError, match="no format 'meshlab'"):
+        find_rig_exporter("meshlab", Path("a.txt"))
     with pytest.raises(CalibrationError, match="not named as a file of the format"):
         find_rig_exporter("ros", Path("a.json"))
 

@@ -20,6 +20,7 @@ with pytest.MonkeyPatch.context() as patch:
     ("chapter", "name", "describe"),
     [
         ("05-window", "panels", write_manual.describe_panels),
+        ("10-several-cameras", "rig_formats", write_manual.describe_rig_formats),
         ("11-scripts", "commands", write_manual.describe_commands),
         ("13-words", "terms", write_manual.describe_terms),
     ],

@@ -47,7 +47,10 @@ from calibgui.engine.arrays import Array, BoolArray, Size
 from calibgui.engine.assessment.action import Action, ActionKind
 from calibgui.engine.assessment.action_trials import Trial, try_action_safely
 from calibgui.engine.assessment.causes.findings import list_findings
-from calibgui.engine.assessment.changes.camera_uncertainty import estimate_camera_uncertainty
+from calibgui.engine.assessment.changes.camera_uncertainty import (
+    estimate_camera_uncertainty,
+    split_camera_uncertainty,
+)
 from calibgui.engine.assessment.changes.comparison import compare_cameras, find_covered_pixels
 from calibgui.engine.assessment.finding import (
     MAX_TELLING_PX,
@@ -179,7 +182,8 @@ def judge_calibration(
         names: names of the views, for messages; numbers by default.
         check: a function that is called now and then, and raises to abandon the work.
     """
-    found = list_findings(calibration, views, names, check or (lambda: None))
+    known = split_camera_uncertainty(calibration, views)
+    found = list_findings(calibration, views, names, check or (lambda: None), known)
     covered = _find_covered(calibration.camera.size, views)
     errors: list[Array] = []
     tried: list[Finding] = []
@@ -188,8 +192,8 @@ def judge_calibration(
         trial = try_action_safely(finding.action, calibration, views, check)
         if trial is None:
             if finding.without is not None:
-                known = _map_uncertainty(calibration, views)
-                errors.append(np.hypot(_map_move(finding.without, calibration, views), known))
+                move = _map_move(finding.without, calibration, views)
+                errors.append(np.hypot(move, known[0].worst_direction))
             tried.append(_ask_for_photographs(finding))
             continue
         before, after = _compare_with_trial(calibration, views, trial)
@@ -207,7 +211,7 @@ def judge_calibration(
             mended = after
         errors.append(before)
         tried.append(_state_gain(finding, trial, times))
-    error = np.fmax.reduce(errors) if errors else _map_uncertainty(calibration, views)
+    error = np.fmax.reduce(errors) if errors else known[0].worst_direction
     if calibration.diagnosis is None:
         error = np.hypot(error, map_disagreement(calibration, views))
     distance = _measure_distance(calibration, views)
@@ -262,7 +266,7 @@ def _compare_with_trial(
 ) -> tuple[Array, Array]:
     """Return the errors (m, n) before an action and after it, px; NaN where there is no image."""
     uv = make_mesh(*make_map_grid(calibration.camera.size))
-    after = _map_uncertainty(trial.calibration, trial.views)
+    after = estimate_camera_uncertainty(trial.calibration, trial.views).worst_direction
     after = np.where(calibration.camera.lights(uv), after, np.nan)
     return np.hypot(_map_move(trial.calibration.camera, calibration, views), after), after
 
@@ -281,11 +285,6 @@ def _compute_rms(error: Array) -> float:
     """Return the root mean square of errors that are known; infinite if none is."""
     known = error[np.isfinite(error)]
     return float(np.sqrt(np.mean(known**2))) if known.size else np.inf
-
-
-def _map_uncertainty(calibration: Calibration, views: Sequence[Observation]) -> Array:
-    """Map one standard deviation of a pixel (m, n), px."""
-    return estimate_camera_uncertainty(calibration, views).worst_direction
 
 
 def _summarise(error: Array, covered: BoolArray) -> PixelError:

@@ -37,7 +37,10 @@ from calibgui.engine.calibration.observations import Observation
 from calibgui.engine.calibration.result import Calibration
 from calibgui.engine.images.sampling import make_mesh
 from calibgui.engine.numbers import format_two_digits
-from calibgui.engine.uncertainty.projection_uncertainty import compute_worst_sigma
+from calibgui.engine.uncertainty.projection_uncertainty import (
+    ProjectionUncertainty,
+    compute_worst_sigma,
+)
 
 
 @dataclass(frozen=True, eq=False)
@@ -127,14 +130,16 @@ def prepare_case(
     views: Sequence[Observation],
     names: Sequence[str],
     check: Callable[[], None] = lambda: None,
+    known: tuple[ProjectionUncertainty, ProjectionUncertainty] | None = None,
 ) -> Case:
-    """Prepare a case: find out how well pixels are known, by everything and by noise alone."""
+    """Prepare a case: find out how well pixels are known, by everything and by noise alone, unless
+    that is already `known`."""
     check()
-    total, by_noise = split_camera_uncertainty(calibration, views)
+    total, by_noise = known or split_camera_uncertainty(calibration, views)
     over_image = total.worst_direction
-    known = over_image[np.isfinite(over_image)]  # a lens may image nothing in the corners
-    if not known.size:
-        known = np.array(calibration.camera.size)
+    seen = over_image[np.isfinite(over_image)]  # a lens may image nothing in the corners
+    if not seen.size:
+        seen = np.array(calibration.camera.size)
     noise = by_noise.worst_direction[np.isfinite(over_image)]
     covered = find_covered_pixels(make_mesh(total.u, total.v), views)
     rms = summarise_residuals(calibration.residuals).rms
@@ -143,9 +148,9 @@ def prepare_case(
         views,
         names,
         range(len(views)),
-        sigma=float(np.median(known)),
-        by_noise_alone=float(np.median(noise)) if noise.size else float(known.max()),
-        worst=float(known.max()),
+        sigma=float(np.median(seen)),
+        by_noise_alone=float(np.median(noise)) if noise.size else float(seen.max()),
+        worst=float(seen.max()),
         part=float(covered[~np.isnan(over_image)].sum() / max(np.sum(~np.isnan(over_image)), 1)),
         total=total.covariance[covered],
         by_noise=by_noise.covariance[covered],

@@ -55,6 +55,7 @@ from calibgui.engine.assessment.residuals.residual_statistics import summarise_r
 from calibgui.engine.boards.shape import BoardShapeModel
 from calibgui.engine.calibration.calibrate import calibrate
 from calibgui.engine.calibration.problem import recover_image_arguments
+from calibgui.engine.calibration.result import Calibration
 from calibgui.engine.camera.models import find_model
 from calibgui.engine.errors import CalibrationError
 
@@ -93,6 +94,8 @@ _CAUSES_BESIDE_SCALE = (
 """Causes of each view's own, beside which a scale of the images may explain more."""
 _OF_BOARD, _OF_VIEWS = list_tests(Family.BOARD), list_tests(Family.OF_VIEW)
 """Tests of a board that is the same in all views, and of causes of each view's own."""
+_TESTED = list_tests(*Family)
+"""Tests of all causes."""
 _EXPLAINING = [*list_tests(Family.BOARD, Family.LENS, Family.OF_VIEW), "lines"]
 """Tests of causes that explain what they do, and do not merely follow it."""
 
@@ -172,7 +175,12 @@ def _find_cause_beside_board(case: Case, failed: Mapping[str, NoiseCheck]) -> Fi
 
 
 def _find_wrong_lens(case: Case) -> Finding | None:
-    """Find a lens that a model of another kind follows better by far; None if it does not."""
+    """Find a lens that a model of another kind follows better by far; None if it does not.
+
+    None is fitted where no test of a cause fails: they see a part of what a lens leaves.
+    """
+    if not any(check.share for check in case.report.checks if check.name in _TESTED):
+        return None
     share, displacement = case.rival
     if share < MIN_SHARE_OF_RIVAL or displacement < MIN_HARM_PX:
         return None
@@ -183,6 +191,21 @@ def _find_blur(case: Case, failed: dict[str, NoiseCheck]) -> Finding | None:
     """Find views whose corners scatter more than the others'; None if that does no harm."""
     check = failed.get("views")
     return None if check is None else _describe_blur(case, check)
+
+
+def estimate_board(case: Case) -> Calibration | None:
+    """Estimate the board's shape if it is the most probable cause; None if it is not, or if the
+    views do not determine it."""
+    check = _choose_shared_cause(case.report.checks)
+    if check is None or check.name not in _OF_BOARD:
+        return None
+    adds = find_cause(check.name).adds
+    model = adds if adds == BoardShapeModel.AFFINE else BoardShapeModel.FREE
+    settings = recover_image_arguments(case.calibration) | {"board_shape": model}
+    try:
+        return calibrate(case.views, case.calibration.camera.size, **settings)
+    except CalibrationError:
+        return None
 
 
 def _choose_shared_cause(checks: Sequence[NoiseCheck]) -> NoiseCheck | None:
@@ -324,6 +347,8 @@ def _describe_check(case: Case, check: NoiseCheck) -> Finding | None:
     """Describe the cause that a test of the residuals points to; None if it does no harm."""
     tested, harm = find_cause(check.name), case.measure_harm(check.share)
     if tested.cause is Cause.LENS:
+        if case.rival.share > check.share:  # what a model misses is no part of its covariance
+            harm = max(harm, case.rival.displacement)
         error = case.calibration.lens_error or float(np.sqrt(check.share)) * case.rms
         return _describe_lens(case, error, harm) if harm > MIN_HARM_PX else None
     if harm < MIN_HARM_PX:

@@ -30,6 +30,7 @@ from calibgui.engine.assessment.causes.cause_choice import (
     MIN_SHARE_OF_RIVAL,
     describe_strangers,
     describe_turned_views,
+    estimate_board,
     explain_most,
     find_systematic_cause,
     list_names,
@@ -38,9 +39,10 @@ from calibgui.engine.assessment.causes.input_errors import (
     describe_misplaced_corners,
     find_wrong_frame,
     find_wrong_values,
+    has_outlying_corners,
     screen_misplaced_corners,
 )
-from calibgui.engine.assessment.causes.odd_views import Strangers, find_odd_views
+from calibgui.engine.assessment.causes.odd_views import Strangers, Turned, find_odd_views
 from calibgui.engine.assessment.causes.two_pictures import TwoPictures, find_two_pictures
 from calibgui.engine.assessment.finding import (
     MIN_VIEWS_TO_JUDGE,
@@ -52,6 +54,7 @@ from calibgui.engine.assessment.finding import (
 )
 from calibgui.engine.assessment.residuals.outliers import Screening
 from calibgui.engine.assessment.residuals.residual_causes import Family, list_tests
+from calibgui.engine.assessment.residuals.residual_statistics import summarise_residuals
 from calibgui.engine.calibration.calibrate import calibrate
 from calibgui.engine.calibration.observations import Observation, name_views
 from calibgui.engine.calibration.problem import recover_image_arguments
@@ -61,6 +64,7 @@ from calibgui.engine.camera.models.splined_stereographic import SplinedStereogra
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.numbers import format_two_digits
 from calibgui.engine.threads import with_one_blas_thread
+from calibgui.engine.uncertainty.projection_uncertainty import ProjectionUncertainty
 
 _MAX_POOR_PX = 1.0
 """Uncertainty of a pixel, median over the image, above which the views are too few, px. A choice,
@@ -85,6 +89,7 @@ def list_findings(
     views: Sequence[Observation],
     names: Sequence[str] | None = None,
     check: Callable[[], None] = lambda: None,
+    known: tuple[ProjectionUncertainty, ProjectionUncertainty] | None = None,
 ) -> tuple[Finding, ...]:
     """List what is wrong with a calibration, the most harmful first.
 
@@ -93,8 +98,9 @@ def list_findings(
         views: the views that it was made from.
         names: names of the views, for messages; numbers by default.
         check: a function that is called now and then, and raises to abandon the work.
+        known: what ``split_camera_uncertainty`` says of it, if that is at hand.
     """
-    found = _find(calibration, views, names or name_views(len(views)), check)
+    found = _find(calibration, views, names or name_views(len(views)), check, known)
     return tuple(sorted(found, key=lambda finding: finding.harm, reverse=True))
 
 
@@ -103,6 +109,7 @@ def _find(
     views: Sequence[Observation],
     names: Sequence[str],
     check: Callable[[], None],
+    known: tuple[ProjectionUncertainty, ProjectionUncertainty] | None,
 ) -> Iterator[Finding]:
     """Yield what is wrong; the order of the tests is that of the description above."""
     frame = find_wrong_frame(calibration.camera, views)
@@ -115,7 +122,7 @@ def _find(
     if wrong is not None:
         yield wrong
         return
-    case = prepare_case(calibration, views, names, check)
+    case = prepare_case(calibration, views, names, check, known)
     open_coefficients = _find_open_coefficients(case)
     if calibration.cost is not Cost.IMAGE:
         calibration = _minimise_image_cost(calibration, views)
@@ -125,7 +132,7 @@ def _find(
         yield _describe_two_pictures(case, pictures)
         return
     odd = find_odd_views(case)
-    if odd.turned is not None and not _are_of_two_kinds(case, odd.turned.views):
+    if odd.turned is not None and _are_turned(case, odd.turned):
         yield describe_turned_views(case, odd.turned)
         return
     screening = screen_misplaced_corners(calibration, views)
@@ -190,6 +197,15 @@ def _are_of_two_kinds(case: Case, odd: tuple[int, ...]) -> bool:
     return case.split is not None and tuple(np.flatnonzero(case.split.is_odd).tolist()) != odd
 
 
+def _are_turned(case: Case, found: Turned) -> bool:
+    """Return whether views are turned against the others, and not of two other kinds, or those that
+    suit a lens better that the model does not follow: a lens of another kind leaves more."""
+    if _are_of_two_kinds(case, found.views):
+        return False
+    left = summarise_residuals(found.calibration.residuals).rms
+    return left <= case.rms * float(np.sqrt(1 - case.rival.share))
+
+
 def _are_strangers(case: Case, found: Strangers) -> bool:
     """Return whether views do not belong to the others, and are not of a kind with some of them,
     or those that a cause of all makes the model miss most."""
@@ -214,11 +230,15 @@ def _misses_views(case: Case, left: Case) -> bool:
     Such a cause is a lens that another model follows better. Or it explains the residuals of the
     other corners, too: of corners that are misplaced a cause may explain much by chance, but
     without them it explains nothing. Two kinds of views explain most, and nothing is left of them
-    where one kind is left out.
+    where one kind is left out. With a board that was far from its drawing all corners fit once its
+    shape is estimated; misplaced ones do not.
     """
     split = case.split
     is_of_two_kinds = split is not None and split.share > MIN_SHARE_OF_KINDS
-    return is_of_two_kinds or _is_cause_of_all(case, left)
+    if is_of_two_kinds or _is_cause_of_all(case, left):
+        return True
+    shaped = estimate_board(case)
+    return shaped is not None and not has_outlying_corners(shaped, case.views)
 
 
 def _is_cause_of_all(case: Case, left: Case) -> bool:

@@ -10,17 +10,20 @@ import pytest
 from calibgui.engine.arrays import Array
 from calibgui.engine.assessment.action_trials import try_action
 from calibgui.engine.assessment.causes import input_errors
-from calibgui.engine.assessment.causes.findings import list_findings
+from calibgui.engine.assessment.causes.case import prepare_case
+from calibgui.engine.assessment.causes.findings import _are_turned, list_findings
 from calibgui.engine.assessment.causes.input_errors import (
     find_wrong_frame,
     screen_misplaced_corners,
 )
+from calibgui.engine.assessment.causes.odd_views import Turned
+from calibgui.engine.assessment.causes.rival_lens import Rival
 from calibgui.engine.assessment.causes.two_pictures import find_two_pictures
 from calibgui.engine.assessment.changes.comparison import compare_cameras
 from calibgui.engine.assessment.finding import Cause, Finding
 from calibgui.engine.assessment.residuals.residual_statistics import summarise_residuals
 from calibgui.engine.calibration.calibrate import calibrate
-from calibgui.engine.calibration.observations import Observation
+from calibgui.engine.calibration.observations import Observation, name_views
 from calibgui.engine.camera.camera import Camera
 from calibgui.engine.errors import CalibrationError, Cancelled
 from calibgui.engine.geometry.pose import Pose
@@ -235,3 +238,31 @@ def test_another_frame_is_named_or_refused() -> None:
     assert finding is not None
     assert "upper left quarter" in finding.message
     assert find_wrong_frame(barrel(), CLEAN) is None
+
+
+def test_corners_are_not_misplaced_where_the_board_was_not_printed_true() -> None:
+    """Sharp views of squares that are half a percent too high miss by many of their sigmas."""
+    views = scene(barrel(), 8, seed=2).noisy(0.004, np.random.default_rng(1))
+    stretched = [Observation(view.uv, view.xy * [1.0, 1.005]) for view in views]
+    found = list_findings(calibrate(stretched, VGA), stretched)
+    assert [finding.cause for finding in found] == [Cause.BOARD_SHAPE]
+
+
+def test_a_lens_is_named_by_what_it_misses_beside_an_estimated_board() -> None:
+    """Standard deviations do not include what a lens leaves where the board takes it up."""
+    made = inject_fault("wide-lens-rough-print", 7301)
+    found = list_findings(calibrate(made.views, made.size, **made.options), made.views)
+    assert [finding.cause for finding in found] == [Cause.LENS]
+    assert found[0].harm == pytest.approx(0.08, abs=0.01)
+
+
+def test_views_are_not_turned_where_another_lens_leaves_less() -> None:
+    views = scene(barrel(), 6).noisy(0.1, np.random.default_rng(1))
+    calibration = calibrate(views, VGA)
+    case = prepare_case(calibration, views, name_views(6))
+    turned = Turned((1,), "upside down", "Turn them.", calibration)
+    assert case.split is None
+    for rms, share, is_turned in ((2.0, 0.5, True), (1.2, 0.5, False), (1.2, 0.0, True)):
+        worse = replace(case, rms=rms * case.rms)
+        worse.__dict__["rival"] = Rival(share, 1.0)
+        assert _are_turned(worse, turned) == is_turned, (rms, share)
