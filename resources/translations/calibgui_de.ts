@@ -5711,6 +5711,13 @@ gleicher Maßstab behält die Größe der Mitte; Bildwinkel zeigt einen Winkel I
     </message>
 </context>
 <context>
+    <name>actions</name>
+    <message>
+        <source>Close</source>
+        <translation>Schließen</translation>
+    </message>
+</context>
+<context>
     <name>files</name>
     <message>
         <source>Replace a file</source>

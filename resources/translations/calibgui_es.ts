@@ -5711,6 +5711,13 @@ misma escala conserva el tamaño del centro; campo de visión muestra el ángulo
     </message>
 </context>
 <context>
+    <name>actions</name>
+    <message>
+        <source>Close</source>
+        <translation>Cerrar</translation>
+    </message>
+</context>
+<context>
     <name>files</name>
     <message>
         <source>Replace a file</source>

@@ -5711,6 +5711,13 @@ same scale keeps the size of the middle; field of view shows an angle of your ch
     </message>
 </context>
 <context>
+    <name>actions</name>
+    <message>
+        <source>Close</source>
+        <translation>关闭</translation>
+    </message>
+</context>
+<context>
     <name>files</name>
     <message>
         <source>Replace a file</source>

@@ -32,6 +32,7 @@ from calibgui.gui.widgets.actions import add_close_button
 from calibgui.gui.widgets.buttons import Button, Kind
 from calibgui.gui.widgets.kept_settings import keep, read_kept_text
 from calibgui.gui.widgets.save_names import ask_for_name
+from calibgui.gui.widgets.scrolling import make_thin
 from calibgui.gui.widgets.wrapped_label import WrappedLabel
 
 _FORMAT = "export format"
@@ -73,6 +74,7 @@ class ExportDialog(QDialog):
         self.note, self.error, self.saved = (WrappedLabel() for _ in range(3))
         self.text = QPlainTextEdit(readOnly=True)
         self.text.setFont(theme.fixed_font())
+        make_thin(self.text)
         self.text.setLineWrapMode(QPlainTextEdit.LineWrapMode.NoWrap)
         self.text.setAccessibleName(self.tr("The file's text"))
         self._facts = facts = QFormLayout()

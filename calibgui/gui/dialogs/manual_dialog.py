@@ -23,6 +23,7 @@ from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.actions import add_close_button
 from calibgui.gui.widgets.buttons import Button
 from calibgui.gui.widgets.focus_ring import FocusRing
+from calibgui.gui.widgets.scrolling import make_thin
 
 
 class ManualDialog(QDialog):
@@ -94,6 +95,7 @@ class _ChapterText(QTextBrowser):
         super().__init__()
         self._html = ""
         self.setOpenLinks(False)
+        make_thin(self)
         # A bar that comes with a long chapter would change the width while that is laid out.
         self.setVerticalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOn)
         self.document().setDocumentMargin(theme.MARGIN)

@@ -12,6 +12,7 @@ from PySide6.QtWidgets import QListView, QListWidget, QListWidgetItem, QVBoxLayo
 from calibgui.engine.capture import Picture
 from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.buttons import Button
+from calibgui.gui.widgets.scrolling import make_thin
 
 _THUMBNAIL = QSize(98, 74)
 _WIDTH = 136
@@ -30,6 +31,8 @@ class TakenStrip(QWidget):
         super().__init__()
         self.setFixedWidth(_WIDTH)
         self.list = QListWidget()
+        self.list.setFrameShape(QListWidget.Shape.NoFrame)
+        make_thin(self.list)
         self.list.setViewMode(QListView.ViewMode.IconMode)
         self.list.setFlow(QListView.Flow.LeftToRight)
         self.list.setMovement(QListView.Movement.Static)

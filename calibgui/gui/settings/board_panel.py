@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from functools import partial
 
-from PySide6.QtCore import QSignalBlocker, Qt, Signal
+from PySide6.QtCore import QSignalBlocker, Signal
 from PySide6.QtWidgets import (
     QCheckBox,
     QComboBox,
@@ -105,8 +105,7 @@ class BoardPanel(QWidget):
                 self.tr("As the paper does: the saddle point of the grey levels at each corner."),
             ),
         ):
-            self.method.addItem(text, method)
-            self.method.setItemData(self.method.count() - 1, tip, Qt.ItemDataRole.ToolTipRole)
+            self.method.add_explained(text, method, tip)
         self.method.setToolTip(self.tr("How corners are located; another way searches anew."))
         self.field = NarrowCombo()
         self.field.addItem(self.tr("all rows"), None)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import Qt, Signal
+from PySide6.QtCore import Signal
 from PySide6.QtWidgets import (
     QCheckBox,
     QFileDialog,
@@ -66,8 +66,8 @@ class BoardShapeChoice(QWidget):
                 self.tr("Of these, the one that predicts views best that it has not seen. Slow."),
             ),
         ):
-            self._add(text, model, tip)
-        self._add(
+            self.model.add_explained(text, model, tip)
+        self.model.add_explained(
             self.tr("as in a file…"), _FROM_FILE, self.tr("Hold a shape that was saved before.")
         )
         self.known = QCheckBox(self.tr("known to"))
@@ -129,10 +129,6 @@ class BoardShapeChoice(QWidget):
                 box.setValue(value)
                 box.blockSignals(False)
         self._enable()
-
-    def _add(self, text: str, model: BoardShapeModel | str | None, tip: str) -> None:
-        self.model.addItem(text, model)
-        self.model.setItemData(self.model.count() - 1, tip, Qt.ItemDataRole.ToolTipRole)
 
     def _make_length(self, value: float, unit: str, tip: str) -> NumberBox:
         box = NumberBox(decimals=3, minimum=0.001, maximum=9.0, singleStep=0.05, suffix=unit)

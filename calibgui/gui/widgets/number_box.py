@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from PySide6.QtCore import QLocale
+from PySide6.QtGui import QValidator
 from PySide6.QtWidgets import QDoubleSpinBox
 
 
@@ -16,8 +17,9 @@ class NumberBox(QDoubleSpinBox):
     """
 
     def __init__(self, **properties: Any) -> None:
-        super().__init__(locale=QLocale.c(), **properties)
+        super().__init__(**properties)
+        self.setLocale(QLocale.c())
 
-    def validate(self, text: str, place: int) -> object:
+    def validate(self, text: str, place: int) -> tuple[QValidator.State, str, int]:
         """Tell whether a text is a number, a comma in it replaced."""
         return super().validate(text.replace(",", "."), place)

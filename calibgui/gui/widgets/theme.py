@@ -190,6 +190,9 @@ def apply(app: QApplication, scheme: Scheme) -> None:
     palette.setColor(QPalette.ColorRole.Window, QColor(theme.border).lighter(_DARKENED))
     for kind in _BORDERED:
         app.setPalette(palette, kind)  # type: ignore[arg-type]  # stated as bytes, taken as a name
+    palette.setColor(QPalette.ColorRole.Highlight, QColor(theme.chosen))
+    palette.setColor(QPalette.ColorRole.HighlightedText, QColor(theme.text))
+    app.setPalette(palette, "QTreeView")  # type: ignore[arg-type]
     rows = _palette(theme)
     rows.setColor(QPalette.ColorRole.Highlight, QColor(theme.chosen))
     rows.setColor(QPalette.ColorRole.HighlightedText, QColor(theme.text))

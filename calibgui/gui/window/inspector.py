@@ -59,7 +59,7 @@ class Inspector(QWidget):
         self._verdict = verdict
         self.done, self.camera = DoneList(session), CameraValues(session)
         self._lists = QBoxLayout(QBoxLayout.Direction.TopToBottom)
-        self._lists.setContentsMargins(0, 0, 0, 0)
+        self._lists.setContentsMargins(0, 0, _BAR, 0)
         self._lists.setSpacing(theme.MARGIN)
         first = QVBoxLayout()
         first.setSpacing(theme.SPACING)

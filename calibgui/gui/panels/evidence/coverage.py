@@ -89,6 +89,7 @@ class CoveragePanel(Panel):
         layout.addWidget(self.advice)
         plots = (self.density, 3), (self.distances, 2), (self.tilts, 2)
         layout.addWidget(Split(820, *plots), 1)
+        layout.addStretch()  # of a high card: the map is no higher than its width allows
 
     def _refresh(self, result: Result) -> None:
         size = result.calibration.camera.size
