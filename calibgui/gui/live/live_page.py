@@ -364,7 +364,7 @@ class LivePage(QWidget):
                 format_two_digits(progress.unseen_error), progress.unseen_corners
             )
             said.append(text)
-        self.words.setText("\n\n".join(said))
+        self.words.setText("\n".join(said))
 
     def _show_failure(self, error: Exception) -> None:
         self._has_failed = True
