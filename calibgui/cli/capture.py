@@ -2,9 +2,9 @@
 
 SOURCE is a camera (its number, 0 for the first, or its address, rtsp://...), a video, or a folder
 that another program fills. Hold the board where it is asked for: as soon as it is still, sharp and
-worth it, a picture is taken. Every fifth is put aside and tells how well the camera predicts what
-it has not seen. It ends when the camera is known well enough, or with Ctrl-C. The pictures and
-their corners, corners.json, are then in the folder; nothing that was taken is lost.
+worth it, a picture is taken. Every fifth also tells how well a camera that is calibrated without
+it predicts what it has not seen. It ends when the camera is known well enough, or with Ctrl-C. The
+pictures and their corners, corners.json, are then in the folder; nothing that was taken is lost.
 """
 
 from __future__ import annotations

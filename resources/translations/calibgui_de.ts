@@ -5140,8 +5140,8 @@ Rauschen hinzu und kalibriert: was herauskommen muss, ist genau bekannt.</transl
         <translation>{0} · zurückgelegt</translation>
     </message>
     <message>
-        <source>{0}: the camera is not calibrated with it, but checked</source>
-        <translation>{0}: die Kamera wird nicht damit kalibriert, aber geprüft</translation>
+        <source>{0}: a camera calibrated without it is checked with it as well</source>
+        <translation>{0}: Eine ohne dieses Bild kalibrierte Kamera wird damit auch geprüft</translation>
     </message>
     <message>
         <source>&amp;Take again</source>

@@ -5140,8 +5140,8 @@ encontrado y calibra: lo que debe salir se conoce exactamente.</translation>
         <translation>{0} · apartada</translation>
     </message>
     <message>
-        <source>{0}: the camera is not calibrated with it, but checked</source>
-        <translation>{0}: la cámara no se calibra con ella, pero se comprueba</translation>
+        <source>{0}: a camera calibrated without it is checked with it as well</source>
+        <translation>{0}: con ella se comprueba también una cámara calibrada sin ella</translation>
     </message>
     <message>
         <source>&amp;Take again</source>

@@ -5140,8 +5140,8 @@ was found and calibrates: what must come back is known exactly.</source>
         <translation>{0} · 留出</translation>
     </message>
     <message>
-        <source>{0}: the camera is not calibrated with it, but checked</source>
-        <translation>{0}：不用于标定，但用于检查</translation>
+        <source>{0}: a camera calibrated without it is checked with it as well</source>
+        <translation>{0}：还用它检验一个未用它标定的相机</translation>
     </message>
     <message>
         <source>&amp;Take again</source>

@@ -5,6 +5,7 @@ from __future__ import annotations
 import tempfile
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
+from math import isnan
 from pathlib import Path
 from queue import SimpleQueue
 from typing import NamedTuple
@@ -106,8 +107,8 @@ class CaptureProgress:
     tilts: Array
     """(n, 3) normals of the boards towards the camera, in its frame."""
     unseen_error: float
-    """Rms distance, px, of corners that were put aside from where the camera expects them; NaN if
-    there are none."""
+    """Rms distance, px, of corners that were put aside from where a camera expects them that is
+    calibrated without; NaN if there are none."""
     unseen_corners: int
     """Number of such corners."""
     readout: str
@@ -176,13 +177,14 @@ class Recorder:
         """Measure how far the camera is known; between two frames."""
         session = self._session
         aside = [each for each in session.pictures if each.for_validation]
+        unseen_error = session.measure_unseen_error()
         return CaptureProgress(
             {file: each for file in self._files if (each := self._get_picture(file)) is not None},
             session.worst,
             session.is_complete,
             session.compute_tilts(),
-            session.measure_unseen_error(),
-            sum(len(each.corners) for each in aside) if session.calibration else 0,
+            unseen_error,
+            0 if isnan(unseen_error) else sum(len(each.corners) for each in aside),
             session.describe_readout(),
         )
 

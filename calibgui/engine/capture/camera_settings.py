@@ -8,10 +8,7 @@ from dataclasses import dataclass
 from calibgui.engine.arrays import Size
 from calibgui.engine.opencv import Stream
 
-AUTOFOCUS_WARNING = (
-    "Autofocus is on: every picture is then taken with another lens. Set a focus, or switch it off "
-    "at the camera."
-)
+AUTOFOCUS_WARNING = "Autofocus is on, which changes the lens: set a focus."
 
 
 @dataclass(frozen=True, slots=True)

@@ -80,9 +80,8 @@ class RowReadout:
         if not abs(time) > _MIN_SIGMAS * sigma:
             return ""
         return (
-            f"The camera reads its rows over {1000 * abs(time):.0f} ± {1000 * sigma:.0f} ms "
-            "(rolling shutter): it bends whatever moves meanwhile. Let the board stand by itself, "
-            "or keep it quite still."
+            f"Rolling shutter: rows are read over {1000 * abs(time):.0f} ± {1000 * sigma:.0f} ms. "
+            "Let the board stand by itself."
         )
 
 

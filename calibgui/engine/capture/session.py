@@ -11,9 +11,10 @@ whenever it was lost. A frame is taken by itself if it is
 - well exposed: neither white nor black of the board are cut off (`exposure`), where the light or
   the camera can still be changed.
 
-After each the camera is calibrated and the next view proposed. Every fifth picture is put aside:
-the camera is not calibrated with it, and it tells how well what was not seen is predicted. The
-capture is complete when the worst pixel's uncertainty has come down to what was asked for.
+After each the camera is calibrated with all and the next view proposed. Every fifth picture is put
+aside as well: a second camera is calibrated without these, and tells how well what was not seen is
+predicted. The capture is complete when the worst pixel's uncertainty has come down to what was
+asked for.
 
 A first frame may show but a part of a board whose size nobody stated. When the finder meets a
 larger one, the pictures that were taken are found again as parts of it. Which part of a plain board
@@ -91,7 +92,7 @@ class Picture:
     corners: Corners
     observation: Observation
     for_validation: bool
-    """True if the camera is not calibrated with it."""
+    """True if it is put aside to check a camera with that is calibrated without it."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -129,6 +130,8 @@ class CaptureSession:
         self.pictures: list[Picture] = []
         self.calibration: Calibration | None = None
         """The camera so far, which may be partial; None before the first picture."""
+        self._checked: Calibration | None = None
+        """The same without the pictures that are put aside; None if there are none."""
         self.worst = np.inf
         """Uncertainty of the worst pixel's projection, px; infinite until the views determine the
         camera."""
@@ -159,7 +162,7 @@ class CaptureSession:
     @property
     def views(self) -> list[Observation]:
         """The views that the camera is calibrated from."""
-        return [each.observation for each in self.pictures if not each.for_validation]
+        return [each.observation for each in self.pictures]
 
     def observe(self, frame: Frame, *, is_live: bool = True) -> CaptureState:
         """Look at a frame, and take it if it is still, new, sharp and well exposed.
@@ -233,8 +236,7 @@ class CaptureSession:
         is_aside = len(self.pictures) % _VALIDATION_EVERY == _VALIDATION_EVERY - 1
         picture = Picture(frame, corners, observation, is_aside)
         self.pictures.append(picture)
-        if not is_aside:
-            self._learn()
+        self._learn()
         return picture
 
     def remove(self, picture: Picture) -> None:
@@ -264,14 +266,15 @@ class CaptureSession:
         return np.array([-rotation_from_vector(np.array(pose.rvec))[:, 2] for pose in poses])
 
     def measure_unseen_error(self) -> float:
-        """Measure the rms distance, px, of corners put aside from where the camera expects them.
+        """Measure the rms distance, px, of corners put aside from where they are expected.
 
-        Their boards' poses are estimated. NaN if none was put aside, or no camera is known.
+        It is that of a camera that is calibrated without them; their boards' poses are estimated.
+        NaN if none was put aside, or no camera is known without them.
         """
         aside = [each.observation for each in self.pictures if each.for_validation]
-        if not aside or self.calibration is None:
+        if not aside or self._checked is None:
             return float("nan")
-        missed = [locate_board(self.calibration.camera, view).residuals for view in aside]
+        missed = [locate_board(self._checked.camera, view).residuals for view in aside]
         return float(np.sqrt(np.mean(np.sum(np.concatenate(missed) ** 2, axis=1))))
 
     def _state(
@@ -409,7 +412,11 @@ class CaptureSession:
         """Calibrate with what was taken, and propose the next view."""
         assert self._size is not None
         views = self.views
-        self.calibration = _calibrate(views, self._size) if views else None
+        self.calibration = _calibrate(views, self._size, MODELS) if views else None
+        kept = [each.observation for each in self.pictures if not each.for_validation]
+        self._checked = None
+        if self.calibration is not None and len(kept) < len(views):
+            self._checked = _calibrate(kept, self._size, (self.calibration.camera.model,))
         self.worst, self.wanted, self.goal = np.inf, None, None
         if self.calibration is None:
             return
@@ -425,10 +432,10 @@ class CaptureSession:
             self.goal = goal.reshape(*self._board.grid_size, 2)
 
 
-def _calibrate(views: list[Observation], size: Size) -> Calibration | None:
+def _calibrate(views: list[Observation], size: Size, models: Iterable[str]) -> Calibration | None:
     """Calibrate in the model that fits better, whole or, if need be, in part; None if neither."""
     found = []
-    for model in MODELS:
+    for model in models:
         try:
             found.append(calibrate(views, size, model=model))
         except DegenerateError as error:

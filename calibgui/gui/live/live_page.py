@@ -159,10 +159,10 @@ class LivePage(QWidget):
                 "http://…), or the folder that a camera's program fills"
             )
         )
-        self.size = QComboBox()
-        self.size.addItem(self.tr("as the camera has it"), None)
+        self.image_size = QComboBox()
+        self.image_size.addItem(self.tr("as the camera has it"), None)
         for width, height in _SIZES:
-            self.size.addItem(self.tr("{0} × {1} px").format(width, height), (width, height))
+            self.image_size.addItem(self.tr("{0} × {1} px").format(width, height), (width, height))
         self.exposure, self.focus = self._make_wish(), self._make_wish()
         for wish, name in (
             (self.exposure, self.tr("Exposure, the same in all pictures")),
@@ -219,7 +219,7 @@ class LivePage(QWidget):
         rows.setContentsMargins(0, 0, 0, 0)
         rows.setRowWrapPolicy(QFormLayout.RowWrapPolicy.WrapAllRows)
         rows.addRow(self.tr("Camera, address or folder"), self.source)
-        rows.addRow(self.tr("Size of its images"), self.size)
+        rows.addRow(self.tr("Size of its images"), self.image_size)
         wishes = QHBoxLayout()
         for label, wish in ((self.tr("Exposure"), self.exposure), (self.tr("Focus"), self.focus)):
             wishes.addWidget(QLabel(label))
@@ -307,7 +307,7 @@ class LivePage(QWidget):
         assert recorder is not None
 
         wanted = CameraSettings(
-            self.size.currentData(), _read_wish(self.exposure), _read_wish(self.focus)
+            self.image_size.currentData(), _read_wish(self.exposure), _read_wish(self.focus)
         )
 
         def work(job: Job) -> None:
@@ -364,7 +364,7 @@ class LivePage(QWidget):
                 format_two_digits(progress.unseen_error), progress.unseen_corners
             )
             said.append(text)
-        self.words.setText("\n\n".join(said))
+        self.words.setText("\n".join(said))
 
     def _show_failure(self, error: Exception) -> None:
         self._has_failed = True

@@ -58,7 +58,9 @@ class TakenStrip(QWidget):
         item = QListWidgetItem(_draw_thumbnail(picture), words)
         item.setData(Qt.ItemDataRole.UserRole, file)
         item.setToolTip(
-            self.tr("{0}: the camera is not calibrated with it, but checked").format(file.name)
+            self.tr("{0}: a camera calibrated without it is checked with it as well").format(
+                file.name
+            )
             if picture.for_validation
             else file.name
         )

@@ -144,7 +144,7 @@ def test_a_camera_is_set_as_it_is_wanted_and_says_what_it_does_not_take(
 ) -> None:
     monkeypatch.setattr(cv2, "VideoCapture", lambda _: _Device())
     remark = CameraSource(0).remark
-    assert remark.startswith("The camera has 640 x 480 px, exposure 156. Autofocus is on: ")
+    assert remark.startswith("The camera has 640 x 480 px, exposure 156. Autofocus is on, ")
     source = open_source("0", 1.0, CameraSettings((1280, 720), -6.0, 30.0))
     assert source.remark == (
         "The camera has 1280 x 720 px, exposure 156, focus 30. It does not take exposure -6."

@@ -98,7 +98,7 @@ def live(window: MainWindow, qtbot: QtBot, tmp_path: Path, monkeypatch: pytest.M
 def test_a_hand_that_follows_ends_with_a_calibrated_project(live: Page, window: MainWindow) -> None:
     page = live.page
     page.limit.setValue(0.2)
-    page.size.setCurrentIndex(2)
+    page.image_size.setCurrentIndex(2)
     page.focus.setValue(30)
     live.click("start")
     live.wait(lambda: page.strip.list.count() >= 2)
