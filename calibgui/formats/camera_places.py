@@ -14,7 +14,7 @@ from calibgui.engine.geometry import Pose, rotation_from_vector
 
 M_PER_MM = 1e-3
 """Metres in a millimetre."""
-WORLD = Pose([0.0, 0.0, 0.0], [0.0, 0.0, 0.0])
+WORLD = Pose(np.zeros(3), np.zeros(3))
 """Pose of a camera that is the world itself."""
 Y_UP_FROM_Y_DOWN = np.diag([1.0, -1.0, -1.0, 1.0])
 """The turn by half about X between both, either way, in homogeneous coordinates."""

@@ -102,7 +102,7 @@ def write_colmap_rig(result: RigResult, path: Path, _pair: tuple[int, int]) -> s
     """Write a rig_config.json."""
     rig = result.rig
     cameras, note = express_cameras(rig.cameras, colmap_cameras.EXPORTER, path)
-    entries = []
+    entries: list[dict[str, object]] = []
     for camera, name, pose in zip(cameras, rig.names, rig.poses, strict=True):
         model, parameters = colmap_cameras.list_parameters(camera)
         motion = list_motion(pose)
