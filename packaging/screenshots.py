@@ -82,6 +82,7 @@ class Hand:
     """A camera before which a hand holds a board near where it is wanted."""
 
     title, is_continuous, is_live = "a rendered camera", True, False
+    remark = "The camera has 1280 x 720 px, exposure 156, focus 30."
 
     def __init__(self, window: MainWindow) -> None:
         self._window = window

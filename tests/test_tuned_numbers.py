@@ -16,7 +16,7 @@ import pytest
 
 ENGINE = Path(__file__).resolve().parents[1] / "calibgui" / "engine"
 BUDGETS = {
-    "assessment": 122,
+    "assessment": 119,
     "boards": 12,
     "calibration": 181,
     "camera": 26,

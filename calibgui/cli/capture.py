@@ -2,9 +2,9 @@
 
 SOURCE is a camera (its number, 0 for the first, or its address, rtsp://...), a video, or a folder
 that another program fills. Hold the board where it is asked for: as soon as it is still, sharp and
-worth it, a picture is taken. Every fifth is put aside and tells how well the camera predicts what
-it has not seen. It ends when the camera is known well enough, or with Ctrl-C. The pictures and
-their corners, corners.json, are then in the folder; nothing that was taken is lost.
+worth it, a picture is taken. Every fifth also tells how well a camera that is calibrated without
+it predicts what it has not seen. It ends when the camera is known well enough, or with Ctrl-C. The
+pictures and their corners, corners.json, are then in the folder; nothing that was taken is lost.
 """
 
 from __future__ import annotations
@@ -20,10 +20,11 @@ from calibgui.app.photographs.recording import (
 )
 from calibgui.cli.arguments import add_grid_size_option, add_square_option, parse_positive
 from calibgui.cli.boards import add_board_options, is_pattern_open, read_pattern_options
+from calibgui.cli.camera import parse_size
 from calibgui.cli.console import Console
 from calibgui.dataset import DEFAULT_SQUARE, CornerSet
 from calibgui.engine.boards import Board
-from calibgui.engine.capture import CaptureSession, open_source
+from calibgui.engine.capture import CameraSettings, CaptureSession, open_source
 from calibgui.engine.errors import CalibrationError
 from calibgui.formats.corners_json import encode_corners, write_corners
 from calibgui.report.numbers import format_count
@@ -53,6 +54,24 @@ def configure(parser: argparse.ArgumentParser) -> None:
         f"({DEFAULT_LIMIT:g})",
     )
     parser.add_argument(
+        "--size",
+        type=parse_size,
+        metavar="WxH",
+        help="size of the camera's images, px (as the camera has it)",
+    )
+    parser.add_argument(
+        "--exposure",
+        type=float,
+        metavar="E",
+        help="exposure, the same in all pictures, in the camera's own unit (as the camera has it)",
+    )
+    parser.add_argument(
+        "--focus",
+        type=float,
+        metavar="F",
+        help="focus, the same in all pictures, in the camera's own unit (as the camera has it)",
+    )
+    parser.add_argument(
         "--patience",
         type=parse_positive,
         default=_PATIENCE,
@@ -68,11 +87,16 @@ def run(options: argparse.Namespace, console: Console) -> None:
     square = DEFAULT_SQUARE if options.square is None else options.square
     session = CaptureSession(BoardFinder(pattern, options.board), square, options.until)
     recorder, failure = Recorder(session, options.output), None
-    with open_source(options.source, options.patience) as source:
+    wanted = CameraSettings(options.size, options.exposure, options.focus)
+    with open_source(options.source, options.patience, wanted) as source:
+        if source.remark:
+            console.print_text(source.remark)
         try:
-            said = ""
+            said = readout = ""
             for recorded in recorder.record(source, lambda: False):
                 said = _tell(recorded, session, said, console)
+                if not readout and (readout := session.describe_readout()):
+                    console.print_text(f"  {readout}")
         except KeyboardInterrupt:
             console.print_text("Stopped.")
         except CalibrationError as error:

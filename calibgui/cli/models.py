@@ -65,9 +65,7 @@ def _encode_choice(choice: LensChoice) -> dict[str, Any]:
         "recommended": choice.model,
         "fixed": choice.chosen.fixed,
         "reason": describe_lens_choice(choice),
-        "reference": choice.reference,
-        "adequate": choice.adequate,
-        "tolerance_px": choice.tolerance,
+        "adequate": choice.errors,
         "models": [_encode_row(row) for row in list_lens_rows(choice)],
         "refused": choice.refused,
     }

@@ -30,6 +30,10 @@ class NoBoardError(CalibrationError):
     """An error: no acceptable board was found in an image."""
 
 
+class OtherSizeError(NoBoardError):
+    """An error: there are checkerboards in an image, but none of the stated size."""
+
+
 class UnknownPartError(NoBoardError):
     """An error: marks of a board were read, but they do not tell its corners in this image."""
 

@@ -54,6 +54,11 @@ def halve_image(image: GreyImage) -> GreyImage:
     return np.asarray(cv2.resize(even, (width, height), interpolation=cv2.INTER_AREA))
 
 
+def average_colours(image: GreyImage, weights: Array) -> GreyImage:
+    """Average the colours of an image (h, w, 3) with weights (3,), rounded to its type."""
+    return np.asarray(cv2.transform(image, weights[None])).reshape(image.shape[:2])
+
+
 def blur_image(image: GreyImage, sigma: float) -> tuple[GreyImage, float]:
     """Blur `image` (h, w) by a Gaussian of standard deviation `sigma` px, edges reflected.
 
@@ -121,6 +126,25 @@ def cut_tiles(image: GreyImage, uv: Array, half: int) -> tuple[GreyImage, Array]
     u = np.clip(origin[:, :1] + offset, 0, image.shape[1] - 1)
     v = np.clip(origin[:, 1:] + offset, 0, image.shape[0] - 1)
     return image[v[:, :, None], u[:, None, :]], origin.astype(np.float64)
+
+
+_REDUCED = {
+    2: cv2.IMREAD_REDUCED_GRAYSCALE_2,
+    4: cv2.IMREAD_REDUCED_GRAYSCALE_4,
+    8: cv2.IMREAD_REDUCED_GRAYSCALE_8,
+}
+
+
+def decode_small(data: bytes, times: int) -> GreyImage | None:
+    """Return a JPEG file in grey (h, w), 2, 4 or 8 times smaller; None if it is damaged.
+
+    The decoder leaves out what only the larger image needs.
+    """
+    flags = _REDUCED[times] | cv2.IMREAD_IGNORE_ORIENTATION
+    try:
+        return cv2.imdecode(np.frombuffer(data, np.uint8), flags)
+    except cv2.error:
+        return None
 
 
 def decode_image(data: bytes, colour: bool) -> GreyImage | None:
@@ -197,6 +221,51 @@ class Stream:
     def time(self) -> float:
         """Time of the last frame from the first one on, s, as the stream states it."""
         return float(self._capture.get(cv2.CAP_PROP_POS_MSEC)) / 1000
+
+    @property
+    def size(self) -> Size:
+        """Width and height of its images, px."""
+        width, height = (
+            int(self._capture.get(each))
+            for each in (cv2.CAP_PROP_FRAME_WIDTH, cv2.CAP_PROP_FRAME_HEIGHT)
+        )
+        return width, height
+
+    @property
+    def exposure(self) -> float | None:
+        """Exposure of a camera in its own unit; None if it tells none."""
+        return self._get_setting(cv2.CAP_PROP_EXPOSURE)
+
+    @property
+    def focus(self) -> float | None:
+        """Focus of a camera in its own unit; None if it tells none."""
+        return self._get_setting(cv2.CAP_PROP_FOCUS)
+
+    @property
+    def has_autofocus_on(self) -> bool:
+        """True if a camera says that its autofocus is on."""
+        return float(self._capture.get(cv2.CAP_PROP_AUTOFOCUS)) > 0
+
+    def set_size(self, size: Size) -> None:
+        """Ask a camera for images of a size, px; it may take the nearest that it has."""
+        self._capture.set(cv2.CAP_PROP_FRAME_WIDTH, size[0])
+        self._capture.set(cv2.CAP_PROP_FRAME_HEIGHT, size[1])
+
+    def set_exposure(self, exposure: float) -> None:
+        """Ask a camera to expose alike always, in its own unit."""
+        is_v4l = self._capture.getBackendName() == "V4L2"  # elsewhere 0 means by hand
+        self._capture.set(cv2.CAP_PROP_AUTO_EXPOSURE, 1 if is_v4l else 0)
+        self._capture.set(cv2.CAP_PROP_EXPOSURE, exposure)
+
+    def set_focus(self, focus: float) -> None:
+        """Ask a camera to focus alike always, in its own unit."""
+        self._capture.set(cv2.CAP_PROP_AUTOFOCUS, 0)
+        self._capture.set(cv2.CAP_PROP_FOCUS, focus)
+
+    def _get_setting(self, which: int) -> float | None:
+        """Get a setting of a camera; None if it has none: OpenCV then says 0 or -1."""
+        value = float(self._capture.get(which))
+        return value if np.isfinite(value) and value not in (0.0, -1.0) else None
 
     @property
     def count(self) -> int:

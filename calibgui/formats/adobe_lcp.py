@@ -2,9 +2,10 @@
 
 Reader: Lightroom, Camera Raw and Photoshop, RawTherapee and darktable's relatives. The perspective
 model is Brown's, with k1 k2 k3 of OpenCV as RadialDistortParam1 to 3, and p1 and p2 as
-TangentialDistortParam1 and 2. Focal lengths are shares of the image's longer side; the centre is a
-share of width and height, from a corner: pixels have whole numbers at their corners there. The
-profile is for the images as the sensor has them, before they are turned.
+TangentialDistortParam1 and 2; the fisheye model is Kannala and Brandt's with k1 and k2 alone. Focal
+lengths are shares of the image's longer side; the centre is a share of width and height, from a
+corner: pixels have whole numbers at their corners there. The profile is for the images as the
+sensor has them, before they are turned.
 Cannot hold: other lens models and skew (they are refitted), standard deviations, poses, corners.
 """
 
@@ -28,6 +29,9 @@ _COEFFICIENTS = {
     "TangentialDistortParam2": "p2",
 }
 """Our names of the profile's coefficients."""
+
+
+_FISHEYE = "kannala-brandt"
 
 
 def write_lcp(result: Result, path: Path) -> ExportReport:
@@ -59,13 +63,19 @@ def format_profile(camera: Camera, note: str, hardware: Hardware = UNKNOWN_HARDW
         "ImageLength": str(height),
         "FocalLength": f"{values['fx'] / longer * film:.4g}",
     }
+    is_fisheye = camera.model == _FISHEYE
+    kind = "FisheyeModel" if is_fisheye else "PerspectiveModel"
+    of_lens = {
+        key: repr(values.get(name, 0.0))
+        for key, name in list(_COEFFICIENTS.items())[: 2 if is_fisheye else None]
+    }
     model = {
         "Version": "2",
         "FocalLengthX": repr(values["fx"] / longer),
         "FocalLengthY": repr(values["fy"] / longer),
         "ImageXCenter": repr(centre[0]),
         "ImageYCenter": repr(centre[1]),
-        **{key: repr(values.get(name, 0.0)) for key, name in _COEFFICIENTS.items()},
+        **of_lens,
     }
     return f"""\
 <x:xmpmeta xmlns:x="adobe:ns:meta/">
@@ -76,9 +86,9 @@ def format_profile(camera: Camera, note: str, hardware: Hardware = UNKNOWN_HARDW
     <rdf:Seq>
      <rdf:li>
       <rdf:Description{_list_attributes(named, 7)}>
-       <stCamera:PerspectiveModel>
+       <stCamera:{kind}>
         <rdf:Description{_list_attributes(model, 9)}/>
-       </stCamera:PerspectiveModel>
+       </stCamera:{kind}>
       </rdf:Description>
      </rdf:li>
     </rdf:Seq>
@@ -98,10 +108,12 @@ EXPORTER = Exporter(
     name="lcp",
     title="Adobe lens profile",
     suffixes=(".lcp",),
-    models=("brown-conrady", "brown-conrady-4", "pinhole"),
-    refits=("brown-conrady",),
+    models=("brown-conrady", "brown-conrady-4", "pinhole", _FISHEYE),
+    refits=("brown-conrady", _FISHEYE),
+    zeros={_FISHEYE: ("k3", "k4")},
     readers="Lightroom, Camera Raw, RawTherapee",
-    keeps="the camera with k1 to k3, p1 and p2, the names of camera and lens",
-    loses="fisheye lenses, standard deviations, poses, corners",
+    keeps="the camera with k1 to k3, p1 and p2, as fisheye with k1 and k2, the names of camera and "
+    "lens",
+    loses="standard deviations, poses, corners",
     write=write_lcp,
 )

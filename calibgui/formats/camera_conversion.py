@@ -78,7 +78,8 @@ def convert_alike(
         return [convert_camera(camera, camera.model) for camera in cameras]
     tried: list[tuple[float, list[Conversion]]] = []
     for model in exporter.refits:
-        found = [convert_camera(camera, model) for camera in cameras]
+        zeros = exporter.zeros.get(model, ())
+        found = [convert_camera(camera, model, zeros=zeros) for camera in cameras]
         tried.append((max(one.largest_error for one in found), found))
         if tried[-1][0] < SUFFICIENT_REFIT_ERROR:
             break
@@ -96,7 +97,7 @@ def describe_conversion(original: Camera, found: Conversion) -> str:
     The text has no apostrophes: OpenCV writes them into JSON in a way that only OpenCV reads.
     """
     title = find_model(found.camera.model).title
-    if found.camera.model == original.model:
+    if found.camera is original:
         return f"Lens model {title}, as it was read."
     return (
         f"Lens model {title}, converted from {find_model(original.model).title} without corners; "
@@ -174,7 +175,7 @@ def export_camera(
         )
     found = []
     for model in exporter.refits:
-        found.append(convert_camera(camera, model, angle))
+        found.append(convert_camera(camera, model, angle, exporter.zeros.get(model, ())))
         if found[-1].largest_error < SUFFICIENT_REFIT_ERROR:
             break
     best = min(found, key=lambda conversion: conversion.largest_error)

@@ -16,8 +16,8 @@ M_PER_MM = 1e-3
 """Metres in a millimetre."""
 WORLD = Pose(np.zeros(3), np.zeros(3))
 """Pose of a camera that is the world itself."""
-_HALF_TURN = np.diag([1.0, -1.0, -1.0, 1.0])
-"""The turn by half about X, in homogeneous coordinates."""
+Y_UP_FROM_Y_DOWN = np.diag([1.0, -1.0, -1.0, 1.0])
+"""The turn by half about X between both, either way, in homogeneous coordinates."""
 
 
 def world_from_camera_upright(pose: Pose) -> Array:
@@ -25,7 +25,7 @@ def world_from_camera_upright(pose: Pose) -> Array:
     R, t = rotation_from_vector(pose.rvec), pose.tvec * M_PER_MM
     motion = np.eye(4)
     motion[:3, :3], motion[:3, 3] = R.T, -R.T @ t
-    return _HALF_TURN @ motion @ _HALF_TURN
+    return Y_UP_FROM_Y_DOWN @ motion @ Y_UP_FROM_Y_DOWN
 
 
 def list_motion(pose: Pose) -> list[float]:

@@ -102,7 +102,8 @@ def express_in_format(result: Result, exporter: Exporter) -> Refit:
     failures: list[CalibrationError] = []
     for model in exporter.refits:
         try:
-            fitted = refit(result.observations(), result.calibration, model)
+            zeros = exporter.zeros.get(model, ())
+            fitted = refit(result.observations(), result.calibration, model, zeros)
         except CalibrationError as error:
             failures.append(error)
             continue

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
 from pathlib import Path
 
 from calibgui.dataset import Result
@@ -59,6 +59,8 @@ class Exporter:
     refits: tuple[str, ...] = ()
     """Names of the models in which cameras of other models are refitted, the simplest first; a
     camera that none of them follows is not written. Empty if nothing is ever refitted."""
+    zeros: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+    """Names of the coefficients that it does not have, of some of its models: they must be 0."""
     holds_rectification: bool = False
     """True if the format holds the rectification of a stereo pair."""
     holds_skew: bool = False
@@ -82,6 +84,8 @@ class Exporter:
         """Return whether `write` takes the camera as calibrated."""
         named = dict(zip(camera.names, camera.params.tolist(), strict=True))
         if named.get("skew", 0.0) != 0 and not (self.holds_skew or self.fits_rays):
+            return False
+        if any(named[name] != 0 for name in self.zeros.get(camera.model, ())):
             return False
         return self.holds_model(camera.model)
 

@@ -60,22 +60,37 @@ def write_metashape(result: Result, path: Path) -> ExportReport:
 
 def format_calibration(camera: Camera, note: str) -> str:
     """Return the text of the file; `camera` is in one of the format's models."""
-    ours = dict(zip(camera.names, camera.params.tolist(), strict=True))
-    cx, cy = (corner_from_array(camera.centre) - [side / 2 for side in camera.size]).tolist()
-    values = {"f": ours["fy"], "cx": cx, "cy": cy}
-    values |= {name: ours[own] for name, own in _OURS.items() if own in ours}
-    values |= {"b1": ours["fx"] - ours["fy"], "b2": ours.get("skew", 0.0) * ours["fx"]}
-    lines = "".join(f"  <{name}>{value!r}</{name}>\n" for name, value in values.items())
+    lines = "".join(f"  <{name}>{value!r}</{name}>\n" for name, value in list_values(camera))
     return (
         '<?xml version="1.0" encoding="UTF-8"?>\n'
-        f"<!-- {escape(note, quote=False).replace('--', '- -')} -->\n"
+        f"{format_note(note)}"
         "<calibration>\n"
-        f"  <projection>{'fisheye' if camera.model in _FISHEYES else 'frame'}</projection>\n"
+        f"  <projection>{'fisheye' if is_fisheye(camera) else 'frame'}</projection>\n"
         f"  <width>{camera.size[0]}</width>\n"
         f"  <height>{camera.size[1]}</height>\n"
         f"{lines}"
         "</calibration>\n"
     )
+
+
+def format_note(note: str) -> str:
+    """Return a note as a comment, with its line's end."""
+    return f"<!-- {escape(note, quote=False).replace('--', '- -')} -->\n"
+
+
+def is_fisheye(camera: Camera) -> bool:
+    """Return whether Metashape calls a camera in one of its models a fisheye."""
+    return camera.model in _FISHEYES
+
+
+def list_values(camera: Camera) -> list[tuple[str, float]]:
+    """List Metashape's names and values of a camera in one of its models."""
+    ours = dict(zip(camera.names, camera.params.tolist(), strict=True))
+    cx, cy = (corner_from_array(camera.centre) - [side / 2 for side in camera.size]).tolist()
+    values = {"f": ours["fy"], "cx": cx, "cy": cy}
+    values |= {name: ours[own] for name, own in _OURS.items() if own in ours}
+    values |= {"b1": ours["fx"] - ours["fy"], "b2": ours.get("skew", 0.0) * ours["fx"]}
+    return list(values.items())
 
 
 def read_metashape(source: CameraText) -> ImportedCamera:

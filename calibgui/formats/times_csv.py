@@ -51,9 +51,11 @@ def read_times(
     for line, row in rows:
         time = parse_cell(path, line, row, "time_s")
         if "file" in head:
-            name = PurePosixPath(row["file"].replace("\\", "/"))
-            count = len(name.parts)
-            meant = [one for one in by_name[name.name] if one[1].parts[-count:] == name.parts]
+            file_name = PurePosixPath(row["file"].replace("\\", "/"))
+            count = len(file_name.parts)
+            meant = [
+                one for one in by_name[file_name.name] if one[1].parts[-count:] == file_name.parts
+            ]
             if len(meant) > 1:
                 raise CalibrationError(
                     f"{path}, line {line}: several photographs are called {row['file']}.",

@@ -157,7 +157,7 @@ def describe_lens_choice(choice: LensChoice) -> str:
     if chosen.model == SIMPLEST_MODEL:
         text = (
             f"The paper's model ({name}) is kept: {error}, and no other model that these "
-            "views determine does better by more than chance and 1 %."
+            "views determine does noticeably better."
         )
     else:
         clauses = "; ".join([error, *_describe_refusal(choice)])
@@ -187,12 +187,9 @@ def _describe_refusal(choice: LensChoice) -> list[str]:
         return [f"{simplest} does not suit them ({faults})"]
     if trial.validation is None:
         return [f"{simplest} leaves {trial.rms:.3g} px on the views themselves"]
-    if SIMPLEST_MODEL in choice.adequate:
-        difference = choice.differences[SIMPLEST_MODEL]
-        return [
-            f"{simplest} predicts them as well, but images what they cover up to "
-            f"{format_px(difference)} px elsewhere"
-        ]
+    if SIMPLEST_MODEL in choice.errors:
+        error = choice.errors[SIMPLEST_MODEL]
+        return [f"{simplest} predicts them as well, but is known to {format_px(error)} px only"]
     clause = f"{simplest} predicts them with {trial.held_out:.3f} px"
     if trial.valid_share < choice.chosen.valid_share:
         clause += f" and is one-to-one on {_format_share(trial.valid_share)} of the image only"
@@ -201,17 +198,12 @@ def _describe_refusal(choice: LensChoice) -> list[str]:
 
 def _describe_rivals(choice: LensChoice) -> str:
     """Say in a sentence why none of the other models is taken that predict as well."""
-    if len(choice.adequate) == 1:
+    if len(choice.errors) == 1:
         return "No other model that these views determine predicts as well."
-    if choice.model == choice.reference:
-        return (
-            "It is the richest of the models that predict as well; the maps of the simpler ones "
-            "differ from its own by more than the uncertainty of both."
-        )
     return (
-        "Of the models that predict as well it is the simplest whose map differs from that of "
-        f"{get_short_lens_title(choice.reference)} by less than the uncertainty of both "
-        f"({choice.tolerance:.2g} px)."
+        "Of the models that predict as well it is the simplest that no other is known better than "
+        f"by more than a fifth: pixels are known to {format_px(choice.errors[choice.model])} px "
+        "rms over the image."
     )
 
 

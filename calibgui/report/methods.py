@@ -20,6 +20,7 @@ from calibgui.engine.assessment import (
     LineTrial,
     MethodComparison,
     MethodTrial,
+    summarise_residuals,
 )
 from calibgui.engine.boards import Board
 from calibgui.engine.calibration import Calibration
@@ -43,7 +44,8 @@ _LEGEND = (
     "shift: how far the distortion moves points that are measured {radius:.0f} px from the "
     "principal point, the outermost corner's distance; negative towards it. cx and cy of methods "
     "marked * are the centre of the distortion.",
-    "RMS: residuals of a calibration from all views, with the poses as the method leaves them. "
+    "RMS, sigma: length and one coordinate of the residuals of a calibration from all views, with "
+    "the poses as the method leaves them. "
     "unseen: RMS of the residuals of views that were left out of the calibration in turn, with "
     "only their poses fitted, which may be less than the RMS of a method that fits no pose. Of "
     "methods marked *, which know no lengths, both are distances of corners from straight rows "
@@ -88,6 +90,8 @@ class MethodRow:
     rms: float
     """RMS length of the residuals of a calibration from all views; of a method of the kind "lines"
     the RMS distance of corners from straight lines."""
+    sigma: float
+    """Standard deviation of a coordinate of these residuals; NaN for distances, which have one."""
     unseen: float
     """RMS length of the residuals, or the RMS distance, of views that the method has not seen."""
     seconds: float
@@ -130,6 +134,7 @@ def _make_row(comparison: MethodComparison, name: str) -> MethodRow:
         radius=nan,
         coefficients="",
         rms=nan,
+        sigma=nan,
         unseen=nan,
         seconds=nan,
         iterations=None,
@@ -160,6 +165,7 @@ def _make_camera_row(trial: MethodTrial) -> MethodRow:
             if name not in (*QUANTITIES, *found.fixed)
         ),
         rms=trial.rms,
+        sigma=summarise_residuals(found.residuals).sigma,
         unseen=trial.held_out,
         seconds=found.seconds,
         iterations=(len(found.history) - 1) or None,
@@ -206,6 +212,7 @@ def _make_line_row(trial: LineTrial) -> MethodRow:
             (each for each in estimated if each[0] not in QUANTITIES), _LINE_UNITS
         ),
         rms=lines.straightness_after,
+        sigma=math.nan,
         unseen=trial.held_out,
         seconds=trial.seconds,
         iterations=lines.iterations or None,
@@ -398,13 +405,14 @@ def _split_sigma(value: float, sigma: float) -> tuple[str, str]:
 
 def _tabulate_errors(rows: Sequence[MethodRow]) -> str:
     """Tabulate what the methods leave, what they take, and how far they are from the chosen."""
-    head = ["", "method", "RMS", "unseen", "time", "steps", "differs", "worst"]
-    units = ["", "", "px", "RMS px", "s", "", "RMS px", "px"]
+    head = ["", "method", "RMS", "sigma", "unseen", "time", "steps", "differs", "worst"]
+    units = ["", "", "px", "px", "RMS px", "s", "", "RMS px", "px"]
     cells = [
         [
             _mark(row),
             row.name,
             format_length(row.rms),
+            format_length(row.sigma),
             format_length(row.unseen),
             "-" if math.isnan(row.seconds) else f"{row.seconds:.2g}",
             "-" if row.iterations is None else str(row.iterations),

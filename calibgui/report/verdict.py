@@ -108,9 +108,8 @@ def describe_error_in_scene(verdict: Verdict, condition: str) -> str:
 def describe_fit(result: Result) -> str:
     """Describe the residuals in a few words: RMS, sigma and the number of corners or circles."""
     fit = summarise_residuals(result.calibration.residuals)
-    sigma = float(np.hypot(fit.sigma_x, fit.sigma_y) / np.sqrt(2))
     points = format_count(fit.count, name_point(result.board))
-    return f"RMS {fit.rms:.3f} px, σ {sigma:.3f} px of {points}"
+    return f"RMS {fit.rms:.3f} px, σ {fit.sigma:.3f} px of {points}"
 
 
 def describe_options(action: Action, result: Result) -> str:

@@ -1061,8 +1061,8 @@ Ergebnisse aus denselben Bildern teilen ihre Fehler: dann ist schon 1 viel.</tra
         <translation>Konvergenz</translation>
     </message>
     <message>
-        <source>The cost after each step of the joint refinement, also while it runs.</source>
-        <translation>Die Kosten nach jedem Schritt der gemeinsamen Verfeinerung, auch während sie läuft.</translation>
+        <source>The cost after each step, also while it runs.</source>
+        <translation>Die Kosten nach jedem Schritt, auch während er läuft.</translation>
     </message>
     <message>
         <source>iteration</source>
@@ -1583,14 +1583,6 @@ nach der Drehung, die beide dort am nächsten zusammenbringt, wo Ecken (Punkte) 
         <translation>Die Änderungen ohne Kopie verwerfen?</translation>
     </message>
     <message>
-        <source>There is no report on a camera that is known from a file.</source>
-        <translation>Zu einer Kamera aus einer Datei gibt es keinen Bericht.</translation>
-    </message>
-    <message>
-        <source>Calibrate it (Set-up, Lens), or write the report on its own result.</source>
-        <translation>Sie kalibrieren (Einrichtung, Linse) oder den Bericht zu ihrem eigenen Ergebnis schreiben.</translation>
-    </message>
-    <message>
         <source>Folder that holds the missing images</source>
         <translation>Ordner mit den fehlenden Bildern</translation>
     </message>
@@ -1983,6 +1975,10 @@ nach der Drehung, die beide dort am nächsten zusammenbringt, wo Ecken (Punkte) 
     <message>
         <source>Untitled</source>
         <translation>Ohne Namen</translation>
+    </message>
+    <message>
+        <source>1 photograph</source>
+        <translation>1 Foto</translation>
     </message>
     <message>
         <source>{0} photographs</source>
@@ -2546,6 +2542,26 @@ nur ihre Lagen angepasst</translation>
         <translation>Eine Kamera an diesem Rechner, die Adresse einer im Netz (rtsp://…, http://…) oder der Ordner, den das Programm einer Kamera füllt</translation>
     </message>
     <message>
+        <source>as the camera has it</source>
+        <translation>wie die Kamera sie hat</translation>
+    </message>
+    <message>
+        <source>{0} × {1} px</source>
+        <translation>{0} × {1} px</translation>
+    </message>
+    <message>
+        <source>Exposure, the same in all pictures</source>
+        <translation>Belichtung, in allen Bildern dieselbe</translation>
+    </message>
+    <message>
+        <source>Focus, the same in all pictures</source>
+        <translation>Fokus, in allen Bildern derselbe</translation>
+    </message>
+    <message>
+        <source>{0}, in the camera&apos;s own unit, of a camera at this computer</source>
+        <translation>{0}, in der Einheit der Kamera, bei einer Kamera an diesem Rechner</translation>
+    </message>
+    <message>
         <source> px</source>
         <translation> px</translation>
     </message>
@@ -2590,8 +2606,24 @@ nur ihre Lagen angepasst</translation>
         <translation>%p % des Wegs zum gelben Ort</translation>
     </message>
     <message>
+        <source>as it is</source>
+        <translation>unverändert</translation>
+    </message>
+    <message>
         <source>Camera, address or folder</source>
         <translation>Kamera, Adresse oder Ordner</translation>
+    </message>
+    <message>
+        <source>Size of its images</source>
+        <translation>Größe ihrer Bilder</translation>
+    </message>
+    <message>
+        <source>Exposure</source>
+        <translation>Belichtung</translation>
+    </message>
+    <message>
+        <source>Focus</source>
+        <translation>Fokus</translation>
     </message>
     <message>
         <source>Until the worst pixel is known to</source>
@@ -2804,6 +2836,14 @@ Nur mit Verfahren vergleichen, die * tragen.</translation>
         <translation>Residuen einer Kalibrierung aus allen Ansichten</translation>
     </message>
     <message>
+        <source>σ</source>
+        <translation>σ</translation>
+    </message>
+    <message>
+        <source>Standard deviation of a coordinate of these residuals</source>
+        <translation>Standardabweichung einer Koordinate dieser Residuen</translation>
+    </message>
+    <message>
         <source>Unseen</source>
         <translation>Ungesehen</translation>
     </message>
@@ -2957,6 +2997,10 @@ wo die äußerste Ecke liegt; negativ zur Mitte hin</translation>
         <translation>Dieses Ergebnis ist vom Verfahren „{0}“. Was machten andere daraus?</translation>
     </message>
     <message>
+        <source>Each RMS and σ is of {0:,} corners in {1} views.</source>
+        <translation>Jedes RMS und σ ist von {0:,} Ecken in {1} Aufnahmen.</translation>
+    </message>
+    <message>
         <source>Differences are from the calibration that was shown when they were found.</source>
         <translation>Unterschiede sind zu der Kalibrierung, die gezeigt wurde, als sie gefunden wurden.</translation>
     </message>
@@ -2993,6 +3037,18 @@ wo die äußerste Ecke liegt; negativ zur Mitte hin</translation>
     <message>
         <source>&amp;All {0} images</source>
         <translation>&amp;Alle {0} Bilder</translation>
+    </message>
+    <message>
+        <source>A report tells how a camera was calibrated, and this one is known from a file. Calibrate it from these photographs?</source>
+        <translation>Ein Bericht sagt, wie eine Kamera kalibriert wurde, und diese ist aus einer Datei bekannt. Aus diesen Fotos kalibrieren?</translation>
+    </message>
+    <message>
+        <source>C&amp;alibrate it</source>
+        <translation>K&amp;alibrieren</translation>
+    </message>
+    <message>
+        <source>Calibrate again</source>
+        <translation type="unfinished">Neu kalibrieren</translation>
     </message>
     <message>
         <source>Open {0}</source>
@@ -3871,8 +3927,8 @@ Der Kreis: wie die Bretter geneigt waren; die Mitte ist zur Kamera hin, der Rand
         <translation>Residuen</translation>
     </message>
     <message>
-        <source>Measured minus predicted corners: the reprojection errors, one dot each.</source>
-        <translation>Gemessene minus vorhergesagte Ecken: die Rückprojektionsfehler, je ein Punkt.</translation>
+        <source>Measured minus predicted corners.</source>
+        <translation>Gemessene minus vorhergesagte Ecken.</translation>
     </message>
     <message>
         <source>Click a point to see its corner in the image.</source>
@@ -4945,6 +5001,22 @@ geben keine oder eine schlechte: Stufe II hängt nicht davon ab.</translation>
         <translation>Ansicht</translation>
     </message>
     <message>
+        <source>σ</source>
+        <translation>σ</translation>
+    </message>
+    <message>
+        <source>Standard deviation of a coordinate, from RMS, corners and 11 unknowns</source>
+        <translation>Standardabweichung einer Koordinate, aus RMS, Ecken und 11 Unbekannten</translation>
+    </message>
+    <message>
+        <source>Corners</source>
+        <translation type="unfinished">Ecken</translation>
+    </message>
+    <message>
+        <source>Number of the view&apos;s corners</source>
+        <translation>Anzahl der Ecken der Aufnahme</translation>
+    </message>
+    <message>
         <source>no convergence</source>
         <translation>nicht konvergiert</translation>
     </message>
@@ -4960,8 +5032,8 @@ geben keine oder eine schlechte: Stufe II hängt nicht davon ab.</translation>
         <translation>Synthetische Probe</translation>
     </message>
     <message>
-        <source>Whether the method finds this camera again in pictures that are rendered with it.</source>
-        <translation>Ob das Verfahren diese Kamera in damit gerechneten Bildern wiederfindet.</translation>
+        <source>Whether the method finds this camera again.</source>
+        <translation>Ob das Verfahren diese Kamera wiederfindet.</translation>
     </message>
     <message>
         <source>&amp;Render and calibrate</source>
@@ -5068,8 +5140,8 @@ Rauschen hinzu und kalibriert: was herauskommen muss, ist genau bekannt.</transl
         <translation>{0} · zurückgelegt</translation>
     </message>
     <message>
-        <source>{0}: the camera is not calibrated with it, but checked</source>
-        <translation>{0}: die Kamera wird nicht damit kalibriert, aber geprüft</translation>
+        <source>{0}: a camera calibrated without it is checked with it as well</source>
+        <translation>{0}: Eine ohne dieses Bild kalibrierte Kamera wird damit auch geprüft</translation>
     </message>
     <message>
         <source>&amp;Take again</source>
@@ -5166,8 +5238,8 @@ Rauschen hinzu und kalibriert: was herauskommen muss, ist genau bekannt.</transl
         <translation>Unsicherheit</translation>
     </message>
     <message>
-        <source>How well it is known where points are imaged, over the whole image.</source>
-        <translation>Wie gut bekannt ist, wo Punkte abgebildet werden, über dem ganzen Bild.</translation>
+        <source>How well it is known where points are imaged.</source>
+        <translation>Wie gut bekannt ist, wo Punkte abgebildet werden.</translation>
     </message>
     <message>
         <source> mm</source>
@@ -5636,6 +5708,13 @@ gleicher Maßstab behält die Größe der Mitte; Bildwinkel zeigt einen Winkel I
     <message>
         <source>   board X {0:.2f}, Y {1:.2f} mm</source>
         <translation>   Brett X {0:.2f}, Y {1:.2f} mm</translation>
+    </message>
+</context>
+<context>
+    <name>actions</name>
+    <message>
+        <source>Close</source>
+        <translation>Schließen</translation>
     </message>
 </context>
 <context>

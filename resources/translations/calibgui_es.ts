@@ -1061,8 +1061,8 @@ Los resultados de las mismas imágenes comparten errores: entonces incluso 1 es 
         <translation>Convergencia</translation>
     </message>
     <message>
-        <source>The cost after each step of the joint refinement, also while it runs.</source>
-        <translation>El coste tras cada paso del ajuste conjunto, también mientras se hace.</translation>
+        <source>The cost after each step, also while it runs.</source>
+        <translation>El coste tras cada paso, también en marcha.</translation>
     </message>
     <message>
         <source>iteration</source>
@@ -1583,14 +1583,6 @@ tras el giro que más las acerca donde se vieron esquinas (puntos).</translation
         <translation>¿Descartar los cambios sin copia?</translation>
     </message>
     <message>
-        <source>There is no report on a camera that is known from a file.</source>
-        <translation>No hay informe de una cámara conocida por un archivo.</translation>
-    </message>
-    <message>
-        <source>Calibrate it (Set-up, Lens), or write the report on its own result.</source>
-        <translation>Calíbrela (Ajustes, Lente), o escriba el informe de su propio resultado.</translation>
-    </message>
-    <message>
         <source>Folder that holds the missing images</source>
         <translation>Carpeta con las imágenes que faltan</translation>
     </message>
@@ -1983,6 +1975,10 @@ tras el giro que más las acerca donde se vieron esquinas (puntos).</translation
     <message>
         <source>Untitled</source>
         <translation>Sin nombre</translation>
+    </message>
+    <message>
+        <source>1 photograph</source>
+        <translation>1 fotografía</translation>
     </message>
     <message>
         <source>{0} photographs</source>
@@ -2546,6 +2542,26 @@ ajustando solo sus poses</translation>
         <translation>Una cámara de este ordenador, la dirección de una en la red (rtsp://…, http://…), o la carpeta que llena el programa de una cámara</translation>
     </message>
     <message>
+        <source>as the camera has it</source>
+        <translation>como la tiene la cámara</translation>
+    </message>
+    <message>
+        <source>{0} × {1} px</source>
+        <translation>{0} × {1} px</translation>
+    </message>
+    <message>
+        <source>Exposure, the same in all pictures</source>
+        <translation>Exposición, la misma en todas las imágenes</translation>
+    </message>
+    <message>
+        <source>Focus, the same in all pictures</source>
+        <translation>Enfoque, el mismo en todas las imágenes</translation>
+    </message>
+    <message>
+        <source>{0}, in the camera&apos;s own unit, of a camera at this computer</source>
+        <translation>{0}, en la unidad de la cámara, de una cámara de este equipo</translation>
+    </message>
+    <message>
         <source> px</source>
         <translation> px</translation>
     </message>
@@ -2590,8 +2606,24 @@ ajustando solo sus poses</translation>
         <translation>%p % del camino al lugar amarillo</translation>
     </message>
     <message>
+        <source>as it is</source>
+        <translation>como está</translation>
+    </message>
+    <message>
         <source>Camera, address or folder</source>
         <translation>Cámara, dirección o carpeta</translation>
+    </message>
+    <message>
+        <source>Size of its images</source>
+        <translation>Tamaño de sus imágenes</translation>
+    </message>
+    <message>
+        <source>Exposure</source>
+        <translation>Exposición</translation>
+    </message>
+    <message>
+        <source>Focus</source>
+        <translation>Enfoque</translation>
     </message>
     <message>
         <source>Until the worst pixel is known to</source>
@@ -2804,6 +2836,14 @@ Compárelo solo con métodos marcados con *.</translation>
         <translation>Residuos de una calibración con todas las vistas</translation>
     </message>
     <message>
+        <source>σ</source>
+        <translation>σ</translation>
+    </message>
+    <message>
+        <source>Standard deviation of a coordinate of these residuals</source>
+        <translation>Desviación típica de una coordenada de estos residuos</translation>
+    </message>
+    <message>
         <source>Unseen</source>
         <translation>No vistas</translation>
     </message>
@@ -2957,6 +2997,10 @@ donde está la esquina más alejada; negativo hacia él</translation>
         <translation>Este resultado es del método «{0}». ¿Qué harían otros con él?</translation>
     </message>
     <message>
+        <source>Each RMS and σ is of {0:,} corners in {1} views.</source>
+        <translation>Cada RMS y σ es de {0:,} esquinas en {1} vistas.</translation>
+    </message>
+    <message>
         <source>Differences are from the calibration that was shown when they were found.</source>
         <translation>Las diferencias son con la calibración que se mostraba cuando se hallaron.</translation>
     </message>
@@ -2993,6 +3037,18 @@ donde está la esquina más alejada; negativo hacia él</translation>
     <message>
         <source>&amp;All {0} images</source>
         <translation>Las &amp;{0} imágenes</translation>
+    </message>
+    <message>
+        <source>A report tells how a camera was calibrated, and this one is known from a file. Calibrate it from these photographs?</source>
+        <translation>Un informe dice cómo se calibró una cámara, y esta se conoce por un archivo. ¿Calibrarla con estas fotografías?</translation>
+    </message>
+    <message>
+        <source>C&amp;alibrate it</source>
+        <translation>C&amp;alibrarla</translation>
+    </message>
+    <message>
+        <source>Calibrate again</source>
+        <translation type="unfinished">Calibrar de nuevo</translation>
     </message>
     <message>
         <source>Open {0}</source>
@@ -3871,8 +3927,8 @@ El círculo: cómo se inclinaron los tableros; el centro es de frente, el borde 
         <translation>Residuos</translation>
     </message>
     <message>
-        <source>Measured minus predicted corners: the reprojection errors, one dot each.</source>
-        <translation>Esquinas medidas menos predichas: los errores de reproyección, un punto cada uno.</translation>
+        <source>Measured minus predicted corners.</source>
+        <translation>Esquinas medidas menos predichas.</translation>
     </message>
     <message>
         <source>Click a point to see its corner in the image.</source>
@@ -4945,6 +5001,22 @@ no dan ninguna o una mala: la Etapa II no depende de ellas.</translation>
         <translation>Vista</translation>
     </message>
     <message>
+        <source>σ</source>
+        <translation>σ</translation>
+    </message>
+    <message>
+        <source>Standard deviation of a coordinate, from RMS, corners and 11 unknowns</source>
+        <translation>Desviación típica de una coordenada, a partir del RMS, las esquinas y 11 incógnitas</translation>
+    </message>
+    <message>
+        <source>Corners</source>
+        <translation type="unfinished">Esquinas</translation>
+    </message>
+    <message>
+        <source>Number of the view&apos;s corners</source>
+        <translation>Número de esquinas de la vista</translation>
+    </message>
+    <message>
         <source>no convergence</source>
         <translation>sin convergencia</translation>
     </message>
@@ -4960,8 +5032,8 @@ no dan ninguna o una mala: la Etapa II no depende de ellas.</translation>
         <translation>Prueba sintética</translation>
     </message>
     <message>
-        <source>Whether the method finds this camera again in pictures that are rendered with it.</source>
-        <translation>Si el método halla de nuevo esta cámara en imágenes generadas con ella.</translation>
+        <source>Whether the method finds this camera again.</source>
+        <translation>Si el método reencuentra esta cámara.</translation>
     </message>
     <message>
         <source>&amp;Render and calibrate</source>
@@ -5068,8 +5140,8 @@ encontrado y calibra: lo que debe salir se conoce exactamente.</translation>
         <translation>{0} · apartada</translation>
     </message>
     <message>
-        <source>{0}: the camera is not calibrated with it, but checked</source>
-        <translation>{0}: la cámara no se calibra con ella, pero se comprueba</translation>
+        <source>{0}: a camera calibrated without it is checked with it as well</source>
+        <translation>{0}: con ella se comprueba también una cámara calibrada sin ella</translation>
     </message>
     <message>
         <source>&amp;Take again</source>
@@ -5166,8 +5238,8 @@ encontrado y calibra: lo que debe salir se conoce exactamente.</translation>
         <translation>Incertidumbre</translation>
     </message>
     <message>
-        <source>How well it is known where points are imaged, over the whole image.</source>
-        <translation>Con qué exactitud se sabe dónde se forman los puntos, en toda la imagen.</translation>
+        <source>How well it is known where points are imaged.</source>
+        <translation>Con qué certeza se sabe dónde caen los puntos.</translation>
     </message>
     <message>
         <source> mm</source>
@@ -5636,6 +5708,13 @@ misma escala conserva el tamaño del centro; campo de visión muestra el ángulo
     <message>
         <source>   board X {0:.2f}, Y {1:.2f} mm</source>
         <translation>   tablero X {0:.2f}, Y {1:.2f} mm</translation>
+    </message>
+</context>
+<context>
+    <name>actions</name>
+    <message>
+        <source>Close</source>
+        <translation>Cerrar</translation>
     </message>
 </context>
 <context>

@@ -1061,8 +1061,8 @@ Results from the same images share their errors: even 1 is much then.</source>
         <translation>收敛</translation>
     </message>
     <message>
-        <source>The cost after each step of the joint refinement, also while it runs.</source>
-        <translation>联合优化每一步之后的代价，运行时也显示。</translation>
+        <source>The cost after each step, also while it runs.</source>
+        <translation>每一步之后的代价，运行中也显示。</translation>
     </message>
     <message>
         <source>iteration</source>
@@ -1583,14 +1583,6 @@ after the rotation that brings the two closest where corners (dots) were seen.</
         <translation>不留副本就放弃更改吗？</translation>
     </message>
     <message>
-        <source>There is no report on a camera that is known from a file.</source>
-        <translation>来自文件的相机没有报告。</translation>
-    </message>
-    <message>
-        <source>Calibrate it (Set-up, Lens), or write the report on its own result.</source>
-        <translation>请标定它（设置，镜头），或为其自身的结果写报告。</translation>
-    </message>
-    <message>
         <source>Folder that holds the missing images</source>
         <translation>存放缺失图像的文件夹</translation>
     </message>
@@ -1983,6 +1975,10 @@ after the rotation that brings the two closest where corners (dots) were seen.</
     <message>
         <source>Untitled</source>
         <translation>未命名</translation>
+    </message>
+    <message>
+        <source>1 photograph</source>
+        <translation>1 张照片</translation>
     </message>
     <message>
         <source>{0} photographs</source>
@@ -2546,6 +2542,26 @@ with only their poses fitted</source>
         <translation>本机的相机，网络相机的地址 (rtsp://…, http://…)，或相机程序写入的文件夹</translation>
     </message>
     <message>
+        <source>as the camera has it</source>
+        <translation>保持相机的设置</translation>
+    </message>
+    <message>
+        <source>{0} × {1} px</source>
+        <translation>{0} × {1} px</translation>
+    </message>
+    <message>
+        <source>Exposure, the same in all pictures</source>
+        <translation>曝光，所有照片相同</translation>
+    </message>
+    <message>
+        <source>Focus, the same in all pictures</source>
+        <translation>对焦，所有照片相同</translation>
+    </message>
+    <message>
+        <source>{0}, in the camera&apos;s own unit, of a camera at this computer</source>
+        <translation>{0}，以相机自己的单位，用于本机的相机</translation>
+    </message>
+    <message>
         <source> px</source>
         <translation> px</translation>
     </message>
@@ -2590,8 +2606,24 @@ with only their poses fitted</source>
         <translation>到黄色位置的 %p %</translation>
     </message>
     <message>
+        <source>as it is</source>
+        <translation>不变</translation>
+    </message>
+    <message>
         <source>Camera, address or folder</source>
         <translation>相机、地址或文件夹</translation>
+    </message>
+    <message>
+        <source>Size of its images</source>
+        <translation>图像尺寸</translation>
+    </message>
+    <message>
+        <source>Exposure</source>
+        <translation>曝光</translation>
+    </message>
+    <message>
+        <source>Focus</source>
+        <translation>对焦</translation>
     </message>
     <message>
         <source>Until the worst pixel is known to</source>
@@ -2804,6 +2836,14 @@ Compare it with methods marked * only.</source>
         <translation>用所有视图标定的残差</translation>
     </message>
     <message>
+        <source>σ</source>
+        <translation>σ</translation>
+    </message>
+    <message>
+        <source>Standard deviation of a coordinate of these residuals</source>
+        <translation>这些残差一个坐标的标准差</translation>
+    </message>
+    <message>
         <source>Unseen</source>
         <translation>未见</translation>
     </message>
@@ -2957,6 +2997,10 @@ where the outermost corner lies; negative towards it</source>
         <translation>此结果采用方法“{0}”。其他方法会得到什么？</translation>
     </message>
     <message>
+        <source>Each RMS and σ is of {0:,} corners in {1} views.</source>
+        <translation>每个 RMS 和 σ 均来自 {1} 个视图中的 {0:,} 个角点。</translation>
+    </message>
+    <message>
         <source>Differences are from the calibration that was shown when they were found.</source>
         <translation>差异是相对于得出它们时所显示的标定。</translation>
     </message>
@@ -2993,6 +3037,18 @@ where the outermost corner lies; negative towards it</source>
     <message>
         <source>&amp;All {0} images</source>
         <translation>全部 {0} 幅图像(&amp;A)</translation>
+    </message>
+    <message>
+        <source>A report tells how a camera was calibrated, and this one is known from a file. Calibrate it from these photographs?</source>
+        <translation>报告说明相机是如何标定的，而这台相机来自文件。用这些照片标定它吗？</translation>
+    </message>
+    <message>
+        <source>C&amp;alibrate it</source>
+        <translation>标定(&amp;A)</translation>
+    </message>
+    <message>
+        <source>Calibrate again</source>
+        <translation type="unfinished">重新标定</translation>
     </message>
     <message>
         <source>Open {0}</source>
@@ -3871,8 +3927,8 @@ The circle: how the boards were tilted; the middle is facing the camera, the rim
         <translation>残差</translation>
     </message>
     <message>
-        <source>Measured minus predicted corners: the reprojection errors, one dot each.</source>
-        <translation>测得减预测的角点：重投影误差，每个一点。</translation>
+        <source>Measured minus predicted corners.</source>
+        <translation>测得的角点减去预测的角点。</translation>
     </message>
     <message>
         <source>Click a point to see its corner in the image.</source>
@@ -4945,6 +5001,22 @@ give none or a poor one: Stage II does not depend on them.</source>
         <translation>视图</translation>
     </message>
     <message>
+        <source>σ</source>
+        <translation>σ</translation>
+    </message>
+    <message>
+        <source>Standard deviation of a coordinate, from RMS, corners and 11 unknowns</source>
+        <translation>一个坐标的标准差，由 RMS、角点数和 11 个未知数得出</translation>
+    </message>
+    <message>
+        <source>Corners</source>
+        <translation type="unfinished">角点</translation>
+    </message>
+    <message>
+        <source>Number of the view&apos;s corners</source>
+        <translation>该视图的角点数</translation>
+    </message>
+    <message>
         <source>no convergence</source>
         <translation>未收敛</translation>
     </message>
@@ -4960,8 +5032,8 @@ give none or a poor one: Stage II does not depend on them.</source>
         <translation>合成检查</translation>
     </message>
     <message>
-        <source>Whether the method finds this camera again in pictures that are rendered with it.</source>
-        <translation>方法能否在用它渲染的图像中重新找到此相机。</translation>
+        <source>Whether the method finds this camera again.</source>
+        <translation>该方法能否重新找到这台相机。</translation>
     </message>
     <message>
         <source>&amp;Render and calibrate</source>
@@ -5068,8 +5140,8 @@ was found and calibrates: what must come back is known exactly.</source>
         <translation>{0} · 留出</translation>
     </message>
     <message>
-        <source>{0}: the camera is not calibrated with it, but checked</source>
-        <translation>{0}：不用于标定，但用于检查</translation>
+        <source>{0}: a camera calibrated without it is checked with it as well</source>
+        <translation>{0}：还用它检验一个未用它标定的相机</translation>
     </message>
     <message>
         <source>&amp;Take again</source>
@@ -5166,8 +5238,8 @@ was found and calibrates: what must come back is known exactly.</source>
         <translation>不确定度</translation>
     </message>
     <message>
-        <source>How well it is known where points are imaged, over the whole image.</source>
-        <translation>整幅图像上，点的成像位置已知到什么程度。</translation>
+        <source>How well it is known where points are imaged.</source>
+        <translation>点成像位置的已知精度。</translation>
     </message>
     <message>
         <source> mm</source>
@@ -5636,6 +5708,13 @@ same scale keeps the size of the middle; field of view shows an angle of your ch
     <message>
         <source>   board X {0:.2f}, Y {1:.2f} mm</source>
         <translation>   板 X {0:.2f}，Y {1:.2f} mm</translation>
+    </message>
+</context>
+<context>
+    <name>actions</name>
+    <message>
+        <source>Close</source>
+        <translation>关闭</translation>
     </message>
 </context>
 <context>

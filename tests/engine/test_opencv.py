@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import scipy
 
-from calibgui.engine.opencv import label_parts
+from calibgui.engine.opencv import average_colours, label_parts
 
 
 def test_parts_are_numbered_as_scipy_numbers_them() -> None:
@@ -16,3 +16,9 @@ def test_parts_are_numbered_as_scipy_numbers_them() -> None:
         truth, true_count = scipy.ndimage.label(mask)
         assert count == true_count
         np.testing.assert_array_equal(labels, truth)
+
+
+def test_colours_are_averaged_as_in_double_precision() -> None:
+    image = np.random.default_rng(1).integers(0, 256, (40, 50, 3)).astype(np.uint8)
+    weights = np.array([0.2065, 0.587, 0.2065])
+    assert np.array_equal(average_colours(image, weights), np.rint(image @ weights))

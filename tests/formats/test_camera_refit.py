@@ -145,7 +145,7 @@ def test_a_lens_that_looks_sideways_is_refitted_in_a_fisheye_model(
     }
     errors = {"brown-conrady": 0.05, "kannala-brandt": 0.5}
 
-    def refit(_views: object, _original: object, model: str) -> Refit:
+    def refit(_views: object, _original: object, model: str, _zeros: object) -> Refit:
         return Refit(replace(result.calibration, camera=fits[model]), math.nan, errors[model])
 
     monkeypatch.setattr("calibgui.formats.camera_refit.refit", refit)
@@ -158,7 +158,7 @@ def test_a_lens_that_looks_sideways_is_refitted_in_a_fisheye_model(
 def test_a_model_that_fails_leaves_the_others(
     result: Result, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    def fail(_views: object, _original: object, model: str) -> Refit:
+    def fail(_views: object, _original: object, model: str, _zeros: object) -> Refit:
         if model == "brown-conrady":
             raise CalibrationError("These views leave k3 undetermined.")
         return Refit(result.calibration, 0.5, 0.5)

@@ -30,14 +30,18 @@ from calibgui.app.calibrating.settings import (
 )
 from calibgui.dataset import CornerSet, Result
 from calibgui.dataset.judging import judge_result
-from calibgui.engine.assessment import Action, ActionKind, Change, Finding, Verdict
+from calibgui.engine.assessment import (
+    MIN_GAIN_TO_ACT,
+    Action,
+    ActionKind,
+    Change,
+    Finding,
+    Verdict,
+)
 from calibgui.engine.boards import BoardShapeModel
 from calibgui.engine.calibration import Report, Status
 from calibgui.engine.errors import CalibrationError, Progress
 
-_MIN_GAIN = 1.2
-"""Ratio by which a remedy makes the error of a pixel smaller, from which it is carried out. A
-choice, which no benchmark fixed."""
 _DONE = {
     ActionKind.ESTIMATE_BOARD_SHAPE: "its shape was estimated",
     ActionKind.CHOOSE_LENS_MODEL: "another lens model was taken",
@@ -108,7 +112,7 @@ def calibrate_best(
             break  # the last that is finished is the answer
         judged = judge_result(following, check)
         gain = verdict.error.covered / judged.error.covered
-        if not gain >= _MIN_GAIN:
+        if not gain >= MIN_GAIN_TO_ACT:
             tried.add(finding.action.kind)
             continue
         said = _describe_step(finding, following, gain)
@@ -158,7 +162,7 @@ def _choose_finding(verdict: Verdict, settings: Settings, tried: set[ActionKind]
         and _is_open(finding.action.change, settings)
     ]
     best = max(open_findings, key=lambda finding: finding.times_better, default=None)
-    return best if best is not None and best.times_better >= _MIN_GAIN else None
+    return best if best is not None and best.times_better >= MIN_GAIN_TO_ACT else None
 
 
 def _is_open(change: Change | None, settings: Settings) -> bool:

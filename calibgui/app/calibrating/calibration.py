@@ -178,7 +178,7 @@ def _compare_lenses(
     watch = _Watch(report)
     first, choose = DEFAULT_MODEL, choose_lens_stepwise
     if among := settings.candidates:
-        first, choose = among[0], partial(choose_lens, candidates=among, preferred=among)
+        first, choose = among[0], partial(choose_lens, candidates=among)
     title = find_model(first).title
     try:
         choice = choose(

@@ -23,7 +23,7 @@ from calibgui.engine.calibration import DEFAULT_METHOD, Cost
 from calibgui.engine.camera import find_model
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.files import write_atomically
-from calibgui.engine.images import Header, read_image_header
+from calibgui.engine.images import Header
 from calibgui.engine.threads import limit_blas_threads
 from calibgui.engine.uncertainty import estimate_projection_uncertainty
 from calibgui.formats.json_document import dumps
@@ -125,7 +125,7 @@ def _describe_file(image: str, folder: Path) -> PhotographFile:
         return PhotographFile()
     path = folder / image
     try:
-        thumbnail, header = read_thumbnail(str(path)), read_image_header(path)
+        thumbnail = read_thumbnail(str(path))
     except CalibrationError:
         return PhotographFile()
     jpeg = io.BytesIO()
@@ -135,7 +135,7 @@ def _describe_file(image: str, folder: Path) -> PhotographFile:
     return PhotographFile(
         digest=thumbnail.digest,
         jpeg=base64.b64encode(jpeg.getvalue()).decode(),
-        **_read_camera(header),
+        **_read_camera(thumbnail.header),
     )
 
 

@@ -15,7 +15,14 @@ import numpy.typing as npt
 from calibgui.engine import opencv
 from calibgui.engine.arrays import Size
 from calibgui.engine.files import open_regular
-from calibgui.engine.images import Field, Image, read_image, stretch_levels
+from calibgui.engine.images import (
+    Field,
+    Header,
+    Image,
+    read_image,
+    read_small_image,
+    stretch_levels,
+)
 
 MAX_MEMORY_BYTES = 100_000_000
 """Memory that whole images may take together, bytes: 8 of 12 megapixels. Chosen so that the window
@@ -30,23 +37,28 @@ class Thumbnail:
 
     grey: npt.NDArray[np.uint8]
     """(h, w)"""
-    size: Size
-    """Width and height of the image itself, px."""
+    header: Header
+    """The header of the file."""
     digest: str
     """SHA-256 of the file, as hexadecimal digits."""
 
+    @property
+    def size(self) -> Size:
+        """Width and height of the image itself, px."""
+        return self.header.size
+
 
 def read_thumbnail(path: str) -> Thumbnail:
-    """Read an image file and shrink it.
+    """Read an image file small.
 
     Raises:
         CalibrationError: as ``read_image``.
     """
-    image = read_image(path)
-    pixels = image.pixels
-    while max(pixels.shape) >= 4 * _MIN_THUMBNAIL_SIDE:
+    least = 4 * _MIN_THUMBNAIL_SIDE
+    pixels, header = read_small_image(path, least)
+    while max(pixels.shape) >= least:
         pixels = opencv.halve_image(pixels)
-    return Thumbnail(stretch_levels(pixels), image.size, compute_file_digest(path))
+    return Thumbnail(stretch_levels(pixels), header, compute_file_digest(path))
 
 
 Signature = tuple[int, int]

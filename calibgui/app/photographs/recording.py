@@ -5,6 +5,7 @@ from __future__ import annotations
 import tempfile
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
+from math import isnan
 from pathlib import Path
 from queue import SimpleQueue
 from typing import NamedTuple
@@ -17,7 +18,7 @@ from calibgui.engine.arrays import Array, GreyImage, GridSize
 from calibgui.engine.boards import Pattern
 from calibgui.engine.capture import CaptureSession, CaptureState, Frame, FrameSource, Picture
 from calibgui.engine.detection import find_corners
-from calibgui.engine.errors import CalibrationError, NoBoardError
+from calibgui.engine.errors import CalibrationError, NoBoardError, OtherSizeError
 from calibgui.engine.features import Corners
 from calibgui.engine.images import write_image
 
@@ -27,6 +28,8 @@ _NAME = "picture-{:03d}.png"
 class BoardFinder:
     """Finds a board in images; what is not stated of it, the first image that shows one tells.
 
+    A plain board may have shown but a part of itself there: an image with a larger one tells anew.
+
     Args:
         pattern: what is printed on the board; None if the images are to tell.
         grid_size: rows and columns of its corners or circles; None if the images are to tell.
@@ -35,6 +38,7 @@ class BoardFinder:
     def __init__(self, pattern: Pattern | None, grid_size: GridSize | None) -> None:
         self._pattern = pattern
         self._grid_size = grid_size
+        self._is_size_stated = grid_size is not None
 
     def __call__(self, image: GreyImage) -> Corners:
         """Find the board.
@@ -44,7 +48,14 @@ class BoardFinder:
         """
         if self._pattern is None:
             self._pattern = self._recognise(image)
-        corners = find_corners(image, self._grid_size, pattern=self._pattern)
+        try:
+            corners = find_corners(image, self._grid_size, pattern=self._pattern)
+        except OtherSizeError as error:
+            if self._is_size_stated or self._grid_size is None:
+                raise
+            corners = find_corners(image, pattern=self._pattern)
+            if not _contains(corners.shape, self._grid_size):
+                raise error from None
         if not corners.relative:
             self._grid_size = corners.shape
             self._pattern = corners.pattern
@@ -71,6 +82,11 @@ class BoardFinder:
         return found.pattern
 
 
+def _contains(size: GridSize, part: GridSize) -> bool:
+    """Return whether a board of a size may have a part, one way or the other."""
+    return all(most >= seen for most, seen in zip(sorted(size), sorted(part), strict=True))
+
+
 class RecordedFrame(NamedTuple):
     """A frame that was looked at, and where it was written if it was taken."""
 
@@ -91,10 +107,12 @@ class CaptureProgress:
     tilts: Array
     """(n, 3) normals of the boards towards the camera, in its frame."""
     unseen_error: float
-    """Rms distance, px, of corners that were put aside from where the camera expects them; NaN if
-    there are none."""
+    """Rms distance, px, of corners that were put aside from where a camera expects them that is
+    calibrated without; NaN if there are none."""
     unseen_corners: int
     """Number of such corners."""
+    readout: str
+    """How long the camera's rows take, where what moved told; "" if it did not."""
 
 
 def check_recording_folder(folder: Path) -> None:
@@ -121,8 +139,9 @@ class Recorder:
 
     def __init__(self, session: CaptureSession, folder: Path) -> None:
         self._session, self._folder = session, folder
-        self._files: dict[Path, Picture] = {}
-        """All pictures that were written, also those that were taken back."""
+        self._files: dict[Path, Frame] = {}
+        """The frames of all pictures that were written, also of those that were taken back."""
+        self._taken_back: dict[Path, Picture] = {}
         self._is_wanted = False
         self._toggled: SimpleQueue[Path] = SimpleQueue()
 
@@ -152,19 +171,21 @@ class Recorder:
             if frame is None:
                 return
             self._toggle_pictures()
-            yield self._look_at(frame, is_film=source.is_continuous)
+            yield self._look_at(frame, source)
 
     def measure_progress(self) -> CaptureProgress:
         """Measure how far the camera is known; between two frames."""
-        session, counting = self._session, set(self._session.pictures)
+        session = self._session
         aside = [each for each in session.pictures if each.for_validation]
+        unseen_error = session.measure_unseen_error()
         return CaptureProgress(
-            {file: each for file, each in self._files.items() if each in counting},
+            {file: each for file in self._files if (each := self._get_picture(file)) is not None},
             session.worst,
             session.is_complete,
             session.compute_tilts(),
-            session.measure_unseen_error(),
-            sum(len(each.corners) for each in aside) if session.calibration else 0,
+            unseen_error,
+            0 if isnan(unseen_error) else sum(len(each.corners) for each in aside),
+            session.describe_readout(),
         )
 
     def list_views(self) -> tuple[View, ...]:
@@ -174,27 +195,37 @@ class Recorder:
             for file, picture in self.measure_progress().pictures.items()
         )
 
-    def _look_at(self, frame: Frame, *, is_film: bool) -> RecordedFrame:
+    def _look_at(self, frame: Frame, source: FrameSource) -> RecordedFrame:
         session, is_wanted = self._session, self._is_wanted
         self._is_wanted = False
-        state = session.observe(frame) if is_film else session.examine(frame)
+        state = (
+            session.observe(frame, is_live=source.is_live)
+            if source.is_continuous
+            else session.examine(frame)
+        )
         if is_wanted and state.taken is None:
             state = session.examine(frame)
         if state.taken is None:
             return RecordedFrame(state, None)
         file = self._folder / _NAME.format(len(self._files) + 1)
         _write(state.taken, file)
-        self._files[file] = state.taken
+        self._files[file] = state.taken.frame
         return RecordedFrame(state, file)
 
     def _toggle_pictures(self) -> None:
         """Take pictures back, or again, as was asked for."""
         while not self._toggled.empty():
-            picture = self._files[self._toggled.get()]
-            if picture in self._session.pictures:
+            file = self._toggled.get()
+            if (picture := self._get_picture(file)) is not None:
                 self._session.remove(picture)
-            else:
-                self._session.restore(picture)
+                self._taken_back[file] = picture
+            elif file in self._taken_back:
+                self._session.restore(self._taken_back.pop(file))
+
+    def _get_picture(self, file: Path) -> Picture | None:
+        """Return the picture that a file holds; None if it does not count."""
+        frame = self._files[file]
+        return next((each for each in self._session.pictures if each.frame is frame), None)
 
 
 def _write(picture: Picture, file: Path) -> None:

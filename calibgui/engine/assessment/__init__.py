@@ -64,6 +64,7 @@ if TYPE_CHECKING:
         Change as Change,
     )
     from calibgui.engine.assessment.finding import (
+        MIN_GAIN_TO_ACT as MIN_GAIN_TO_ACT,
         MIN_HARM_PX as MIN_HARM_PX,
         REMEDY_OF_LENS as REMEDY_OF_LENS,
         Cause as Cause,
@@ -169,6 +170,7 @@ load_on_demand(
         "residuals.error_sources": ["ErrorSources", "separate_error_sources"],
         "action": ["AUTO", "Action", "ActionKind", "Change"],
         "finding": [
+            "MIN_GAIN_TO_ACT",
             "MIN_HARM_PX",
             "REMEDY_OF_LENS",
             "Cause",

@@ -10,6 +10,12 @@ from calibgui.engine.assessment.action import Action, ActionKind
 from calibgui.engine.camera.camera import Camera
 from calibgui.engine.numbers import format_two_digits
 
+MAX_GOOD_PX = 0.5
+"""Largest error of any pixel among corners, and of half of the image's, up to which a calibration
+is good, px. A choice, which no benchmark fixed."""
+MAX_USABLE_PX = 1.0
+"""Median error over the image up to which a calibration is usable, px, and above which views are
+too few. A choice, which no benchmark fixed."""
 MIN_HARM_PX = 0.05
 """Harm from which a cause is a finding, px: a tenth of what makes a calibration less than good
 (``verdict.py``). A choice, which no benchmark fixed; on clean sets the tests' own rate of false
@@ -17,6 +23,9 @@ alarms counts, whatever it is."""
 MIN_VIEWS_TO_JUDGE = 5
 """Number of views below which their number is the finding, if pixels are poorly known. With 3
 in its place one of two faults `few-views` went unnamed (``tests/faults``)."""
+MIN_GAIN_TO_ACT = 1.2
+"""Ratio by which a remedy makes the error of a pixel smaller, from which it is offered and carried
+out. A choice, which no benchmark fixed."""
 MAX_TELLING_PX = 100.0
 """Error of a pixel from which its size says no more than that it is not known, px."""
 

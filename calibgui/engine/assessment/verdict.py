@@ -47,10 +47,16 @@ from calibgui.engine.arrays import Array, BoolArray, Size
 from calibgui.engine.assessment.action import Action, ActionKind
 from calibgui.engine.assessment.action_trials import Trial, try_action_safely
 from calibgui.engine.assessment.causes.findings import list_findings
-from calibgui.engine.assessment.changes.camera_uncertainty import estimate_camera_uncertainty
+from calibgui.engine.assessment.changes.camera_uncertainty import (
+    estimate_camera_uncertainty,
+    split_camera_uncertainty,
+)
 from calibgui.engine.assessment.changes.comparison import compare_cameras, find_covered_pixels
 from calibgui.engine.assessment.finding import (
+    MAX_GOOD_PX,
     MAX_TELLING_PX,
+    MAX_USABLE_PX,
+    MIN_GAIN_TO_ACT,
     Cause,
     Finding,
     describe_narrow_views,
@@ -65,18 +71,9 @@ from calibgui.engine.numbers import format_two_digits
 from calibgui.engine.threads import with_one_blas_thread
 from calibgui.engine.uncertainty.projection_uncertainty import make_map_grid
 
-MAX_GOOD_PX = 0.5
-"""Largest error of any pixel among corners, and of half of the image's, up to which a calibration
-is good, px. A choice, which no benchmark fixed."""
-MAX_USABLE_PX = 1.0
-"""Median error over the image up to which a calibration is usable, px: the limit above which the
-findings call views too few. A choice, which no benchmark fixed."""
 MIN_TIMES_BETTER = 1.5
 """Ratio by which a remedy must make the error smaller to be worth the headline. A choice, which no
 benchmark fixed."""
-_MIN_GAIN = 1.1
-"""Ratio by which an estimated shape, another lens or weights must make the error smaller to be
-offered."""
 _REMEDY_OF_BLUR = (
     "Take these again, sharp, in good light and from nearer: to weigh them less brings little."
 )
@@ -179,7 +176,8 @@ def judge_calibration(
         names: names of the views, for messages; numbers by default.
         check: a function that is called now and then, and raises to abandon the work.
     """
-    found = list_findings(calibration, views, names, check or (lambda: None))
+    known = split_camera_uncertainty(calibration, views)
+    found = list_findings(calibration, views, names, check or (lambda: None), known)
     covered = _find_covered(calibration.camera.size, views)
     errors: list[Array] = []
     tried: list[Finding] = []
@@ -188,8 +186,8 @@ def judge_calibration(
         trial = try_action_safely(finding.action, calibration, views, check)
         if trial is None:
             if finding.without is not None:
-                known = _map_uncertainty(calibration, views)
-                errors.append(np.hypot(_map_move(finding.without, calibration, views), known))
+                move = _map_move(finding.without, calibration, views)
+                errors.append(np.hypot(move, known[0].worst_direction))
             tried.append(_ask_for_photographs(finding))
             continue
         before, after = _compare_with_trial(calibration, views, trial)
@@ -198,16 +196,16 @@ def judge_calibration(
             if times < MIN_TIMES_BETTER and not np.nanmedian(after) <= MAX_USABLE_PX:
                 tried.append(_ask_for_photographs(finding))
                 continue
-            if times < _MIN_GAIN:
+            if times < MIN_GAIN_TO_ACT:
                 continue
         is_weighed = trial.action.kind is ActionKind.WEIGH_VIEWS
-        if is_weighed and times < _MIN_GAIN and _is_small(finding.harm, before[covered]):
+        if is_weighed and times < MIN_GAIN_TO_ACT and _is_small(finding.harm, before[covered]):
             continue
         if not tried and times >= MIN_TIMES_BETTER:
             mended = after
         errors.append(before)
         tried.append(_state_gain(finding, trial, times))
-    error = np.fmax.reduce(errors) if errors else _map_uncertainty(calibration, views)
+    error = np.fmax.reduce(errors) if errors else known[0].worst_direction
     if calibration.diagnosis is None:
         error = np.hypot(error, map_disagreement(calibration, views))
     distance = _measure_distance(calibration, views)
@@ -240,13 +238,13 @@ def _state_gain(finding: Finding, trial: Trial, times: float) -> Finding:
     wrong even where the camera does not gain by it.
     """
     found = replace(finding, action=trial.action, times_better=times)
-    if times < _MIN_GAIN and trial.action.kind is ActionKind.CHOOSE_LENS_MODEL:
+    if times < MIN_GAIN_TO_ACT and trial.action.kind is ActionKind.CHOOSE_LENS_MODEL:
         message, count = found.message, len(trial.calibration.poses)
         if count < MIN_VIEWS_TO_BE_GOOD:
             message = f"{count} views are too few: {message[:1].lower()}{message[1:]}"
         photograph = Action(ActionKind.PHOTOGRAPH_MORE)
         return replace(found, message=message, remedy=_REMEDY_OF_BEST_LENS, action=photograph)
-    if times < _MIN_GAIN and trial.action.kind is ActionKind.WEIGH_VIEWS:
+    if times < MIN_GAIN_TO_ACT and trial.action.kind is ActionKind.WEIGH_VIEWS:
         return replace(found, action=None, remedy=_REMEDY_OF_BLUR)
     return found
 
@@ -254,7 +252,7 @@ def _state_gain(finding: Finding, trial: Trial, times: float) -> Finding:
 def _is_small(harm: float, error: Array) -> bool:
     """Return whether errors, px, would hardly be smaller without a harm, px rms."""
     rms = _compute_rms(error)
-    return float(np.hypot(harm, rms / _MIN_GAIN)) < rms
+    return float(np.hypot(harm, rms / MIN_GAIN_TO_ACT)) < rms
 
 
 def _compare_with_trial(
@@ -262,7 +260,7 @@ def _compare_with_trial(
 ) -> tuple[Array, Array]:
     """Return the errors (m, n) before an action and after it, px; NaN where there is no image."""
     uv = make_mesh(*make_map_grid(calibration.camera.size))
-    after = _map_uncertainty(trial.calibration, trial.views)
+    after = estimate_camera_uncertainty(trial.calibration, trial.views).worst_direction
     after = np.where(calibration.camera.lights(uv), after, np.nan)
     return np.hypot(_map_move(trial.calibration.camera, calibration, views), after), after
 
@@ -281,11 +279,6 @@ def _compute_rms(error: Array) -> float:
     """Return the root mean square of errors that are known; infinite if none is."""
     known = error[np.isfinite(error)]
     return float(np.sqrt(np.mean(known**2))) if known.size else np.inf
-
-
-def _map_uncertainty(calibration: Calibration, views: Sequence[Observation]) -> Array:
-    """Map one standard deviation of a pixel (m, n), px."""
-    return estimate_camera_uncertainty(calibration, views).worst_direction
 
 
 def _summarise(error: Array, covered: BoolArray) -> PixelError:

@@ -44,6 +44,7 @@ from calibgui.engine.errors import CalibrationError
 from calibgui.engine.geometry.pose import Pose
 from calibgui.engine.geometry.rotations import (
     compute_inverse_left_jacobian,
+    rotation_from_vector,
     vector_from_rotation,
 )
 
@@ -152,6 +153,26 @@ def locate_board(
         lead=float(np.sqrt(rise / variance)) if variance > 0 else np.inf,
         scale_sigma=scale_sigma,
     )
+
+
+def follow_board(camera: Camera, view: tuple[Array, Array], near: Pose) -> Pose:
+    """Estimate the pose of a board that was in another one shortly before.
+
+    It is the nearest minimum, without covariance: `locate_board` starts anew, and compares the two
+    sides that look alike.
+
+    Args:
+        camera: the camera, which is held.
+        view: the corners uv (n, 2) px, and on the board xy (n, 2) mm.
+        near: the pose before.
+
+    Raises:
+        CalibrationError: if the view cannot be used, or no such pose explains it.
+    """
+    rvec = np.asarray(near.rvec, dtype=np.float64)[None]
+    start = State(camera.params, rotation_from_vector(rvec), np.asarray(near.tvec)[None])
+    state = _refine(start, pack_observations([view]), camera)
+    return Pose(vector_from_rotation(state.R)[0], state.T[0])
 
 
 def _refine(start: State, observations: Observations, camera: Camera) -> State:

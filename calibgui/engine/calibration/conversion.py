@@ -19,6 +19,7 @@ see as far as the camera can follow it in part of the image only: within an angl
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -78,7 +79,9 @@ class Conversion:
         freeze(self, "worst", "region")
 
 
-def convert_camera(camera: Camera, model: str, angle: float = np.inf) -> Conversion:
+def convert_camera(
+    camera: Camera, model: str, angle: float = np.inf, zeros: Collection[str] = ()
+) -> Conversion:
     """Express a camera in another lens model.
 
     Args:
@@ -86,6 +89,7 @@ def convert_camera(camera: Camera, model: str, angle: float = np.inf) -> Convers
         model: the other lens model's id; the camera's own gives the camera itself.
         angle: largest angle from the axis of the rays that count, rad; infinite for the whole
             image.
+        zeros: names of its coefficients that are to be 0.
 
     Raises:
         CalibrationError: if there is no such model, or hardly a pixel has such a ray.
@@ -105,13 +109,14 @@ def convert_camera(camera: Camera, model: str, angle: float = np.inf) -> Convers
     """
     model = resolve_model_id(model)
     found = camera
-    if model != camera.model:
+    named = dict(zip(camera.names, camera.params.tolist(), strict=True))
+    if model != camera.model or any(named[name] != 0 for name in zeros):
         lens = find_model(model)
         steps = _FITTED_STEPS
         if lens.control_points is not None:
             steps = max(steps, _STEPS_PER_CONTROL_POINT * max(lens.control_points))
         fitted = _sample_region(camera, steps, angle).uv
-        found = _fit_model(camera, model, fitted, rays_from_pixels(fitted, camera))
+        found = _fit_model(camera, model, fitted, rays_from_pixels(fitted, camera), zeros)
     return _measure_conversion(camera, found, angle)
 
 
@@ -171,14 +176,16 @@ def _make_image_mesh(camera: Camera, steps: int) -> Array:
     return make_mesh(*(np.linspace(0, n - 1, 1 + round(steps * n / longer)) for n in camera.size))
 
 
-def _fit_model(camera: Camera, model: str, uv: Array, rays: Array) -> Camera:
-    """Fit a model to pixels (n, 2) and their rays (n, 3), from several starts."""
+def _fit_model(
+    camera: Camera, model: str, uv: Array, rays: Array, zeros: Collection[str]
+) -> Camera:
+    """Fit a model, without some coefficients, to pixels (n, 2) and their rays (n, 3)."""
     lens, names = find_model(model), list_parameter_names(model)
     scale = measure_axis_scale(camera) * np.array([1.0, camera.params[1] / camera.params[0]])
     k = lens.fit_to_rays(rays, (uv - camera.centre) / scale)
-    if k is not None:
+    if k is not None and not zeros:
         return Camera(camera.size, np.concatenate([scale, camera.centre, k]), model)
-    free = _select_free(camera, lens)
+    free = _select_free(camera, lens, zeros)
     name, values = lens.conversion_starts or ("", (np.nan,))
     found: list[tuple[bool, float, Array]] = []
     for value in values:
@@ -199,10 +206,10 @@ def _fit_model(camera: Camera, model: str, uv: Array, rays: Array) -> Camera:
     return Camera(camera.size, min(found, key=lambda ranked: ranked[:2])[2], model)
 
 
-def _select_free(camera: Camera, lens: Lens) -> IntArray:
-    """Return the indices of the parameters to fit: all but a skew that the camera does not have."""
+def _select_free(camera: Camera, lens: Lens, zeros: Collection[str]) -> IntArray:
+    """Return the indices of the parameters to fit: all but zeros and a skew that is not there."""
     named = dict(zip(camera.names, camera.params.tolist(), strict=True))
-    held = {name for name in lens.held if named.get(name, 0.0) == 0.0}
+    held = {name for name in lens.held if named.get(name, 0.0) == 0.0} | set(zeros)
     return np.flatnonzero([name not in held for name in ("fx", "fy", "cx", "cy", *lens.names)])
 
 

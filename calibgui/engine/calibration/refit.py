@@ -10,7 +10,7 @@ they disagree, not which of them is right.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -46,6 +46,7 @@ def refit(
     views: Sequence[Observation | tuple[Array, Array]],
     original: Calibration,
     model: str = "brown-conrady",
+    zeros: Collection[str] = (),
 ) -> Refit:
     """Calibrate another lens model on the same corners.
 
@@ -53,6 +54,7 @@ def refit(
         views: the observations that `original` was calibrated from.
         original: the calibration to express.
         model: the lens model, a key of ``camera.models.MODELS``.
+        zeros: names of its coefficients that are to be 0.
 
     Raises:
         CalibrationError, DegenerateError: as `calibrate`.
@@ -74,7 +76,7 @@ def refit(
         >>> found.covered_error < 0.02
         True
     """
-    held = _select_common_held(original, model)
+    held = _select_common_held(original, model) | dict.fromkeys(zeros, 0.0)
     board_shape = original.board_shape or BoardShapeModel.NOMINAL
     calibration = calibrate(
         views, original.camera.size, model=model, fix=held, board_shape=board_shape

@@ -72,8 +72,8 @@ towards the edges of the image had 0.3 with a standard deviation of 1, over 360 
 10 and 20 views, and 1 % beyond 2.5; lenses and boards that were off had 2.7 to 17."""
 _MIN_PART_OF_AGREEMENT = 0.6
 """The same, as part of the agreement of views that all say the same: that of few is small."""
-_MAX_KEPT_VIEWS = 256
-"""Number of views whose derivatives are kept, 0.4 kB for each of their corners."""
+_MAX_KEPT_VIEWS = 512
+"""Number of views whose derivatives are kept, 0.8 kB for each of their corners."""
 _MIN_PIVOT = 1e-9
 """Part of a column's square that the others leave, below which it is one of their combinations."""
 
@@ -92,6 +92,10 @@ class LinearisedFit:
     """(P,) indices of the camera's estimated parameters."""
     _kept: dict[tuple[int, int], Linearised] = field(init=False, repr=False, default_factory=dict)
     """Results of `linearise_unweighted`, by the ends of the slice."""
+    _weighted: dict[tuple[int, int], Linearised] = field(
+        init=False, repr=False, default_factory=dict
+    )
+    """Results of `linearise`, likewise."""
 
     def weigh(self, whitening: Array) -> LinearisedFit:
         """Return the fit with other matrices (K, N, 2, 2) that whiten the residuals."""
@@ -112,10 +116,16 @@ class LinearisedFit:
 
     def linearise(self, views: slice) -> Linearised:
         """Compute whitened residuals of the views in the image, with derivatives."""
+        key = views.start, views.stop
+        if key in self._weighted:
+            return self._weighted[key]
         raw, weight = self.linearise_unweighted(views), self.get_weight(views)
-        return Linearised(
+        found = Linearised(
             (weight @ raw.residual[..., None])[..., 0], weight @ raw.by_params, weight @ raw.by_pose
         )
+        if views.stop <= _MAX_KEPT_VIEWS:
+            self._weighted[key] = found
+        return found
 
     def get_weight(self, views: slice) -> Array:
         """Return the matrices (k, N, 2, 2) that whiten the views' residuals; zero for padding."""
@@ -287,13 +297,9 @@ def _linearise(fit: LinearisedFit, views: slice) -> tuple[Array, Array, Array, A
         Whitened residuals (k, N, 2) and their derivatives by the free parameters of the camera
         (k, N, 2, P) and by the poses (k, N, 2, 6), and the predicted corners (k, N, 2), px.
     """
-    raw, weight = fit.linearise_unweighted(views), fit.get_weight(views)
-    return (
-        (weight @ raw.residual[..., None])[..., 0],
-        weight @ raw.by_params[..., fit.free],
-        weight @ raw.by_pose,
-        fit.observations.uv[views] + raw.residual,  # as `predict_corners`
-    )
+    linear = fit.linearise(views)
+    free = linear.by_params[..., fit.free]
+    return linear.residual, free, linear.by_pose, fit.predict_corners(views)
 
 
 def _multiply(

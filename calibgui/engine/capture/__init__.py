@@ -12,6 +12,7 @@ from calibgui.engine.faces import load_on_demand
 
 if TYPE_CHECKING:
     from calibgui.engine.capture.board_tracking import track_corners as track_corners
+    from calibgui.engine.capture.camera_settings import CameraSettings as CameraSettings
     from calibgui.engine.capture.cameras import list_cameras as list_cameras
     from calibgui.engine.capture.frame_sources import (
         Frame as Frame,
@@ -31,6 +32,7 @@ load_on_demand(
     __name__,
     {
         "board_tracking": ["track_corners"],
+        "camera_settings": ["CameraSettings"],
         "cameras": ["list_cameras"],
         "frame_sources": ["Frame", "FrameSource", "Opened", "open_source"],
         "guidance": ["Guidance", "guide_board"],

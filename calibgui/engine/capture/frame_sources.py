@@ -14,9 +14,12 @@ from typing import NamedTuple, Protocol, Self
 
 from calibgui.engine import opencv
 from calibgui.engine.arrays import GreyImage
+from calibgui.engine.capture.camera_settings import CameraSettings, adjust_camera
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.images.reading import FORMATS, is_video, read_image
 
+AS_IT_IS = CameraSettings()
+"""No wishes."""
 _POLL_SECONDS = 0.2
 """Time between two looks into a folder that is being filled, s: a choice."""
 _SCHEMES = ("http://", "https://", "rtsp://")
@@ -56,6 +59,9 @@ class FrameSource(Protocol):
 class _Opened:
     """A source that closes itself at the end of a `with` statement."""
 
+    remark = ""
+    """How it is set, and what is wrong with that, in sentences; "" if it has no settings."""
+
     def close(self) -> None:
         """Release nothing."""
 
@@ -94,7 +100,7 @@ class CameraSource(_Opened):
 
     is_continuous = is_live = True
 
-    def __init__(self, which: int | str) -> None:
+    def __init__(self, which: int | str, wanted: CameraSettings = AS_IT_IS) -> None:
         self.title = f"camera {which}" if isinstance(which, int) else which
         self._stream = opencv.open_stream(which, is_live=True)
         self._has_begun = False
@@ -104,6 +110,8 @@ class CameraSource(_Opened):
                 "Check that it is connected and that no other program uses it; a camera at this "
                 "computer has a number, counted from 0.",
             )
+        if isinstance(which, int):
+            self.remark = adjust_camera(self._stream, wanted)
 
     def read(self) -> Frame | None:
         frame = self._stream.read()
@@ -163,18 +171,24 @@ class FolderSource(_Opened):
 Opened = VideoSource | CameraSource | FolderSource
 
 
-def open_source(name: str, patience: float) -> Opened:
+def open_source(name: str, patience: float, wanted: CameraSettings = AS_IT_IS) -> Opened:
     """Open what a name means: a camera's number or address, a video, or a folder.
 
     Args:
         name: the name.
         patience: for how long no photograph may come into a folder before it is at its end, s.
+        wanted: how a camera at this computer is to be set.
 
     Raises:
-        CalibrationError: if there is no such thing, or it cannot be opened.
+        CalibrationError: if there is no such thing, it cannot be opened, or has no settings.
     """
     if name.isdecimal():
-        return CameraSource(int(name))
+        return CameraSource(int(name), wanted)
+    if wanted != AS_IT_IS:
+        raise CalibrationError(
+            f"{name} is no camera at this computer: it has no settings here.",
+            "Set the size of its images, its exposure and its focus where they are made.",
+        )
     if name.startswith(_SCHEMES):
         return CameraSource(name)
     path = Path(name)

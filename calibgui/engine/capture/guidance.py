@@ -22,13 +22,13 @@ import numpy as np
 from calibgui.engine.arrays import Array
 from calibgui.engine.camera.camera import Camera
 from calibgui.engine.camera.distortion import project_points
+from calibgui.engine.camera.projection import measure_axis_scale
 from calibgui.engine.geometry.pose import Pose
 from calibgui.engine.geometry.rotations import rotation_from_vector, vector_from_rotation
 
 _EASY_SHIFT = 0.05
-"""Distance in the image to which a hand is easily exact, widths of the image: a choice."""
-_EASY_RATIO = 1.15
-"""Ratio of distances to which a hand is easily exact: a choice."""
+"""Distance in the image, and difference in the board's size there, to which a hand is easily exact,
+widths of the image: a choice."""
 _EASY_TURN = np.deg2rad(12.0)
 """Angle to which a hand is easily exact, rad: a choice."""
 _HALF_TURN = np.diag([-1.0, -1.0, 1.0])
@@ -59,19 +59,20 @@ def guide_board(seen: Pose, wanted: Pose, board: Array, camera: Camera) -> Guida
     corners = [project_points(xy, camera, seen) for xy in (board, 2 * middle - board)]
     off = min(np.sqrt(np.mean(np.sum((uv - goal) ** 2, axis=1))) for uv in corners)
     match = float(np.clip(1 - np.nan_to_num(off / size, nan=1.0), 0.0, 1.0))
-    return Guidance(match, _describe_move(seen, wanted, middle, camera))
+    return Guidance(match, _describe_move(seen, wanted, middle, np.ptp(board, axis=0), camera))
 
 
-def _describe_move(seen: Pose, wanted: Pose, middle: Array, camera: Camera) -> str:
+def _describe_move(seen: Pose, wanted: Pose, middle: Array, size: Array, camera: Camera) -> str:
     """Describe what is farthest off; say to hold still if nothing is."""
     shift = project_points(middle, camera, wanted) - project_points(middle, camera, seen)
     u, v = shift / camera.size[0] / _EASY_SHIFT
-    nearer = _measure_distance(seen, middle) / _measure_distance(wanted, middle)
+    nearness = 1 / _measure_distance(wanted, middle) - 1 / _measure_distance(seen, middle)
+    growth = nearness * np.linalg.norm(size) * measure_axis_scale(camera) / camera.size[0]
     x, y, z = _find_turn(seen, wanted) / _EASY_TURN
     moves = [
         (u, "Move it to the right.", "Move it to the left."),
         (v, "Move it down.", "Move it up."),
-        (np.log(nearer) / np.log(_EASY_RATIO), "Bring it closer.", "Take it farther away."),
+        (growth / _EASY_SHIFT, "Bring it closer.", "Take it farther away."),
         (x, "Tilt its lower side away.", "Tilt its upper side away."),
         (y, "Tilt its left side away.", "Tilt its right side away."),
         (z, "Turn it clockwise.", "Turn it anticlockwise."),

@@ -7,11 +7,18 @@ whenever it was lost. A frame is taken by itself if it is
 - new: it lowers the uncertainty of the worst pixel by at least half of what the best view would
   (`uncertainty/next_view.py`), or, while the views do not determine the camera, it is near the pose
   that is wanted,
-- sharp: its edges are not much more blurred than those of the sharpest one taken.
+- sharp: its edges are not much more blurred than those of the sharpest one taken,
+- well exposed: neither white nor black of the board are cut off (`exposure`), where the light or
+  the camera can still be changed.
 
-After each the camera is calibrated and the next view proposed. Every fifth picture is put aside:
-the camera is not calibrated with it, and it tells how well what was not seen is predicted. The
-capture is complete when the worst pixel's uncertainty has come down to what was asked for.
+After each the camera is calibrated with all and the next view proposed. Every fifth picture is put
+aside as well: a second camera is calibrated without these, and tells how well what was not seen is
+predicted. The capture is complete when the worst pixel's uncertainty has come down to what was
+asked for.
+
+A first frame may show but a part of a board whose size nobody stated. When the finder meets a
+larger one, the pictures that were taken are found again as parts of it. Which part of a plain board
+they show does not matter for the camera.
 
 The lens is the best fitting of three (`MODELS`); the choice among all is left to the calibration
 that follows the capture.
@@ -20,25 +27,28 @@ that follows the capture.
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from calibgui.engine.arrays import Array, GreyImage, Size
 from calibgui.engine.boards.board import Board
-from calibgui.engine.calibration.board_poses import locate_board
+from calibgui.engine.calibration.board_poses import follow_board, locate_board
 from calibgui.engine.calibration.calibrate import calibrate
 from calibgui.engine.calibration.observations import Observation, make_observation
 from calibgui.engine.calibration.result import Calibration, DegenerateError
 from calibgui.engine.camera.distortion import project_points
 from calibgui.engine.capture.board_tracking import track_corners
+from calibgui.engine.capture.exposure import judge_exposure
 from calibgui.engine.capture.frame_sources import Frame
 from calibgui.engine.capture.guidance import guide_board
+from calibgui.engine.capture.row_readout import RowReadout
 from calibgui.engine.detection.detector_io import check_grey_levels
 from calibgui.engine.errors import CalibrationError, NoBoardError
 from calibgui.engine.features.corners import Corners
+from calibgui.engine.geometry.homography import apply_homography, fit_homography
 from calibgui.engine.geometry.pose import Pose
 from calibgui.engine.geometry.rotations import rotation_from_vector
 from calibgui.engine.uncertainty.next_view import (
@@ -82,7 +92,7 @@ class Picture:
     corners: Corners
     observation: Observation
     for_validation: bool
-    """True if the camera is not calibrated with it."""
+    """True if it is put aside to check a camera with that is calibrated without it."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -107,7 +117,8 @@ class CaptureSession:
     """Follows the board, says what to do, and takes the frames that are worth it.
 
     Args:
-        find: finds the board in an image (h, w), or raises `NoBoardError`.
+        find: finds the board in an image (h, w), or raises `NoBoardError`. It may come to know that
+            the board is larger than it took it to be.
         square: side of a square or distance of circles, mm.
         limit: uncertainty of the worst pixel's projection at which the capture is complete, px.
     """
@@ -119,6 +130,8 @@ class CaptureSession:
         self.pictures: list[Picture] = []
         self.calibration: Calibration | None = None
         """The camera so far, which may be partial; None before the first picture."""
+        self._checked: Calibration | None = None
+        """The same without the pictures that are put aside; None if there are none."""
         self.worst = np.inf
         """Uncertainty of the worst pixel's projection, px; infinite until the views determine the
         camera."""
@@ -130,8 +143,12 @@ class CaptureSession:
         """(rows, cols, 2) px, where that view shows the corners; None if there is none."""
         self._before: GreyImage | None = None
         self._corners: Corners | None = None
+        self._pose: Pose | None = None
+        """The pose of the board in the frame before, as long as it is followed."""
         self._found_at = -np.inf
         self._motions: deque[float] = deque(maxlen=_STILL_FRAMES)
+        self._before_time = -np.inf
+        self._readout = RowReadout()
         self._has_judged = False
         """True if this pose was judged since the board last moved."""
         self._advice = ""
@@ -145,10 +162,14 @@ class CaptureSession:
     @property
     def views(self) -> list[Observation]:
         """The views that the camera is calibrated from."""
-        return [each.observation for each in self.pictures if not each.for_validation]
+        return [each.observation for each in self.pictures]
 
-    def observe(self, frame: Frame) -> CaptureState:
-        """Look at a frame, and take it if it is still, new and sharp.
+    def observe(self, frame: Frame, *, is_live: bool = True) -> CaptureState:
+        """Look at a frame, and take it if it is still, new, sharp and well exposed.
+
+        Args:
+            frame: the frame.
+            is_live: False if its exposure can no longer be changed, and does not matter.
 
         Raises:
             CalibrationError: if its size is not that of the frames before.
@@ -165,8 +186,9 @@ class CaptureSession:
             return self._state(instruction, match)
         taken = None
         if not self._has_judged:
-            self._has_judged = True
-            if self._is_worth_taking(self._corners, pose, match):
+            self._advice = judge_exposure(grey, self._corners) if is_live else ""
+            self._has_judged = not self._advice  # the light may change while the board does not
+            if self._has_judged and self._is_worth_taking(self._corners, pose, match):
                 taken = self.take(frame)
         if taken is None:
             return self._state(self._advice or instruction, match)
@@ -194,7 +216,7 @@ class CaptureSession:
         grey = check_grey_levels(frame.image)
         self._check_size(grey)
         try:
-            corners = self._find(grey)
+            corners = self._find_board(grey)
         except NoBoardError as error:
             self._advice = error.message
             return None
@@ -207,17 +229,14 @@ class CaptureSession:
         if self._board is None:
             self._board = Board(*corners.shape, self._square, corners.pattern)
         try:
-            observation = make_observation(
-                corners.uv, self._board.points(corners.grid), corners.cov
-            )
+            observation = self._make_observation(corners)
         except CalibrationError as error:
             self._advice = error.message
             return None
         is_aside = len(self.pictures) % _VALIDATION_EVERY == _VALIDATION_EVERY - 1
         picture = Picture(frame, corners, observation, is_aside)
         self.pictures.append(picture)
-        if not is_aside:
-            self._learn()
+        self._learn()
         return picture
 
     def remove(self, picture: Picture) -> None:
@@ -231,7 +250,9 @@ class CaptureSession:
 
     def restore(self, picture: Picture) -> None:
         """Take a picture again that was taken back."""
-        self.pictures.append(picture)
+        assert self._board is not None
+        is_whole = picture.corners.shape == self._board.grid_size
+        self.pictures += [picture] if is_whole else self._find_again([picture])
         self._learn()
 
     def compute_tilts(self) -> Array:
@@ -245,14 +266,15 @@ class CaptureSession:
         return np.array([-rotation_from_vector(np.array(pose.rvec))[:, 2] for pose in poses])
 
     def measure_unseen_error(self) -> float:
-        """Measure the rms distance, px, of corners put aside from where the camera expects them.
+        """Measure the rms distance, px, of corners put aside from where they are expected.
 
-        Their boards' poses are estimated. NaN if none was put aside, or no camera is known.
+        It is that of a camera that is calibrated without them; their boards' poses are estimated.
+        NaN if none was put aside, or no camera is known without them.
         """
         aside = [each.observation for each in self.pictures if each.for_validation]
-        if not aside or self.calibration is None:
+        if not aside or self._checked is None:
             return float("nan")
-        missed = [locate_board(self.calibration.camera, view).residuals for view in aside]
+        missed = [locate_board(self._checked.camera, view).residuals for view in aside]
         return float(np.sqrt(np.mean(np.sum(np.concatenate(missed) ** 2, axis=1))))
 
     def _state(
@@ -274,32 +296,90 @@ class CaptureSession:
     def _follow(self, grey: GreyImage, time: float) -> None:
         """Follow the board to this frame, or find it."""
         before, self._before = self._before, grey
+        seconds, self._before_time = time - self._before_time, time
         corners = None
         if self._corners is not None and before is not None:
             corners = track_corners(before, grey, self._corners)
         self._motions.append(np.inf if corners is None else _measure_motion(self._corners, corners))
         if corners is None or time - self._found_at >= _SEARCH_SECONDS:
-            try:
-                corners = self._find(grey)
-                self._found_at = time
-            except NoBoardError:
-                pass  # a blurred one can be followed where it cannot be found
+            with suppress(NoBoardError):  # a blurred one can be followed where it cannot be found
+                found = self._find_board(grey)
+                self._found_at, self._pose = time, None
+                if corners is not None and self._corners is not None:
+                    self._time_rows(found, self._corners, corners, seconds)
+                corners = found
         self._corners = corners
+        if corners is None:
+            self._pose = None
+
+    def _time_rows(self, found: Corners, before: Corners, after: Corners, seconds: float) -> None:
+        """Learn how long rows take from corners found, and how they were followed to there."""
+        if self.calibration is None or self.calibration.diagnosis is not None or seconds <= 0:
+            return
+        pose = self._locate(found)
+        if pose is None or self._board is None:
+            return
+        came_from = _map_back(before, after, found.uv)
+        self._readout.add_frame(
+            self.calibration.camera,
+            pose,
+            self._board.points(found.grid),
+            found.uv,
+            (found.uv - came_from) / seconds,
+        )
+
+    def describe_readout(self) -> str:
+        """Say how long the camera's rows take, where what moved told; else ""."""
+        return self._readout.describe()
 
     @property
     def _is_still(self) -> bool:
         full = len(self._motions) == _STILL_FRAMES
         return full and max(self._motions) <= _STILL_PX
 
+    def _find_board(self, grey: GreyImage) -> Corners:
+        """Find the board, and with it those of earlier pictures if it is larger than they told.
+
+        Raises:
+            NoBoardError: if there is none.
+        """
+        corners = self._find(grey)
+        board = self._board
+        if board is not None and corners.shape != board.grid_size:
+            self._board = Board(*corners.shape, self._square, corners.pattern)
+            self.pictures = self._find_again(self.pictures)
+            self._learn()
+        return corners
+
+    def _find_again(self, pictures: Iterable[Picture]) -> list[Picture]:
+        """Find the board in pictures again; those in which it is not found are left out."""
+        again = []
+        for each in pictures:
+            with suppress(CalibrationError):
+                corners = self._find(check_grey_levels(each.frame.image))
+                observation = self._make_observation(corners)
+                again.append(replace(each, corners=corners, observation=observation))
+        return again
+
+    def _make_observation(self, corners: Corners) -> Observation:
+        """Make the view of these corners; raises CalibrationError as `make_observation`."""
+        assert self._board is not None
+        return make_observation(corners.uv, self._board.points(corners.grid), corners.cov)
+
     def _locate(self, corners: Corners) -> Pose | None:
-        """Locate the board with the camera so far."""
+        """Locate the board with the camera so far, near where it was if it was followed."""
         if self.calibration is None or self._board is None:
             return None
+        view, camera = (corners.uv, self._board.points(corners.grid)), self.calibration.camera
         try:
-            xy = self._board.points(corners.grid)
-            return locate_board(self.calibration.camera, (corners.uv, xy)).pose
+            self._pose = (
+                locate_board(camera, view).pose
+                if self._pose is None
+                else follow_board(camera, view, self._pose)
+            )
         except CalibrationError:
-            return None
+            self._pose = None
+        return self._pose
 
     def _guide(self, pose: Pose | None) -> tuple[float, str]:
         """Return the match with the wanted view, and what to do."""
@@ -332,7 +412,11 @@ class CaptureSession:
         """Calibrate with what was taken, and propose the next view."""
         assert self._size is not None
         views = self.views
-        self.calibration = _calibrate(views, self._size) if views else None
+        self.calibration = _calibrate(views, self._size, MODELS) if views else None
+        kept = [each.observation for each in self.pictures if not each.for_validation]
+        self._checked = None
+        if self.calibration is not None and len(kept) < len(views):
+            self._checked = _calibrate(kept, self._size, (self.calibration.camera.model,))
         self.worst, self.wanted, self.goal = np.inf, None, None
         if self.calibration is None:
             return
@@ -348,10 +432,10 @@ class CaptureSession:
             self.goal = goal.reshape(*self._board.grid_size, 2)
 
 
-def _calibrate(views: list[Observation], size: Size) -> Calibration | None:
+def _calibrate(views: list[Observation], size: Size, models: Iterable[str]) -> Calibration | None:
     """Calibrate in the model that fits better, whole or, if need be, in part; None if neither."""
     found = []
-    for model in MODELS:
+    for model in models:
         try:
             found.append(calibrate(views, size, model=model))
         except DegenerateError as error:
@@ -361,6 +445,14 @@ def _calibrate(views: list[Observation], size: Size) -> Calibration | None:
             continue
     whole = [each for each in found if each.diagnosis is None]
     return min(whole or found, key=lambda each: each.noise, default=None)
+
+
+def _map_back(before: Corners, after: Corners, uv: Array) -> Array:
+    """Return where points (n, 2) px near corners after came from, as a plane between two frames."""
+    places = {tuple(cell): k for k, cell in enumerate(before.grid.tolist())}
+    kept = [places[tuple(cell)] for cell in after.grid.tolist()]
+    H = fit_homography(after.uv, before.uv[kept], np.ones(len(kept)))
+    return apply_homography(H, uv)
 
 
 def _measure_motion(before: Corners | None, after: Corners) -> float:

@@ -43,7 +43,7 @@ from calibgui.engine.arrays import (
     compute_median,
     invert_2x2,
 )
-from calibgui.engine.corner_fit.edge_map import ReadEdges
+from calibgui.engine.corner_fit.edge_lens_fit import ReadEdges
 from calibgui.engine.corner_fit.followed_edges import (
     MAX_TOLD_MISFIT,
     TERM_COST,

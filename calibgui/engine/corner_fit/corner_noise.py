@@ -45,7 +45,7 @@ import math
 import numpy as np
 
 from calibgui.engine.arrays import Array, BoolArray, GreyImage, compute_median
-from calibgui.engine.corner_fit.edge_map import clip_arms
+from calibgui.engine.corner_fit.edge_lens_fit import clip_arms
 from calibgui.engine.corner_fit.x_corner_model import A, C, M, XCornerModel, accumulate_scores
 
 _MIN_OPPOSITE_PIXELS = 20

@@ -1,15 +1,15 @@
 """The edges of large squares, followed from corner to corner by their places and directions.
 
-Over an arm of length L a curvature kappa moves an edge's mean by kappa L^2 / 6 (``edge_map``),
+Over an arm of length L a curvature kappa moves an edge's mean by kappa L^2 / 6 (``edge_lens_fit``),
 which a corner of large squares feels long before its neighbours tell: a curvature takes three
 corners in a line, its change five, and small boards have no more. But the fit knows the directions
 of such edges as well as it knows their corners. With arms of half a square, the two directions at
 the ends of one edge tell its kappa L^2 / 6 to a fifth of a corner's standard deviation.
 
 So the map of cells to the image is fitted to both. It is a homography through a radial lens
-(``edge_map``), linear in its parameters once these are near, plus a polynomial p: with the normals
-n_1 and n_2 of the edges at the cell x_i, p adds to their means and slopes, read over |x - M| <= A
-squares,
+(``edge_lens_fit``), linear in its parameters once these are near, plus a polynomial p: with the
+normals n_1 and n_2 of the edges at the cell x_i, p adds to their means and slopes, read over
+|x - M| <= A squares,
 
     n_1 . (p + M p' + (A^2 / 3 + M^2) p'' / 2),      w n_1 . (p' + M p''),      p' = dp/dcol,
 
@@ -49,15 +49,15 @@ from typing import NamedTuple
 import numpy as np
 
 from calibgui.engine.arrays import Array, BoolArray, GridSize, IntArray
-from calibgui.engine.corner_fit.edge_map import (
+from calibgui.engine.corner_fit.edge_lens_fit import (
     LENS,
     MIN_CORNERS,
     MORE_COEFFICIENTS,
     PLACES,
     PRODUCTS,
-    EdgeMap,
+    EdgeLens,
     ReadEdges,
-    fit_edge_maps,
+    fit_lenses_to_edges,
 )
 from calibgui.engine.lattices import grid_map
 
@@ -102,7 +102,7 @@ class EdgeGeometry:
     steps: Array
     """(n, 2, 2) derivatives of the position by column and by row, px."""
     bend: Array
-    """(n, 2) how far the edges along both are bent aside, px; see ``edge_map``."""
+    """(n, 2) how far the edges along both are bent aside, px; see ``edge_lens_fit``."""
     variance: Array
     """(n, 2) of the bends, px^2; 0 where it does not matter."""
     curvature_change: Array
@@ -160,42 +160,45 @@ def follow_edges(found: BoolArray, edges: ReadEdges, sigma: float = np.inf) -> E
             it leaves is followed along their lines where that predicts better.
     """
     cells = np.argwhere(found)[:, ::-1].astype(np.float64)
-    maps = fit_edge_maps(cells, edges)
-    fits = [_fit_polynomial(found, edge_map, edges) for edge_map in maps]
+    maps = fit_lenses_to_edges(cells, edges)
+    fits = [_fit_polynomial(found, lens, edges) for lens in maps]
     score, geometry = min(fits, key=lambda fit: fit[0])
     misfit = float(np.sqrt(score / (4 * len(cells))))
     if len(cells) >= MIN_CORNERS and misfit > MAX_TOLD_MISFIT * sigma:
-        for edge_map in maps:
-            lines = _follow_lines(found, edges, edge_map.rest)
+        for lens in maps:
+            lines = _follow_lines(found, edges, lens.rest)
             if lines.misfit < misfit:
                 misfit = lines.misfit
-                bend = edge_map.bend.T + lines.bend
+                bend = lens.bend.T + lines.bend
                 geometry = EdgeGeometry(
-                    edge_map.first, bend, lines.variance, edge_map.curvature_change
+                    lens.first,
+                    bend,
+                    lines.variance,
+                    lens.curvature_change,
                 )
     return geometry
 
 
 def _fit_polynomial(
-    found: BoolArray, edge_map: EdgeMap, edges: ReadEdges
+    found: BoolArray, lens: EdgeLens, edges: ReadEdges
 ) -> tuple[float, EdgeGeometry]:
     """Fit the polynomial that is added to a map, if any, and return the score of both with the
     geometry; arguments as in `follow_edges`."""
-    rest = edge_map.rest.ravel()
-    step = np.linalg.norm(edge_map.first, axis=2).T
+    rest = lens.rest.ravel()
+    step = np.linalg.norm(lens.first, axis=2).T
     middle, half = (length.T[..., None] / step[..., None] for length in (edges.middle, edges.half))
     terms, axis, degree = _compute_terms(found.shape, found.tobytes())
-    across = np.einsum("naj,kj->ank", edges.normals, edge_map.first.mean(axis=0)[axis])
+    across = np.einsum("naj,kj->ank", edges.normals, lens.first.mean(axis=0)[axis])
     value, first, second = across * terms[0], across * terms[1:3], across * terms[3:]
-    second -= edge_map.stretch.T[..., None] * first
+    second -= lens.stretch.T[..., None] * first
     bends = (half**2 / 3 - middle**2) / 2 * second
     slopes = first + middle * second
     # The line nearest to an edge meets the corner `bends` off.
     means = value + bends + middle * slopes
     by_terms = np.stack([means, half / 3**0.5 * slopes])
-    J = np.concatenate([edge_map.columns, by_terms], axis=3).reshape(len(rest), -1)
-    bends = np.concatenate([edge_map.bend_columns, bends], axis=2)
-    degree = np.concatenate([edge_map.degree, degree])
+    J = np.concatenate([lens.columns, by_terms], axis=3).reshape(len(rest), -1)
+    bends = np.concatenate([lens.bend_columns, bends], axis=2)
+    degree = np.concatenate([lens.degree, degree])
     # Of the lens all but the scale of its equations counts; a polynomial has much of it in common.
     least = np.where(degree < MORE_COEFFICIENTS, _MIN_PARAMETER, _MIN_EDGE_INDEPENDENCE)
     scale = np.linalg.norm(J, axis=0)
@@ -216,10 +219,10 @@ def _fit_polynomial(
     inverse, bends = inverse[used, used], bends[..., used]
     spread = np.sum((bends @ inverse) ** 2, axis=2)
     return float(scores[best]), EdgeGeometry(
-        edge_map.first,
-        (edge_map.bend + bends @ (inverse @ share[used])).T,
+        lens.first,
+        (lens.bend + bends @ (inverse @ share[used])).T,
         rss[best] / (len(rest) - counts[best]) * spread.T,
-        edge_map.curvature_change,
+        lens.curvature_change,
     )
 
 

@@ -80,7 +80,7 @@ from calibgui.engine.arrays import (
     invert_2x2,
 )
 from calibgui.engine.corner_fit.corner_noise import MIN_FREEDOM
-from calibgui.engine.corner_fit.edge_map import ReadEdges
+from calibgui.engine.corner_fit.edge_lens_fit import ReadEdges
 from calibgui.engine.corner_fit.x_corner_model import (
     BLUR,
     LIGHT,
@@ -225,7 +225,7 @@ def correct_for_light(model: XCornerModel) -> XCornerModel:
     return replace(model, unknowns=unknowns)
 
 
-def read_flat_squares(image: GreyImage, model: XCornerModel, noise: Array) -> Array:
+def read_between_edges(image: GreyImage, model: XCornerModel, noise: Array) -> Array:
     """Read what lies between the edges, as products like those of the edges' pixels.
 
     Args:
@@ -259,7 +259,7 @@ def read_flat_squares(image: GreyImage, model: XCornerModel, noise: Array) -> Ar
     return products
 
 
-@kernels.with_kernel("flat_squares", "sum_cells")
+@kernels.with_kernel("light_between_edges", "sum_cells")
 def _sum_cells(
     image: GreyImage, uv: Array, bands: Array, sign: Array, light: Array, side: IntArray
 ) -> tuple[Array, IntArray]:

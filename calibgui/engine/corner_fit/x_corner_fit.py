@@ -59,7 +59,7 @@ from calibgui.engine.corner_fit.corner_noise import (
     has_hard_edges,
     pool_noise,
 )
-from calibgui.engine.corner_fit.edge_map import ReadEdges, clip_arms
+from calibgui.engine.corner_fit.edge_lens_fit import ReadEdges, clip_arms
 from calibgui.engine.corner_fit.followed_edges import EdgeGeometry
 from calibgui.engine.corner_fit.light_gradients import (
     add_gradients,
@@ -70,7 +70,7 @@ from calibgui.engine.corner_fit.light_gradients import (
     find_uneven_light,
     fit_local_light,
     go_to_own_light,
-    read_flat_squares,
+    read_between_edges,
 )
 from calibgui.engine.corner_fit.x_corner_model import (
     BLUR,
@@ -247,7 +247,7 @@ def fit_x_corners(
             opening = np.trace(opened, axis1=1, axis2=2) / np.trace(inverse, axis1=1, axis2=2)
             at = np.flatnonzero(opening > 1 + _MAX_OPEN_LIGHT)
             if len(at):
-                held[at] += read_flat_squares(image, before.select(at), noise[at])
+                held[at] += read_between_edges(image, before.select(at), noise[at])
                 model, opened, _ = take_lit_step(before, held)
             model = _correct_for_bend(model, better, edges, bend)
             covariance = noise[:, None, None] * opened

@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from calibgui.engine import opencv
 from calibgui.engine.arrays import Array, GreyImage
 from calibgui.engine.errors import NoBoardError
 from calibgui.engine.features.corners import RejectedCorner
@@ -60,6 +61,8 @@ def check_grey_levels(image: npt.ArrayLike) -> GreyImage:
 
 def _average_colours(image: npt.NDArray[Any]) -> npt.NDArray[Any]:
     """Average an image (h, w, 3) of the type that it has, whether red is first or last."""
+    if image.dtype == np.uint8:  # live images: the same levels ten times as fast
+        return opencv.average_colours(image, _COLOUR_WEIGHTS)
     grey = image @ _COLOUR_WEIGHTS
     whole = np.issubdtype(image.dtype, np.integer)
     return np.rint(grey).astype(image.dtype) if whole else np.asarray(grey)

@@ -36,6 +36,7 @@ if TYPE_CHECKING:
         read_image as read_image,
         read_image_header as read_image_header,
         read_image_size as read_image_size,
+        read_small_image as read_small_image,
         stretch_levels as stretch_levels,
         write_image as write_image,
     )
@@ -78,6 +79,7 @@ load_on_demand(
             "read_image",
             "read_image_header",
             "read_image_size",
+            "read_small_image",
             "stretch_levels",
             "write_image",
         ],

@@ -151,6 +151,20 @@ def read_colour(path: PathLike, orientation: int | None = None) -> Pixels:
     return _read_turned(Path(path), orientation, colour=True)[0]
 
 
+def read_small_image(path: PathLike, least: int) -> tuple[Pixels, Header]:
+    """Read a photograph in grey, turned upright, and its header.
+
+    Args:
+        path: the file.
+        least: length of the longer side from which the image may be halved while it is read, px;
+            it is no shorter than half of that then.
+
+    Raises:
+        CalibrationError: as `read_image`.
+    """
+    return _read_turned(Path(path), None, colour=False, least=least)[:2]
+
+
 def read_image_size(path: PathLike) -> Size:
     """Read the width and height that `read_image` will deliver, px, without decoding the image.
 
@@ -212,7 +226,11 @@ def write_image(path: PathLike, pixels: Pixels) -> None:
 
 
 def _read_turned(
-    path: Path, orientation: int | None, colour: bool, field: Field | None = None
+    path: Path,
+    orientation: int | None,
+    colour: bool,
+    field: Field | None = None,
+    least: int | None = None,
 ) -> tuple[Pixels, Header, float]:
     """Read the pixels of the image file `path`, turned, its header, and `Image.zero_tail`."""
     try:
@@ -222,7 +240,7 @@ def _read_turned(
     if not data:
         raise _make_empty_error(path)
     header = _read_checked_header(path, data)
-    pixels = _decode(data, header, colour) if header.is_complete else None
+    pixels = _decode(data, header, colour, least) if header.is_complete else None
     if pixels is None:
         raise CalibrationError(
             f"{path} cannot be decoded: the {header.format} image is cut short, damaged, or packed "
@@ -242,8 +260,13 @@ def _read_turned(
     return np.ascontiguousarray(pixels), header, zeros / len(data)
 
 
-def _decode(data: bytes, header: Header, colour: bool) -> Any:
-    """Return the pixels of an image file; None if it is damaged."""
+def _decode(data: bytes, header: Header, colour: bool, least: int | None) -> Any:
+    """Return the pixels of an image file, smaller if that is quick; None if it is damaged."""
+    if least is not None and header.format == "JPEG":
+        longer = max(header.size)
+        times = max((each for each in (2, 4, 8) if 2 * longer >= each * least), default=None)
+        if times is not None:
+            return opencv.decode_small(data, times)
     kind = _KINDS.get(header.format)
     return decode_photo(kind, data, colour) if kind else opencv.decode_image(data, colour)
 

@@ -32,6 +32,7 @@ from calibgui.engine.images.sampling import make_mesh
 from calibgui.engine.uncertainty.fisher_information import FisherInformation, compute_information
 from calibgui.engine.uncertainty.projection_uncertainty import (
     compute_sensitivity,
+    compute_worst_sigma,
     propagate_covariance,
 )
 
@@ -94,8 +95,12 @@ class ViewDesign:
 
     def compute_worst(self, chosen: Array) -> Array:
         """Return the largest variance (...) of projection in the image, px^2: what a G-optimal
-        design minimises, for whom no pixel may be badly known."""
-        return np.asarray(self._compute_variances(chosen).max(axis=-1))
+        design minimises, for whom no pixel may be badly known.
+
+        It is that in the worst direction, as ``ProjectionUncertainty.worst`` is.
+        """
+        sigma = compute_worst_sigma(self.compute_projection_covariance(chosen))
+        return np.asarray(sigma.max(axis=-1) ** 2)
 
     def _compute_variances(self, chosen: Array) -> Array:
         """Return the mean variance (..., g) of a pixel's projection in both directions, px^2."""

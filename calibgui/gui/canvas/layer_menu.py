@@ -6,12 +6,13 @@ from functools import partial
 from typing import NamedTuple
 
 from PySide6.QtGui import QAction, QColor, QIcon, QPainter, QPixmap
-from PySide6.QtWidgets import QDoubleSpinBox, QMenu, QWidgetAction
+from PySide6.QtWidgets import QMenu, QWidgetAction
 
 from calibgui.gui.canvas.canvas import Canvas
 from calibgui.gui.canvas.layers import Layer
 from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.actions import make_action
+from calibgui.gui.widgets.number_box import NumberBox
 
 _SWATCH = 12
 
@@ -37,7 +38,7 @@ class LayerMenu(QMenu):
         super().__init__(canvas)
         self.setToolTipsVisible(True)
         self.actions_by_layer: dict[Layer, QAction] = {}
-        self.scale = QDoubleSpinBox(decimals=0, minimum=1, maximum=10_000)
+        self.scale = NumberBox(decimals=0, minimum=1, maximum=10_000)
         self.scale.setPrefix(self.tr("Residuals × "))
         self.scale.setValue(canvas.residual_scale)
         self.scale.setToolTip(self.tr("How many times as long as they are residuals are drawn"))

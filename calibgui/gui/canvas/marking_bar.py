@@ -15,7 +15,7 @@ from PySide6.QtWidgets import (
 )
 
 from calibgui.engine.arrays import GridSize
-from calibgui.gui.widgets import theme
+from calibgui.gui.widgets.buttons import Button, Kind
 from calibgui.gui.widgets.reserved_label import ReservedLabel
 
 _LINES = 3
@@ -29,11 +29,9 @@ class _Bar(QFrame):
         super().__init__()
         self.accept, self.leave = accept, leave
         self.setFrameShape(QFrame.Shape.NoFrame)
-        self.setAutoFillBackground(True)
-        self.setBackgroundRole(self.backgroundRole().AlternateBase)
         self.words = ReservedLabel(_LINES)
         self._rows = QVBoxLayout(self)
-        self._rows.setContentsMargins(0, theme.SPACING, 0, 0)
+        self._rows.setContentsMargins(0, 0, 0, 0)
         self._rows.addWidget(self.words)
         self.hide()
 
@@ -61,7 +59,7 @@ class RoiBar(_Bar):
     board_changed = Signal()
 
     def __init__(self) -> None:
-        super().__init__(QPushButton(self.tr("&Accept")), QPushButton(self.tr("Lea&ve")))
+        super().__init__(Button(self.tr("&Accept"), Kind.MAIN), Button(self.tr("Lea&ve")))
         self.counts = tuple(QSpinBox(minimum=2, maximum=200) for _ in range(2))
         names = (self.tr("rows of inner corners"), self.tr("columns of inner corners"))
         for box, name in zip(self.counts, names, strict=True):
@@ -100,7 +98,7 @@ class CornerBar(_Bar):
     left = Signal()
 
     def __init__(self) -> None:
-        done = QPushButton(self.tr("&Done"))
+        done = Button(self.tr("&Done"))
         super().__init__(done, done)
         self.words.setText(
             self.tr(
@@ -108,9 +106,9 @@ class CornerBar(_Bar):
                 "again. Ctrl: do not snap."
             )
         )
-        self.turn = QPushButton(self.tr("&Turn 90°"))
+        self.turn = Button(self.tr("&Turn 90°"))
         self.turn.setToolTip(self.tr("Count from the board's next corner"))
-        self.flip = QPushButton(self.tr("F&lip"))
+        self.flip = Button(self.tr("F&lip"))
         self.flip.setToolTip(self.tr("Count columns from the other end: for mirrored images"))
         self.turn.clicked.connect(self.turn_wanted)
         self.flip.clicked.connect(self.flip_wanted)

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QColor, QKeyEvent, QPainter, QPaintEvent, QResizeEvent, QScreen
-from PySide6.QtWidgets import QDoubleSpinBox, QHBoxLayout, QLabel, QWidget
+from PySide6.QtWidgets import QHBoxLayout, QLabel, QWidget
 
 from calibgui.engine.boards import (
     Board,
@@ -16,6 +16,7 @@ from calibgui.engine.boards import (
 )
 from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.buttons import Button
+from calibgui.gui.widgets.number_box import NumberBox
 
 _RULER_MM = 100.0
 """Length that the ruler has if the screen tells its size right, mm."""
@@ -38,7 +39,7 @@ class BoardScreen(QWidget):
         self.setWindowTitle(self.tr("Board on the screen"))
         self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
         self._ink = board.pattern.draw(board.grid_size)
-        self.measured = QDoubleSpinBox(decimals=1, minimum=20.0, maximum=500.0)
+        self.measured = NumberBox(decimals=1, minimum=20.0, maximum=500.0)
         self.measured.setSuffix(self.tr(" mm"))
         self.measured.setSingleStep(0.1)
         self.measured.setValue(_RULER_MM)

@@ -17,6 +17,7 @@ from PySide6.QtWidgets import (
 from calibgui.dataset import list_installed_versions
 from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.actions import add_close_button
+from calibgui.gui.widgets.buttons import Button, Kind
 from calibgui.gui.widgets.wrapped_label import WrappedLabel
 
 
@@ -44,7 +45,8 @@ class BugDialog(QDialog):
         self.details.setFont(theme.fixed_font())
         self.details.setLineWrapMode(QPlainTextEdit.LineWrapMode.NoWrap)
         buttons = add_close_button(self)
-        self.copy = buttons.addButton(self.tr("&Copy"), QDialogButtonBox.ButtonRole.ActionRole)
+        self.copy = Button(self.tr("&Copy"), Kind.MAIN)
+        buttons.addButton(self.copy, QDialogButtonBox.ButtonRole.ActionRole)
         self.copy.clicked.connect(
             lambda: QGuiApplication.clipboard().setText(self.details.toPlainText())
         )

@@ -17,7 +17,6 @@ from PySide6.QtWidgets import (
     QHBoxLayout,
     QListWidget,
     QPlainTextEdit,
-    QPushButton,
     QVBoxLayout,
     QWidget,
 )
@@ -30,8 +29,10 @@ from calibgui.gui.jobs.job import Job
 from calibgui.gui.jobs.jobs import Jobs
 from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.actions import add_close_button
+from calibgui.gui.widgets.buttons import Button, Kind
 from calibgui.gui.widgets.kept_settings import keep, read_kept_text
 from calibgui.gui.widgets.save_names import ask_for_name
+from calibgui.gui.widgets.scrolling import make_thin
 from calibgui.gui.widgets.wrapped_label import WrappedLabel
 
 _FORMAT = "export format"
@@ -73,6 +74,7 @@ class ExportDialog(QDialog):
         self.note, self.error, self.saved = (WrappedLabel() for _ in range(3))
         self.text = QPlainTextEdit(readOnly=True)
         self.text.setFont(theme.fixed_font())
+        make_thin(self.text)
         self.text.setLineWrapMode(QPlainTextEdit.LineWrapMode.NoWrap)
         self.text.setAccessibleName(self.tr("The file's text"))
         self._facts = facts = QFormLayout()
@@ -91,9 +93,9 @@ class ExportDialog(QDialog):
         columns = QHBoxLayout()
         columns.addWidget(self.formats)
         columns.addLayout(right, 1)
-        self.copy = QPushButton(self.tr("&Copy text"), autoDefault=False)
-        self.save = QPushButton(self.tr("&Save…"), default=True)
-        self.save_all = QPushButton(self.tr("Save &all…"), autoDefault=False)
+        self.copy = Button(self.tr("&Copy text"), takes_enter=False)
+        self.save = Button(self.tr("&Save…"), Kind.MAIN)
+        self.save_all = Button(self.tr("Save &all…"), takes_enter=False)
         self.save_all.setToolTip(
             self.tr("Every format in a folder, with a page that tells who reads which file")
         )

@@ -65,6 +65,8 @@ class Files(QObject):
     images_missing = Signal(list)
     images_elsewhere = Signal(NoImagesError)
     """A folder was opened that holds no images itself, but there are some below it."""
+    report_refused = Signal()
+    """A report is wanted on a camera that is known from a file, of which there is none."""
 
     def __init__(
         self, session: Session, detector: Detector, calibrator: Calibrator, window: QWidget
@@ -306,12 +308,7 @@ class Files(QObject):
 
         result = self._session.result
         if result is not None and is_held(result.calibration):
-            self._session.failed.emit(
-                CalibrationError(
-                    self.tr("There is no report on a camera that is known from a file."),
-                    self.tr("Calibrate it (Set-up, Lens), or write the report on its own result."),
-                )
-            )
+            self.report_refused.emit()
         elif result is not None:
             age = self._session.describe_age(result)
             show_dialog(ReportDialog(self._session, result, self._window, age=age))

@@ -15,7 +15,6 @@ from PySide6.QtWidgets import (
     QHBoxLayout,
     QLabel,
     QLineEdit,
-    QPushButton,
     QVBoxLayout,
     QWidget,
 )
@@ -26,6 +25,7 @@ from calibgui.gui.jobs.jobs import Jobs
 from calibgui.gui.panels.latest import Latest
 from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.actions import add_close_button
+from calibgui.gui.widgets.buttons import Button, Kind
 from calibgui.gui.widgets.picture import make_qimage, shrink_picture
 from calibgui.gui.widgets.tables import Column, Table, with_decimals
 from calibgui.gui.widgets.wrapped_label import WrappedLabel
@@ -88,7 +88,7 @@ class FleetDialog(QDialog):
         self.table.show_columns(self._list_columns(), self._list_reasons())
         self.table.picked.connect(self._pick)
         self.table.doubleClicked.connect(self._open_clicked)
-        self.open_camera = QPushButton(self.tr("&Open camera"), default=True)
+        self.open_camera = Button(self.tr("&Open camera"), Kind.MAIN)
         self.open_camera.setEnabled(False)
         self.open_camera.clicked.connect(self._open_picked)
         buttons = add_close_button(self)

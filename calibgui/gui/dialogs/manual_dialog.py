@@ -12,7 +12,6 @@ from PySide6.QtWidgets import (
     QDialogButtonBox,
     QHBoxLayout,
     QListWidget,
-    QPushButton,
     QTextBrowser,
     QVBoxLayout,
     QWidget,
@@ -22,7 +21,9 @@ from calibgui.app.outputs.manual import list_chapters, render_chapter, write_man
 from calibgui.app.system.state_folder import find_state_folder
 from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.actions import add_close_button
+from calibgui.gui.widgets.buttons import Button
 from calibgui.gui.widgets.focus_ring import FocusRing
+from calibgui.gui.widgets.scrolling import make_thin
 
 
 class ManualDialog(QDialog):
@@ -45,7 +46,7 @@ class ManualDialog(QDialog):
         self.text = _ChapterText()
         self.text.setAccessibleName(self.tr("Chapter"))
         self.text.anchorClicked.connect(self._follow)
-        self.browse = QPushButton(self.tr("Open in the &browser"), autoDefault=False)
+        self.browse = Button(self.tr("Open in the &browser"), takes_enter=False)
         self.browse.setToolTip(self.tr("All chapters as one page, to search and to print"))
         self.browse.clicked.connect(self._open_page)
         buttons = add_close_button(self)
@@ -94,6 +95,7 @@ class _ChapterText(QTextBrowser):
         super().__init__()
         self._html = ""
         self.setOpenLinks(False)
+        make_thin(self)
         # A bar that comes with a long chapter would change the width while that is laid out.
         self.setVerticalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOn)
         self.document().setDocumentMargin(theme.MARGIN)

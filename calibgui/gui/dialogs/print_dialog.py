@@ -9,7 +9,6 @@ from PySide6.QtWidgets import (
     QComboBox,
     QDialog,
     QDialogButtonBox,
-    QDoubleSpinBox,
     QFormLayout,
     QHBoxLayout,
     QLabel,
@@ -33,6 +32,8 @@ from calibgui.engine.errors import CalibrationError
 from calibgui.gui.settings.pattern_choice import PatternChoice
 from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.actions import add_close_button
+from calibgui.gui.widgets.buttons import Button, Kind
+from calibgui.gui.widgets.number_box import NumberBox
 from calibgui.gui.widgets.save_names import ask_for_name
 from calibgui.gui.widgets.wrapped_label import WrappedLabel
 
@@ -80,7 +81,7 @@ class PrintDialog(QDialog):
         self.counted, self.side = QLabel(), QLabel()
         self.rows.setAccessibleName(self.tr("Rows"))
         self.cols.setAccessibleName(self.tr("Columns"))
-        self.square = QDoubleSpinBox(decimals=2, minimum=1.0, maximum=500.0, suffix=self.tr(" mm"))
+        self.square = NumberBox(decimals=2, minimum=1.0, maximum=500.0, suffix=self.tr(" mm"))
         self.square.setValue(board.square)
         self.side.setBuddy(self.square)
         self.paper = QComboBox()
@@ -103,12 +104,11 @@ class PrintDialog(QDialog):
         )
         form.addRow(self.odd_and_even)
         buttons = add_close_button(self)
-        self.save = buttons.addButton(self.tr("&Save…"), QDialogButtonBox.ButtonRole.ActionRole)
-        self.save.setDefault(True)
+        self.save = Button(self.tr("&Save…"), Kind.MAIN)
+        self.show_on_screen = Button(self.tr("Show on this scr&een"))
+        for button in (self.save, self.show_on_screen):
+            buttons.addButton(button, QDialogButtonBox.ButtonRole.ActionRole)
         self.save.clicked.connect(self._ask_and_save)
-        self.show_on_screen = buttons.addButton(
-            self.tr("Show on this scr&een"), QDialogButtonBox.ButtonRole.ActionRole
-        )
         self.show_on_screen.setToolTip(
             self.tr("As large as the screen holds it: a screen is flat, and needs no printer")
         )

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import fields, replace
 from pathlib import Path
 
-from PySide6.QtCore import Qt, Signal
+from PySide6.QtCore import Signal
 from PySide6.QtWidgets import (
     QComboBox,
     QDialog,
@@ -13,7 +13,6 @@ from PySide6.QtWidgets import (
     QFormLayout,
     QHBoxLayout,
     QLineEdit,
-    QPushButton,
     QVBoxLayout,
     QWidget,
 )
@@ -25,6 +24,8 @@ from calibgui.dataset.details import Details
 from calibgui.gui.jobs.job import Job
 from calibgui.gui.session.session import Session
 from calibgui.gui.widgets.actions import add_close_button
+from calibgui.gui.widgets.buttons import Button, Kind
+from calibgui.gui.widgets.narrow_combo import NarrowCombo
 from calibgui.gui.widgets.save_names import ask_for_name
 from calibgui.gui.widgets.wrapped_label import WrappedLabel
 from calibgui.report.calibration_report import Layout
@@ -53,7 +54,7 @@ class ReportDialog(QDialog):
         super().__init__(parent)
         self.setWindowTitle(self.tr("Report"))
         self._session, self._result = session, result
-        self.layout_choice, self.paper = QComboBox(), QComboBox()
+        self.layout_choice, self.paper = NarrowCombo(), QComboBox()
         for layout, text, tip in (
             (Layout.REPORT, self.tr("Report"), self.tr("All that is known")),
             (
@@ -62,10 +63,7 @@ class ReportDialog(QDialog):
                 self.tr("After ISO/IEC 17025, 7.8.2 and 7.8.4"),
             ),
         ):
-            self.layout_choice.addItem(text, layout)
-            self.layout_choice.setItemData(
-                self.layout_choice.count() - 1, tip, Qt.ItemDataRole.ToolTipRole
-            )
+            self.layout_choice.add_explained(text, layout, tip)
         for name, text in zip(PAPERS, ("A4", self.tr("Letter")), strict=True):
             self.paper.addItem(text, name)
         known = session.project.details
@@ -88,7 +86,7 @@ class ReportDialog(QDialog):
             age
             or self.tr("What stands here is kept with the project. PDF needs the extra “report”.")
         )
-        self.save = QPushButton(self.tr("&Save…"), default=True)
+        self.save = Button(self.tr("&Save…"), Kind.MAIN)
         buttons = add_close_button(self)
         buttons.addButton(self.save, QDialogButtonBox.ButtonRole.ActionRole)
         self.save.clicked.connect(self._save)

@@ -17,7 +17,6 @@ from PySide6.QtWidgets import (
     QHBoxLayout,
     QLabel,
     QLineEdit,
-    QPushButton,
     QSplitter,
     QVBoxLayout,
     QWidget,
@@ -41,6 +40,7 @@ from calibgui.gui.panels.latest import Latest
 from calibgui.gui.panels.parts.estimates import estimate_columns
 from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.actions import add_close_button
+from calibgui.gui.widgets.buttons import Button
 from calibgui.gui.widgets.plots import Plot
 from calibgui.gui.widgets.save_names import ask_for_name
 from calibgui.gui.widgets.tab_bar import TabWidget
@@ -72,7 +72,7 @@ class SeriesDialog(QDialog):
         self._values: Path | None = None
         self.analysed: AnalysedSeries | None = None
         """What is shown; None while there is nothing."""
-        self.add = QPushButton(self.tr("&Add results…"), autoDefault=False)
+        self.add = Button(self.tr("&Add results…"), takes_enter=False)
         self.add.clicked.connect(self._ask_for_results)
         self.scalar = QComboBox()
         self.scalar.setAccessibleName(self.tr("The quantity that varies"))
@@ -84,7 +84,7 @@ class SeriesDialog(QDialog):
         ):
             self.scalar.addItem(text, scalar)
         self.scalar.currentIndexChanged.connect(self._analyse)
-        self.table_of_values = QPushButton(self.tr("&Table of values…"), autoDefault=False)
+        self.table_of_values = Button(self.tr("&Table of values…"), takes_enter=False)
         self.table_of_values.setToolTip(
             self.tr(
                 "A CSV file with the columns file,value; temperatures in °C. Without one focal "
@@ -104,7 +104,7 @@ class SeriesDialog(QDialog):
         self.at.textChanged.connect(self._show_camera)
         self.format = QComboBox()
         self.format.setAccessibleName(self.tr("Format"))
-        self.export = QPushButton(self.tr("&Export…"), autoDefault=False)
+        self.export = Button(self.tr("&Export…"), takes_enter=False)
         self.export.clicked.connect(self._ask_and_export)
         self.said = WrappedLabel()
         self._lay_out()

@@ -25,6 +25,7 @@ from PySide6.QtGui import (
     QPaintEvent,
     QPen,
     QPixmap,
+    QPixmapCache,
     QResizeEvent,
 )
 from PySide6.QtWidgets import QListView, QStyle, QStyledItemDelegate, QStyleOptionViewItem
@@ -252,11 +253,29 @@ class _Delegate(QStyledItemDelegate):
         painter.restore()
 
     def _draw_thumbnail(self, painter: QPainter, frame: QRect, index: Index) -> None:
+        """Draw a picture with round corners, which is made once for its size."""
+        pixmap, enabled = index.data(Qt.ItemDataRole.DecorationRole), index.data(Role.ENABLED)
+        ratio, ground = painter.device().devicePixelRatioF(), theme.current().line
+        key = f"{pixmap and pixmap.cacheKey()} {enabled} {ratio} {ground}"
+        drawn = QPixmap()
+        if not QPixmapCache.find(key, drawn):
+            drawn = QPixmap(frame.size() * ratio)
+            drawn.setDevicePixelRatio(ratio)
+            drawn.fill(Qt.GlobalColor.transparent)
+            within = QPainter(drawn)
+            within.setRenderHint(QPainter.RenderHint.Antialiasing)
+            self._shape_thumbnail(within, QRect(QPoint(), frame.size()), pixmap, enabled)
+            within.end()
+            QPixmapCache.insert(key, drawn)
+        painter.drawPixmap(frame.topLeft(), drawn)
+
+    def _shape_thumbnail(
+        self, painter: QPainter, frame: QRect, pixmap: QPixmap | None, enabled: bool
+    ) -> None:
         shape = QPainterPath()
         shape.addRoundedRect(QRectF(frame), theme.SMALL_RADIUS, theme.SMALL_RADIUS)
         painter.setClipPath(shape)
         painter.fillRect(frame, QColor(theme.current().line))
-        pixmap: QPixmap | None = index.data(Qt.ItemDataRole.DecorationRole)
         if pixmap is not None:
             size = pixmap.size()
             is_usual = size.height() <= size.width() <= _WIDEST * size.height()
@@ -267,10 +286,8 @@ class _Delegate(QStyledItemDelegate):
             board = QRect(QPoint(), scaled)
             board.moveCenter(frame.center())
             painter.setRenderHint(QPainter.RenderHint.SmoothPixmapTransform)
-            painter.setOpacity(1.0 if index.data(Role.ENABLED) else _FADED)
+            painter.setOpacity(1.0 if enabled else _FADED)
             painter.drawPixmap(board, pixmap)
-            painter.setOpacity(1.0)
-        painter.setClipping(False)
 
     def _draw_words(self, painter: QPainter, words: QRect, number: str, index: Index) -> None:
         """Write the name, with a dot for the state and one in the view's colour, and the error."""

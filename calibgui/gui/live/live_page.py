@@ -17,7 +17,6 @@ from PySide6.QtWidgets import (
     QApplication,
     QCheckBox,
     QComboBox,
-    QDoubleSpinBox,
     QFileDialog,
     QFormLayout,
     QHBoxLayout,
@@ -37,6 +36,7 @@ from calibgui.app.photographs.recording import (
 )
 from calibgui.dataset import DEFAULT_SQUARE
 from calibgui.engine.capture import (
+    CameraSettings,
     CaptureSession,
     LatestFrames,
     list_cameras,
@@ -53,6 +53,7 @@ from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.buttons import Button, Kind
 from calibgui.gui.widgets.elided import ElidedLabel
 from calibgui.gui.widgets.kept_settings import keep, read_kept_text
+from calibgui.gui.widgets.number_box import NumberBox
 from calibgui.gui.widgets.wrapped_label import WrappedLabel
 
 _SIDE = 340
@@ -63,6 +64,10 @@ _FRAME = 33
 """Time between two looks for a new image, ms."""
 _UNNAMED = 4
 """Number of cameras that are offered by number where the system names none."""
+_SIZES = ((640, 480), (1280, 720), (1920, 1080), (3840, 2160))
+"""Sizes of images that are offered, px."""
+_AS_IT_IS = -1000.0
+"""Number below all exposures and focuses, at which a camera stays as it is."""
 _SOUND = "capture/sound"
 _SILENT = "silent"
 
@@ -94,6 +99,8 @@ class LivePage(QWidget):
         self._recorder: Recorder | None = None
         self._frames: LatestFrames | None = None
         self._has_failed = False
+        self._remark = ""
+        """How the camera is set."""
         self._shown: object = None
         """The image that is on the screen."""
         self.folder = Path()
@@ -152,7 +159,20 @@ class LivePage(QWidget):
                 "http://…), or the folder that a camera's program fills"
             )
         )
-        self.limit = QDoubleSpinBox()
+        self.image_size = QComboBox()
+        self.image_size.addItem(self.tr("as the camera has it"), None)
+        for width, height in _SIZES:
+            self.image_size.addItem(self.tr("{0} × {1} px").format(width, height), (width, height))
+        self.exposure, self.focus = self._make_wish(), self._make_wish()
+        for wish, name in (
+            (self.exposure, self.tr("Exposure, the same in all pictures")),
+            (self.focus, self.tr("Focus, the same in all pictures")),
+        ):
+            wish.setAccessibleName(name)
+            wish.setToolTip(
+                self.tr("{0}, in the camera's own unit, of a camera at this computer").format(name)
+            )
+        self.limit = NumberBox()
         self.limit.setRange(0.01, 10.0)
         self.limit.setSingleStep(0.05)
         self.limit.setValue(_LIMIT)
@@ -184,12 +204,27 @@ class LivePage(QWidget):
         ):
             button.clicked.connect(run)
 
+    def _make_wish(self) -> NumberBox:
+        """Make a field for a setting that is the camera's own unless a number is typed in."""
+        field = NumberBox()
+        field.setDecimals(0)
+        field.setRange(_AS_IT_IS, 100_000)
+        field.setSpecialValueText(self.tr("as it is"))
+        field.setValue(_AS_IT_IS)
+        return field
+
     def _lay_out(self) -> None:
         form = QWidget()
         rows = QFormLayout(form)
         rows.setContentsMargins(0, 0, 0, 0)
         rows.setRowWrapPolicy(QFormLayout.RowWrapPolicy.WrapAllRows)
         rows.addRow(self.tr("Camera, address or folder"), self.source)
+        rows.addRow(self.tr("Size of its images"), self.image_size)
+        wishes = QHBoxLayout()
+        for label, wish in ((self.tr("Exposure"), self.exposure), (self.tr("Focus"), self.focus)):
+            wishes.addWidget(QLabel(label))
+            wishes.addWidget(wish, 1)
+        rows.addRow(wishes)
         rows.addRow(self.tr("Until the worst pixel is known to"), self.limit)
         folder = QHBoxLayout()
         folder.addWidget(self.place, 1)
@@ -271,8 +306,14 @@ class LivePage(QWidget):
         name = self.source.itemData(index) if index >= 0 else text
         assert recorder is not None
 
+        wanted = CameraSettings(
+            self.image_size.currentData(), _read_wish(self.exposure), _read_wish(self.focus)
+        )
+
         def work(job: Job) -> None:
-            frames = self._frames = LatestFrames(open_source(name, math.inf))
+            source = open_source(name, math.inf, wanted)
+            self._remark = source.remark
+            frames = self._frames = LatestFrames(source)
             try:
                 for recorded in recorder.record(frames, lambda: job.stopping):
                     job.send(_Seen(recorded, recorder.measure_progress()))
@@ -316,13 +357,14 @@ class LivePage(QWidget):
         self._describe(seen.progress)
 
     def _describe(self, progress: CaptureProgress) -> None:
-        """Say how well the pictures that were put aside are predicted."""
-        text = ""
+        """Say how the camera is set, and how well pictures that were put aside are predicted."""
+        said = [each for each in (self._remark, progress.readout) if each]
         if progress.unseen_corners:
             text = self.tr("Pictures put aside are predicted to {0} px rms ({1} corners).").format(
                 format_two_digits(progress.unseen_error), progress.unseen_corners
             )
-        self.words.setText(text)
+            said.append(text)
+        self.words.setText("\n".join(said))
 
     def _show_failure(self, error: Exception) -> None:
         self._has_failed = True
@@ -390,6 +432,11 @@ class LivePage(QWidget):
 
     def paintEvent(self, event: QPaintEvent) -> None:  # noqa: N802, ARG002 - Qt's name
         QPainter(self).fillRect(self.rect(), QColor(theme.current().base))
+
+
+def _read_wish(field: NumberBox) -> float | None:
+    """Read what is wanted of a setting; None if nothing is."""
+    return None if field.value() == _AS_IT_IS else field.value()
 
 
 def _name_folder() -> Path:

@@ -12,6 +12,7 @@ from PySide6.QtWidgets import QListView, QListWidget, QListWidgetItem, QVBoxLayo
 from calibgui.engine.capture import Picture
 from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.buttons import Button
+from calibgui.gui.widgets.scrolling import make_thin
 
 _THUMBNAIL = QSize(98, 74)
 _WIDTH = 136
@@ -30,6 +31,8 @@ class TakenStrip(QWidget):
         super().__init__()
         self.setFixedWidth(_WIDTH)
         self.list = QListWidget()
+        self.list.setFrameShape(QListWidget.Shape.NoFrame)
+        make_thin(self.list)
         self.list.setViewMode(QListView.ViewMode.IconMode)
         self.list.setFlow(QListView.Flow.LeftToRight)
         self.list.setMovement(QListView.Movement.Static)
@@ -55,7 +58,9 @@ class TakenStrip(QWidget):
         item = QListWidgetItem(_draw_thumbnail(picture), words)
         item.setData(Qt.ItemDataRole.UserRole, file)
         item.setToolTip(
-            self.tr("{0}: the camera is not calibrated with it, but checked").format(file.name)
+            self.tr("{0}: a camera calibrated without it is checked with it as well").format(
+                file.name
+            )
             if picture.for_validation
             else file.name
         )

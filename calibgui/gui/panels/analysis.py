@@ -45,7 +45,7 @@ MODES: dict[Mode, tuple[Row, ...]] = {
     ),
     Mode.LENS: (Row((DistortionPanel,), 0.92), Row((LensModelsPanel,), 0.9)),
     Mode.BOARD: (Row((BoardShapePanel,), 1.0),),
-    Mode.SPACE: (Row((PosesPanel,), 0.92), Row((CoveragePanel,), 1.0)),
+    Mode.SPACE: (Row((PosesPanel,), 0.92), Row((CoveragePanel,), 0.75)),
     Mode.UNDISTORT: (Row((UndistortPanel,), 1.0),),
     Mode.COMPARE: (Row((ComparePanel,), 1.0),),
 }

@@ -4,19 +4,18 @@ from __future__ import annotations
 
 from typing import ClassVar, Generic, TypeVar
 
-from PySide6.QtWidgets import QApplication, QHBoxLayout, QPushButton, QVBoxLayout, QWidget
+from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QApplication, QHBoxLayout, QVBoxLayout, QWidget
 
 from calibgui.dataset import Result
 from calibgui.gui.jobs.job import Job
 from calibgui.gui.panels.latest import Latest
 from calibgui.gui.panels.panel import Panel
 from calibgui.gui.panels.services import Services
-from calibgui.gui.widgets.scrolling_text import ScrollingText
+from calibgui.gui.widgets.buttons import Button
+from calibgui.gui.widgets.wrapped_label import WrappedLabel
 
 Found = TypeVar("Found")
-
-_LINES = 4
-"""Lines of the text above what was found that are shown at once."""
 
 
 class OnDemandPanel(Panel, Generic[Found]):
@@ -51,10 +50,11 @@ class OnDemandPanel(Panel, Generic[Found]):
         self._shown_if_found: tuple[QWidget, ...] = ()
         self.found: Found | None = None
         """What the work found; None before its end."""
-        self.run = QPushButton(button)
+        self.run = Button(button)
         self.run.setToolTip(tip)
         self.run.clicked.connect(self._start)
-        self.words = ScrollingText(_LINES)
+        self.words = WrappedLabel()
+        self.words.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
         self.words.setAccessibleName(self.tr("What was found"))
 
     def show_result(self, result: Result | None) -> None:
@@ -119,9 +119,9 @@ class OnDemandPanel(Panel, Generic[Found]):
         if found is not None:
             self._show_found(result, found)
         elif self._is_working:
-            self.words.show_text(self._working)
+            self.words.setText(self._working)
         else:
-            self.words.show_text(self._failure or self._invite(result))
+            self.words.setText(self._failure or self._invite(result))
 
     def _enable_button(self) -> None:
         """Let the button be pressed unless the work goes on; the focus comes back to it."""

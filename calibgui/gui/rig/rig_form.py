@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from PySide6.QtCore import QSignalBlocker, Signal
-from PySide6.QtWidgets import QCheckBox, QDoubleSpinBox, QFormLayout, QSpinBox, QWidget
+from PySide6.QtWidgets import QCheckBox, QFormLayout, QSpinBox, QWidget
 
 from calibgui.dataset import DEFAULT_SQUARE, RigPairing
+from calibgui.gui.widgets.number_box import NumberBox
 from calibgui.gui.widgets.wrapped_label import WrappedLabel
 
 
@@ -18,13 +19,13 @@ class RigForm(QWidget):
     def __init__(self) -> None:
         super().__init__()
         self.words = WrappedLabel()
-        self.square = QDoubleSpinBox(decimals=3, minimum=0.0, maximum=10_000.0)
+        self.square = NumberBox(decimals=3, minimum=0.0, maximum=10_000.0)
         self.square.setSuffix(self.tr(" mm"))
         self.square.setSpecialValueText(
             self.tr("not measured (as if {0} mm)").format(f"{DEFAULT_SQUARE:g}")
         )
         self.square.setAccessibleName(self.tr("Side of a square"))
-        self.within = QDoubleSpinBox(decimals=1, minimum=0.0, maximum=1e6)
+        self.within = NumberBox(decimals=1, minimum=0.0, maximum=1e6)
         self.within.setSuffix(self.tr(" ms"))
         self.within.setSpecialValueText(self.tr("by names"))
         self.within.setToolTip(

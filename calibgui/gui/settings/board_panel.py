@@ -5,11 +5,10 @@ from __future__ import annotations
 from dataclasses import replace
 from functools import partial
 
-from PySide6.QtCore import QSignalBlocker, Qt, Signal
+from PySide6.QtCore import QSignalBlocker, Signal
 from PySide6.QtWidgets import (
     QCheckBox,
     QComboBox,
-    QDoubleSpinBox,
     QFormLayout,
     QHBoxLayout,
     QLabel,
@@ -35,6 +34,7 @@ from calibgui.gui.session.session import Session
 from calibgui.gui.settings.pattern_choice import PatternChoice
 from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.narrow_combo import NarrowCombo
+from calibgui.gui.widgets.number_box import NumberBox
 from calibgui.gui.widgets.pattern_texts import name_points
 from calibgui.gui.widgets.sizes import set_times_signs
 from calibgui.report.boards import describe_recognised_board
@@ -69,7 +69,7 @@ class BoardPanel(QWidget):
                 self.tr("Corners where four squares meet: one fewer than squares each way.")
             )
             box.setSpecialValueText("–")
-        self.square = QDoubleSpinBox(decimals=3, minimum=0.001, maximum=100_000.0)
+        self.square = NumberBox(decimals=3, minimum=0.001, maximum=100_000.0)
         self.square.setToolTip(
             self.tr(
                 "Side of one square. Only the distances depend on it: measure several squares "
@@ -77,7 +77,7 @@ class BoardPanel(QWidget):
             )
         )
         self.square.setAccessibleName(self.tr("Side of a square"))
-        self.square_sigma = QDoubleSpinBox(decimals=4, minimum=0.0, maximum=1000.0, singleStep=0.01)
+        self.square_sigma = NumberBox(decimals=4, minimum=0.0, maximum=1000.0, singleStep=0.01)
         self.square_sigma.setSpecialValueText(self.tr("exact"))
         self.square_sigma.setToolTip(
             self.tr(
@@ -105,8 +105,7 @@ class BoardPanel(QWidget):
                 self.tr("As the paper does: the saddle point of the grey levels at each corner."),
             ),
         ):
-            self.method.addItem(text, method)
-            self.method.setItemData(self.method.count() - 1, tip, Qt.ItemDataRole.ToolTipRole)
+            self.method.add_explained(text, method, tip)
         self.method.setToolTip(self.tr("How corners are located; another way searches anew."))
         self.field = NarrowCombo()
         self.field.addItem(self.tr("all rows"), None)
@@ -139,7 +138,7 @@ class BoardPanel(QWidget):
         side.addWidget(self.square_sigma, 1)
         side.addWidget(self.unit)
         form = self._form = QFormLayout(self)
-        form.setContentsMargins(theme.SPACING, 0, theme.SPACING, 0)
+        form.setContentsMargins(theme.SPACING, 0, 0, theme.SPACING)
         form.addRow(self.pattern)
         form.addRow(self.counted, corners)
         form.addRow("", self.inferred)

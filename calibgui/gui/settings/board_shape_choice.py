@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import Qt, Signal
+from PySide6.QtCore import Signal
 from PySide6.QtWidgets import (
     QCheckBox,
-    QDoubleSpinBox,
     QFileDialog,
     QFormLayout,
     QHBoxLayout,
@@ -16,6 +15,7 @@ from calibgui.engine.boards import BoardShape, BoardShapeModel, BoardShapePrior
 from calibgui.engine.errors import CalibrationError
 from calibgui.formats.board_shape_json import read_board_shape
 from calibgui.gui.widgets.narrow_combo import NarrowCombo
+from calibgui.gui.widgets.number_box import NumberBox
 
 _OFFICE_PRIOR = BoardShapePrior(in_plane=0.1, out_of_plane=0.3)
 """Standard deviations of a board from an office printer that is glued to something stiff, mm."""
@@ -66,8 +66,8 @@ class BoardShapeChoice(QWidget):
                 self.tr("Of these, the one that predicts views best that it has not seen. Slow."),
             ),
         ):
-            self._add(text, model, tip)
-        self._add(
+            self.model.add_explained(text, model, tip)
+        self.model.add_explained(
             self.tr("as in a file…"), _FROM_FILE, self.tr("Hold a shape that was saved before.")
         )
         self.known = QCheckBox(self.tr("known to"))
@@ -130,15 +130,11 @@ class BoardShapeChoice(QWidget):
                 box.blockSignals(False)
         self._enable()
 
-    def _add(self, text: str, model: BoardShapeModel | str | None, tip: str) -> None:
-        self.model.addItem(text, model)
-        self.model.setItemData(self.model.count() - 1, tip, Qt.ItemDataRole.ToolTipRole)
-
-    def _make_length(self, value: float, unit: str, tip: str) -> QDoubleSpinBox:
-        box = QDoubleSpinBox(decimals=3, minimum=0.001, maximum=9.0, singleStep=0.05, suffix=unit)
+    def _make_length(self, value: float, unit: str, tip: str) -> NumberBox:
+        box = NumberBox(decimals=3, minimum=0.001, maximum=9.0, singleStep=0.05, suffix=unit)
         box.setValue(value)
         box.setKeyboardTracking(False)
-        box.setButtonSymbols(QDoubleSpinBox.ButtonSymbols.NoButtons)
+        box.setButtonSymbols(NumberBox.ButtonSymbols.NoButtons)
         box.setToolTip(tip)
         box.setAccessibleName(tip)
         box.valueChanged.connect(self.slid)

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import Qt
-
 from calibgui.engine.calibration import Cost
 from calibgui.gui.widgets.narrow_combo import NarrowCombo
 
@@ -36,6 +34,5 @@ class CostChoice(NarrowCombo):
                 self.tr("The formulation of the paper to the letter, to reproduce its tables."),
             ),
         ):
-            self.addItem(text, cost)
-            self.setItemData(self.count() - 1, tip, Qt.ItemDataRole.ToolTipRole)
+            self.add_explained(text, cost, tip)
         self.setAccessibleName(self.tr("Minimise"))

@@ -19,9 +19,8 @@ class MethodChoice(NarrowCombo):
     def __init__(self) -> None:
         super().__init__()
         for name, method in METHODS.items():
-            self.addItem(method.title, name)
             tip = f"{method.title} ({name}). {method.limits}\n{method.source}"
-            self.setItemData(self.count() - 1, tip, Qt.ItemDataRole.ToolTipRole)
+            self.add_explained(method.title, name, tip)
         self.setAccessibleName(self.tr("Method"))
         self.currentIndexChanged.connect(self._describe_current)
         self._describe_current()

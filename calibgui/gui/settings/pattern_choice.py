@@ -8,12 +8,10 @@ from typing import Any
 from PySide6.QtCore import QSignalBlocker, Signal
 from PySide6.QtWidgets import (
     QComboBox,
-    QDoubleSpinBox,
     QFileDialog,
     QFormLayout,
     QHBoxLayout,
     QLabel,
-    QPushButton,
     QSpinBox,
     QWidget,
 )
@@ -33,6 +31,8 @@ from calibgui.engine.boards import (
 )
 from calibgui.engine.errors import CalibrationError
 from calibgui.formats.circle_list import read_circle_list
+from calibgui.gui.widgets.buttons import Button
+from calibgui.gui.widgets.number_box import NumberBox
 from calibgui.gui.widgets.pattern_texts import list_pattern_texts
 
 
@@ -72,12 +72,12 @@ class PatternChoice(QWidget):
             (self.tr("as before OpenCV 4.6"), True),
         )
         self.marker, self.diameter = (
-            QDoubleSpinBox(decimals=3, minimum=0.0, maximum=100_000.0) for _ in range(2)
+            NumberBox(decimals=3, minimum=0.0, maximum=100_000.0) for _ in range(2)
         )
         for box in (self.marker, self.diameter):
             box.setSpecialValueText(undecided)
             box.setKeyboardTracking(False)
-        self.layout_file = QPushButton()
+        self.layout_file = Button()
         self.layout_file.setToolTip(
             self.tr("A table (CSV) of the circles' x and y in mm, or the same as JSON.")
         )
@@ -87,7 +87,7 @@ class PatternChoice(QWidget):
             (undecided, None),
             *((name, name) for name in FAMILIES),
         )
-        self.spacing = QDoubleSpinBox(decimals=3, minimum=0.0, maximum=1.0, singleStep=0.05)
+        self.spacing = NumberBox(decimals=3, minimum=0.0, maximum=1.0, singleStep=0.05)
         self.spacing.setToolTip(
             self.tr("The gap between tags over the side of a tag, at most 1: Kalibr's tagSpacing.")
         )
@@ -290,7 +290,7 @@ class PatternChoice(QWidget):
             self.changed.emit()
 
 
-def _show(box: QDoubleSpinBox, value: float) -> None:
+def _show(box: NumberBox, value: float) -> None:
     """Show a value without a signal."""
     box.blockSignals(True)
     if abs(box.value() - value) > 10.0 ** -box.decimals() / 2:

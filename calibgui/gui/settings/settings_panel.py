@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 
-from PySide6.QtCore import Qt
 from PySide6.QtWidgets import (
     QCheckBox,
     QFormLayout,
@@ -60,6 +59,7 @@ class SettingsPanel(QWidget):
 
     Attributes:
         lens, experts: two parts of it, which are laid out where they are shown.
+        labels: what stands before its fields.
     """
 
     def __init__(self, session: Session) -> None:
@@ -119,14 +119,13 @@ class SettingsPanel(QWidget):
 
     def _make_model(self) -> NarrowCombo:
         choice = NarrowCombo()
-        choice.addItem(self.tr("automatic"), None)
-        choice.setItemData(
-            0,
+        choice.add_explained(
+            self.tr("automatic"),
+            None,
             self.tr(
                 "The paper's model, unless views that the models have not seen demand another. "
                 "The result says why. Slower."
             ),
-            Qt.ItemDataRole.ToolTipRole,
         )
         for model in MODEL_CHOICES:
             _add_model(choice, model)
@@ -152,9 +151,7 @@ class SettingsPanel(QWidget):
         label.setBuddy(self.cost)
         held.setBuddy(self.values)
         lens, known = QLabel(self.tr("Lens model")), QLabel(self.tr("Camera"))
-        # In line with the labels of the board's shape, which stand between.
-        for each in (label, held, lens, known):
-            each.setMinimumWidth(self.board_shape.known.sizeHint().width())
+        self.labels = label, held, lens, known, self.board_shape.known
         self.lens, self.experts = QWidget(self), QWidget(self)
         model = QFormLayout()
         model.addRow(known, self.known)
@@ -379,9 +376,7 @@ class SettingsPanel(QWidget):
 
 def _add_model(choice: NarrowCombo, model: str) -> None:
     """Add a lens model to a choice, with its title and what it is for."""
-    choice.addItem(get_lens_title(model), model)
-    tip = f"{model}. {describe_lens_model(model)}"
-    choice.setItemData(choice.count() - 1, tip, Qt.ItemDataRole.ToolTipRole)
+    choice.add_explained(get_lens_title(model), model, f"{model}. {describe_lens_model(model)}")
 
 
 def _list_boxes(model: str | None) -> tuple[str, ...]:

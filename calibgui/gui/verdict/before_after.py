@@ -8,7 +8,7 @@ import textwrap
 import numpy as np
 from PySide6.QtCore import Signal, SignalInstance
 from PySide6.QtGui import QResizeEvent
-from PySide6.QtWidgets import QHBoxLayout, QPushButton, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QHBoxLayout, QVBoxLayout, QWidget
 
 from calibgui.engine.assessment import CameraDifference, Verdict, compare_cameras
 from calibgui.engine.numbers import format_two_digits
@@ -19,6 +19,8 @@ from calibgui.gui.session.session import Session
 from calibgui.gui.verdict.remedy_runner import CarriedOut
 from calibgui.gui.verdict.texts import describe_grade
 from calibgui.gui.widgets import theme
+from calibgui.gui.widgets.buttons import Button, Kind
+from calibgui.gui.widgets.scrolling import make_scrollable
 from calibgui.gui.widgets.sheet import Sheet
 from calibgui.gui.widgets.tables import Column, Table, with_decimals
 from calibgui.gui.widgets.wrapped_label import WrappedLabel
@@ -27,6 +29,8 @@ from calibgui.report.verdict import format_times
 
 _TABLES_SHARE = 0.55
 """Share of the width that the tables have at most: the map takes what they leave."""
+_LEAST_HEIGHT = 280
+"""Height below which tables and map scroll: less would show nothing, device-independent px."""
 _HEADING_LETTERS = 12
 """Letters of a grade that stand in one line over its errors, where the map needs the width."""
 
@@ -60,9 +64,8 @@ class BeforeAndAfter(Sheet):
                 "brings the two closest where corners (dots) were seen."
             )
         )
-        self.keep = QPushButton(self.tr("&Keep"))
-        self.keep.setDefault(True)
-        self.back = QPushButton(self.tr("&Take back"))
+        self.keep = Button(self.tr("&Keep"), Kind.MAIN)
+        self.back = Button(self.tr("&Take back"))
         self.keep.clicked.connect(lambda: self._answer(self.kept))
         self.back.clicked.connect(lambda: self._answer(self.taken_back))
         head = QHBoxLayout()
@@ -72,13 +75,16 @@ class BeforeAndAfter(Sheet):
         tables = QVBoxLayout()
         tables.addWidget(self.errors)
         tables.addWidget(self.parameters, 1)
-        sides = QHBoxLayout()
+        inside = QWidget()
+        inside.setMinimumHeight(_LEAST_HEIGHT)
+        sides = QHBoxLayout(inside)
+        sides.setContentsMargins(0, 0, 0, 0)
         sides.addLayout(tables)
         sides.addWidget(self.map, 1)
         layout = QVBoxLayout(self)
         layout.setContentsMargins(*[theme.SPACING] * 4)
         layout.addLayout(head)
-        layout.addLayout(sides, 1)
+        layout.addWidget(make_scrollable(inside), 1)
         # Work that goes on keeps what was done.
         session.changed.connect(lambda _, after: self._close_for_other(after))
 

@@ -21,7 +21,7 @@ from calibgui.report.numbers import format_with_sigma
 
 _MOST = 10
 """Number of values that are listed: a splined lens has hundreds."""
-_PAD = "padding-top:3px; padding-bottom:3px"
+_PAD = "padding-top:2px; padding-bottom:2px"
 
 
 class CameraValues(QWidget):
@@ -123,16 +123,20 @@ class CameraValues(QWidget):
 
 
 def _list_rows(result: Result) -> list[tuple[str, str, str]]:
-    """List the name of each value, the value and its ±, with the unit behind the last."""
+    """List the name of each value, the value and its ±, with the unit behind the last.
+
+    A coefficient that is held at 0 is none of the lens.
+    """
     calibration = result.calibration
     camera = calibration.camera
     rows = []
     for name, value, sigma in zip(camera.names, camera.params, calibration.sigma, strict=True):
+        if value == 0 and name in calibration.fixed:
+            continue
         text = format_with_sigma(float(value), float(sigma))
         unit = " px" if name in PINHOLE else ""
-        number, _, error = text.partition(" ± ")
-        if text.startswith("("):
-            number, error = text, ""
+        digits, _, power = text.strip("(").partition(")")
+        number, error = (part and part + power for part in digits.partition(" ± ")[::2])
         rows.append((name, number, f"± {error}{unit}" if error else ""))
     return rows[:_MOST]
 

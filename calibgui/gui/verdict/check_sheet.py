@@ -9,7 +9,6 @@ from typing import assert_never
 import numpy as np
 from PySide6.QtCore import QEvent, Qt
 from PySide6.QtWidgets import (
-    QDoubleSpinBox,
     QFileDialog,
     QHBoxLayout,
     QLabel,
@@ -29,6 +28,7 @@ from calibgui.gui.session.session import Session
 from calibgui.gui.verdict.grade_icon import GradeIcon, get_colour
 from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.buttons import Button
+from calibgui.gui.widgets.number_box import NumberBox
 from calibgui.gui.widgets.sheet import Sheet
 from calibgui.gui.widgets.wrapped_label import WrappedLabel
 from calibgui.report.calibration_check import describe_verdict, list_remarks
@@ -62,7 +62,7 @@ class CheckSheet(Sheet):
         self.words, self.details = WrappedLabel(), WrappedLabel()
         self.details.setForegroundRole(self.details.palette().ColorRole.PlaceholderText)
         self.details.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
-        self.limit = QDoubleSpinBox(decimals=2, minimum=0.01, maximum=100.0, singleStep=0.1)
+        self.limit = NumberBox(decimals=2, minimum=0.01, maximum=100.0, singleStep=0.1)
         self.limit.setValue(DEFAULT_LIMIT)
         self.limit.setSuffix(self.tr(" px"))
         self.limit.setAccessibleName(self.tr("Limit"))

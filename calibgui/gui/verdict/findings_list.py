@@ -11,7 +11,6 @@ from PySide6.QtWidgets import (
     QGridLayout,
     QHBoxLayout,
     QLabel,
-    QPushButton,
     QToolButton,
     QVBoxLayout,
     QWidget,
@@ -22,6 +21,7 @@ from calibgui.engine.assessment import Finding, Verdict
 from calibgui.engine.numbers import format_two_digits
 from calibgui.gui.verdict.texts import describe_button
 from calibgui.gui.widgets import theme
+from calibgui.gui.widgets.buttons import Button
 from calibgui.gui.widgets.elided import ElidedLabel
 from calibgui.gui.widgets.scrolling import make_scrollable
 from calibgui.gui.widgets.sheet import Sheet
@@ -127,14 +127,14 @@ class FindingRow(QWidget):
         self.unfold.setToolTip(self.tr("Show the figures and what to do"))
         self.unfold.toggled.connect(self._unfold)
         action = finding.action
-        self.button = QPushButton("" if action is None else describe_button(action, names))
+        self.button = Button("" if action is None else describe_button(action, names))
         details = f"{finding.evidence}\n{finding.remedy}"
         self.details = WrappedLabel(
             f"{details}\n{condition}" if condition and _LENGTH.search(details) else details
         )
         self.details.setTextFormat(Qt.TextFormat.PlainText)
         self.details.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
-        self.proof = QPushButton(self.tr("Show the evidence"))
+        self.proof = Button(self.tr("Show the evidence"))
         # Only hidden, never shown, while they have no parent: each would be a window of its own.
         for widget in (self.details, self.proof, *([self.button] if action is None else [])):
             widget.hide()
@@ -144,9 +144,9 @@ class FindingRow(QWidget):
         grid.addWidget(self.unfold, 0, 0)
         grid.addWidget(self.what, 0, 1)
         grid.addWidget(self.how_much, 0, 2)
-        grid.addWidget(self.button, 0, 3)
+        grid.addWidget(self.button, 0, 3, Qt.AlignmentFlag.AlignRight)
         grid.addWidget(self.details, 1, 1, 1, 2)
-        grid.addWidget(self.proof, 1, 3, Qt.AlignmentFlag.AlignTop)
+        grid.addWidget(self.proof, 1, 3, Qt.AlignmentFlag.AlignTop | Qt.AlignmentFlag.AlignRight)
         grid.setColumnStretch(1, 1)
 
     def _unfold(self, shown: bool) -> None:
@@ -166,7 +166,7 @@ class GlassRow(QWidget):
                 "If the board is of glass, printed true to {0:g} mm and flat to {1:g} mm: {2} px."
             ).format(GLASS.in_plane, GLASS.out_of_plane, list_gains(narrower))
         )
-        self.button = QPushButton(self.tr("It is of glass"))
+        self.button = Button(self.tr("It is of glass"))
         row = QHBoxLayout(self)
         row.setContentsMargins(0, theme.SPACING // 2, 0, theme.SPACING // 2)
         row.setSpacing(theme.SPACING)

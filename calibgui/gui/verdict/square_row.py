@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from PySide6.QtWidgets import QDoubleSpinBox, QHBoxLayout, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QHBoxLayout, QVBoxLayout, QWidget
 
 from calibgui.app.projects.lengths import confirm_lengths, set_square
 from calibgui.app.projects.project import Project
@@ -11,6 +11,7 @@ from calibgui.engine.boards import AprilGrid, Pattern
 from calibgui.gui.session.session import Session
 from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.buttons import Button, Kind
+from calibgui.gui.widgets.number_box import NumberBox
 from calibgui.gui.widgets.pattern_texts import list_pattern_texts
 from calibgui.gui.widgets.reserved_label import ReservedLabel
 
@@ -27,7 +28,7 @@ class SquareRow(QWidget):
         self._has_asked = False
         """True if the question was put since a board was first found."""
         self.counted = ReservedLabel(1)
-        self.square = QDoubleSpinBox(decimals=3, minimum=0.001, maximum=100_000.0)
+        self.square = NumberBox(decimals=3, minimum=0.001, maximum=100_000.0)
         self.square.setFixedWidth(120)
         self.square.setAccessibleName(self._name_side(session.project.pattern))
         self.square.setToolTip(

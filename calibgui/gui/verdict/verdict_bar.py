@@ -263,9 +263,7 @@ class VerdictBar(QWidget):
             said = translate_sentences(_describe_reason(verdict, result))
             reason = f"{self._age} {said}".lstrip()
         self.reason.setText(reason)
-        colours = theme.current()
-        plain = colours.muted if self._is_dimmed else colours.text
-        theme.set_text_colour(self.reason, colours.warning if self._age else plain)
+        self._restyle()
 
     def _describe_work(self) -> str:
         """Say what goes on until there is a verdict on the shown result."""
@@ -385,6 +383,9 @@ class VerdictBar(QWidget):
 
     def _restyle(self) -> None:
         """Colour the words, by palettes: a style sheet would style all that is in the bar."""
+        colours = theme.current()
+        plain = colours.muted if self._is_dimmed else colours.text
+        theme.set_text_colour(self.reason, colours.warning if self._age else plain)
         theme.set_text_colour(self.headline, get_colour(self._grade))
         self.update()
 

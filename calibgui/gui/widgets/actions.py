@@ -5,9 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any, cast
 
-from PySide6.QtCore import QSize, Qt
-from PySide6.QtGui import QAction, QIcon, QKeySequence
+from PySide6.QtCore import QCoreApplication, QSize, Qt
+from PySide6.QtGui import QAction, QKeySequence
 from PySide6.QtWidgets import QDialog, QDialogButtonBox, QWidget
+
+from calibgui.gui.widgets.buttons import Button
 
 
 def make_action(
@@ -83,10 +85,9 @@ def find_copier(window: QWidget, name: str) -> QAction | None:
 
 def add_close_button(dialog: QDialog) -> QDialogButtonBox:
     """A row of buttons with one that closes `dialog`; Enter is left to the others."""
-    buttons = QDialogButtonBox(QDialogButtonBox.StandardButton.Close)
-    close = buttons.button(QDialogButtonBox.StandardButton.Close)
-    close.setIcon(QIcon())  # the style's is black in the dark, too
-    close.setAutoDefault(False)
+    buttons = QDialogButtonBox()
+    close = Button(QCoreApplication.translate("actions", "Close"), takes_enter=False)
+    buttons.addButton(close, QDialogButtonBox.ButtonRole.RejectRole)
     buttons.rejected.connect(dialog.reject)
     return buttons
 

@@ -26,11 +26,22 @@ class Kind(Enum):
 
 
 class Button(QPushButton):
-    """A button that paints itself, in the colours of the theme as it is now."""
+    """A button that paints itself, in the colours of the theme as it is now.
 
-    def __init__(self, text: str = "", kind: Kind = Kind.PLAIN) -> None:
+    Args:
+        text: what stands on it.
+        kind: its weight; the main one of a dialog is pressed by Enter from anywhere.
+        takes_enter: whether Enter presses it in a dialog while it has the focus.
+    """
+
+    def __init__(
+        self, text: str = "", kind: Kind = Kind.PLAIN, *, takes_enter: bool = True
+    ) -> None:
         super().__init__(text)
         self._kind = kind
+        self.setDefault(kind is Kind.MAIN)
+        if not takes_enter:
+            self.setAutoDefault(False)
         self.setSizePolicy(QSizePolicy.Policy.Maximum, QSizePolicy.Policy.Fixed)
         if kind is Kind.LINK:
             self.setCursor(Qt.CursorShape.PointingHandCursor)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import numpy as np
 from PySide6.QtCore import QCoreApplication
 
 from calibgui.dataset import Result
@@ -15,10 +14,9 @@ translate = QCoreApplication.translate
 def describe_fit(result: Result) -> str:
     """Describe the residuals: their RMS, sigma and number."""
     fit = summarise_residuals(result.calibration.residuals)
-    sigma = float(np.hypot(fit.sigma_x, fit.sigma_y) / np.sqrt(2))
     text = (
         translate("VerdictTexts", "RMS {0:.3f} px, σ {1:.3f} px of {2:,} circles")
         if name_point(result.board) == "circle"
         else translate("VerdictTexts", "RMS {0:.3f} px, σ {1:.3f} px of {2:,} corners")
     )
-    return text.format(fit.rms, sigma, fit.count)
+    return text.format(fit.rms, fit.sigma, fit.count)

@@ -16,6 +16,11 @@ class NarrowCombo(QComboBox):
         super().__init__()
         self.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
 
+    def add_explained(self, text: str, data: object, tip: str) -> None:
+        """Add an entry with what it means, which its tooltip says."""
+        self.addItem(text, data)
+        self.setItemData(self.count() - 1, tip, Qt.ItemDataRole.ToolTipRole)
+
     def shorten_text(self) -> str:
         """Return the current text as it is shown: cut where there is no room for more."""
         option = QStyleOptionComboBox()

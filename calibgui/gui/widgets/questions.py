@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from PySide6.QtCore import QCoreApplication
+from PySide6.QtGui import QIcon
 from PySide6.QtWidgets import QMessageBox, QWidget
 
 Answer = QMessageBox.StandardButton
@@ -14,6 +15,7 @@ def ask(parent: QWidget, title: str, text: str, answers: Answer, default: Answer
     for answer, words in _list_words().items():
         if (button := box.button(answer)) is not None:
             button.setText(words)
+            button.setIcon(QIcon())  # the style's are of another family, and black in the dark
     box.setDefaultButton(default)
     given = Answer(box.exec())
     box.deleteLater()

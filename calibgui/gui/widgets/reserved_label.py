@@ -84,7 +84,7 @@ class ReservedLabel(WrappedLabel):
 
     def paintEvent(self, event: QPaintEvent) -> None:  # noqa: N802, ARG002 - Qt's name
         painter, metrics = QPainter(self), self.fontMetrics()
-        painter.setPen(self.palette().windowText().color())
+        painter.setPen(self.palette().color(self.foregroundRole()))
         for k, line in enumerate(self._break_lines(self._lines)):
             painter.drawText(QPointF(0, k * self.line_height + metrics.ascent()), line)
 

@@ -10,7 +10,7 @@ SCROLL_BAR_WIDTH = 8
 _THIN = (
     f"QScrollBar:vertical {{ width: {8}px; background: transparent; }}"
     f"QScrollBar:horizontal {{ height: {8}px; background: transparent; }}"
-    f"QScrollBar::handle {{ background: palette(mid); border-radius: {4}px; }}"
+    f"QScrollBar::handle {{ background: rgba(120, 130, 142, 140); border-radius: {4}px; }}"
     "QScrollBar::handle:vertical { min-height: 24px; }"
     "QScrollBar::handle:horizontal { min-width: 24px; }"
     "QScrollBar::add-line, QScrollBar::sub-line { width: 0; height: 0; }"

@@ -15,6 +15,7 @@ from PySide6.QtCore import (
     QItemSelectionModel,
     QModelIndex,
     QPoint,
+    QRect,
     QSize,
     QSortFilterProxyModel,
     Qt,
@@ -22,12 +23,13 @@ from PySide6.QtCore import (
 )
 from PySide6.QtGui import (
     QAction,
+    QBrush,
     QColor,
     QGuiApplication,
     QKeySequence,
+    QPainter,
     QResizeEvent,
     QShowEvent,
-    QStandardItem,
     QStandardItemModel,
 )
 from PySide6.QtWidgets import (
@@ -45,6 +47,7 @@ from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.actions import COPY_TABLE
 from calibgui.gui.widgets.glossary import explain, list_terms
 from calibgui.gui.widgets.save_names import ask_for_name
+from calibgui.gui.widgets.scrolling import make_thin
 
 _SORT_ROLE = Qt.ItemDataRole.UserRole
 
@@ -117,21 +120,26 @@ class _Model(QStandardItemModel):
     Qt asks for that dozens of times when it measures and paints a cell, and would wait for the
     interpreter each time while another thread computes: so all of it is handed over at once. What
     only sorting by a column needs is handed over when that is asked for.
+
+    Qt makes the items. One made in Python, or looked at there, would be freed by whichever of both
+    collects it first, and again by the other.
     """
 
     def __init__(
         self, columns: Sequence[Column] = (), marked: dict[int, str] | None = None
     ) -> None:
-        super().__init__()
+        super().__init__(max((len(column.values) for column in columns), default=0), len(columns))
         self.columns, self._marked, self._hovered = tuple(columns), marked or {}, -1
         self._sortable: set[int] = set()
         """Columns whose cells have the values that rows are sorted by."""
+        role = Qt.ItemDataRole
         for place, column in enumerate(columns):
-            self.appendColumn(self._make_cells(column, self._list_tips(place)))
+            self._fill_cells(place, column)
             self._colour_texts(place, column)
-            heading = QStandardItem(_join_heading(column))
-            heading.setToolTip(column.tip or explain(column.title))
-            self.setHorizontalHeaderItem(place, heading)
+            self._set_heading(place, column.tip or explain(column.title), role.ToolTipRole)
+            if len(column.values) and isinstance(column.values[0], _NUMBER_TYPES):
+                self._set_heading(place, _NUMBERS, role.TextAlignmentRole)
+            self.set_title(place, _join_heading(column))
 
     def hover(self, row: int) -> None:
         """Tint the row that the cursor is over; none if it is negative."""
@@ -146,27 +154,34 @@ class _Model(QStandardItemModel):
         for place, column in enumerate(self.columns):
             self._colour_texts(place, column)
 
+    def set_title(self, place: int, text: str) -> None:
+        """Set what stands over a column."""
+        self._set_heading(place, text, Qt.ItemDataRole.DisplayRole)
+
+    def _set_heading(self, place: int, value: Any, role: Qt.ItemDataRole) -> None:
+        self.setHeaderData(place, Qt.Orientation.Horizontal, value, role)
+
     def _colour_texts(self, place: int, column: Column) -> None:
         for row, value in enumerate(column.values if column.ink else ()):
             assert column.ink is not None
-            self.item(row, place).setForeground(QColor(column.ink(value)))
+            ink = QBrush(column.ink(value))
+            self.setData(self.index(row, place), ink, Qt.ItemDataRole.ForegroundRole)
 
-    def _make_cells(self, column: Column, tips: Sequence[str]) -> list[QStandardItem]:
-        """Make the cells of a column, as copies of those that differ in more than the value.
+    def _fill_cells(self, place: int, column: Column) -> None:
+        """Fill the cells of a column.
 
         Every call into Qt costs a microsecond or two, and a table may have thousands of cells.
         """
-        patterns: dict[tuple[str, bool, bool], QStandardItem] = {}
-        cells = []
-        for row, (value, tip) in enumerate(zip(column.values, tips, strict=True)):
-            is_number = isinstance(value, _NUMBER_TYPES)
-            kind = tip, is_number, row in self._marked
-            if kind not in patterns:
-                patterns[kind] = self._make_pattern(row, tip, is_number)
-            cell = patterns[kind].clone()
-            cell.setText(column.text(value))
-            cells.append(cell)
-        return cells
+        role = Qt.ItemDataRole
+        for row, (value, tip) in enumerate(zip(column.values, self._list_tips(place), strict=True)):
+            cell: dict[int, Any] = {role.DisplayRole: column.text(value)}
+            if tip:
+                cell[role.ToolTipRole] = tip
+            if isinstance(value, _NUMBER_TYPES):
+                cell[role.TextAlignmentRole] = _NUMBERS
+            if row in self._marked:
+                cell[role.BackgroundRole] = self._choose_ground(row)
+            self.setItemData(self.index(row, place), cell)
 
     def make_sortable(self, place: int) -> None:
         """Hand over the values of a column by which its rows are sorted."""
@@ -177,17 +192,7 @@ class _Model(QStandardItemModel):
             if isinstance(value, _NUMBER_TYPES):
                 # NaN, which has no order, comes last.
                 value = math.inf if math.isnan(value) else float(value)
-            self.item(row, place).setData(value, _SORT_ROLE)
-
-    def _make_pattern(self, row: int, tip: str, is_number: bool) -> QStandardItem:
-        """Make a cell as it stands in this row, without a value."""
-        cell = QStandardItem()
-        if tip:
-            cell.setToolTip(tip)
-        if is_number:
-            cell.setTextAlignment(_NUMBERS)
-        cell.setData(self._choose_ground(row), Qt.ItemDataRole.BackgroundRole)
-        return cell
+            self.setData(self.index(row, place), value, _SORT_ROLE)
 
     def _choose_ground(self, row: int) -> QColor | None:
         """Choose the colour behind a row; None for that of all others."""
@@ -201,8 +206,7 @@ class _Model(QStandardItemModel):
     def _tint_row(self, row: int) -> None:
         ground = self._choose_ground(row)
         for place in range(self.columnCount()):
-            if (cell := self.item(row, place)) is not None:
-                cell.setData(ground, Qt.ItemDataRole.BackgroundRole)
+            self.setData(self.index(row, place), ground, Qt.ItemDataRole.BackgroundRole)
 
     def _list_tips(self, place: int) -> list[str]:
         """List the tooltips of a column's cells."""
@@ -229,6 +233,8 @@ _MORE = 40
 """Room that a column gets beyond its contents at most, device-independent px."""
 _LEGIBLE = 8
 """Characters of the first column that are shown however narrow the table is."""
+_INSET = 3
+"""Room beside a title, as beside the texts below it, device-independent px."""
 _TINT = 60
 """Opacity of the accent behind a row that the cursor is over, of 255."""
 
@@ -274,12 +280,27 @@ class _Titles(QHeaderView):
 
     def __init__(self, parent: QWidget) -> None:
         super().__init__(Qt.Orientation.Horizontal, parent)
+        self.setFont(theme.make_font(theme.CAPTION))
         self.setSectionsClickable(True)
         self.setHighlightSections(False)  # every row is selected as a whole
         # Measuring thousands of rows would be felt; a table of values is measured whole.
         self.setResizeContentsPrecision(_MEASURED_ROWS)
         # The table measures its columns when that is due: Qt would at every change.
         self.setSectionResizeMode(QHeaderView.ResizeMode.Fixed)
+
+    def paintSection(self, painter: QPainter, rect: QRect, column: int) -> None:  # noqa: N802
+        """Paint a title over a line, with an arrow if the rows are sorted by its column."""
+        model, colours = self.model(), theme.current()
+        role, side = Qt.ItemDataRole, Qt.Orientation.Horizontal
+        place = model.headerData(column, side, role.TextAlignmentRole) or Qt.AlignmentFlag.AlignLeft
+        text = model.headerData(column, side, role.DisplayRole)
+        if column == self.sortIndicatorSection():
+            is_falling = self.sortIndicatorOrder() is Qt.SortOrder.DescendingOrder
+            text = f"{'▴▾'[is_falling]} {text}"
+        painter.setPen(QColor(colours.muted))
+        flags = int(Qt.AlignmentFlag(place) | Qt.AlignmentFlag.AlignVCenter)
+        painter.drawText(rect.adjusted(_INSET, 0, -_INSET, -1), flags, text)
+        painter.fillRect(rect.x(), rect.bottom(), rect.width(), 1, QColor(colours.line))
 
     def sectionSizeFromContents(self, column: int) -> QSize:  # noqa: N802 - Qt's name
         size = super().sectionSizeFromContents(column)
@@ -312,6 +333,7 @@ class Table(QTableView):
         self.sortByColumn(-1, Qt.SortOrder.AscendingOrder)
         self.setSelectionBehavior(QAbstractItemView.SelectionBehavior.SelectRows)
         self.setFrameShape(QFrame.Shape.NoFrame)
+        make_thin(self)
         self.setShowGrid(False)
         self.setEditTriggers(QAbstractItemView.EditTrigger.NoEditTriggers)
         self.setAccessibleName(self.tr("Table"))
@@ -441,8 +463,8 @@ class Table(QTableView):
             self.setColumnHidden(place, column.hidden)
         if not columns or not self.isVisible():
             return
-        heading = self._model.horizontalHeaderItem(0)
-        heading.setText(_join_heading(columns[0]))
+        title = _join_heading(columns[0])
+        self._model.set_title(0, title)
         header.resizeSections(QHeaderView.ResizeMode.ResizeToContents)
         room = self.viewport().width()
         for place, column in enumerate(columns):
@@ -459,7 +481,7 @@ class Table(QTableView):
                     self.setColumnHidden(place, True)
             left = room - header.length()
             header.resizeSection(0, max(least, min(whole, header.sectionSize(0) + left)))
-            heading.setText(self._elide_lines(heading.text(), header.sectionSize(0)))
+            self._model.set_title(0, self._elide_lines(title, header.sectionSize(0)))
             return
         shown = [place for place in range(len(columns)) if not self.isColumnHidden(place)]
         more = min((room - header.length()) // len(shown), _MORE)

@@ -81,6 +81,8 @@ class Theme:
     accent: str
     """Selection and the main action."""
     on_accent: str
+    chosen: str
+    """Behind the chosen row of a table or list."""
     bar: str
     """Of what is compared by its length."""
     good: str
@@ -94,7 +96,7 @@ class Theme:
 
 LIGHT = Theme(
     window="#f4f5f7",
-    button="#f4f5f7",
+    button="#ffffff",
     base="#ffffff",
     canvas="#22262e",
     text="#1c2026",
@@ -103,6 +105,7 @@ LIGHT = Theme(
     border="#6f7884",
     accent="#0b5cad",
     on_accent="#ffffff",
+    chosen="#dbe7f5",
     bar="#4a8fd3",
     good="#17804d",
     warning="#8a5a00",
@@ -121,6 +124,7 @@ DARK = Theme(
     border="#8a94a2",
     accent="#4aa3df",
     on_accent="#0b1117",
+    chosen="#263d55",
     bar="#3f83c4",
     good="#35c79a",
     warning="#f0b429",
@@ -186,6 +190,15 @@ def apply(app: QApplication, scheme: Scheme) -> None:
     palette.setColor(QPalette.ColorRole.Window, QColor(theme.border).lighter(_DARKENED))
     for kind in _BORDERED:
         app.setPalette(palette, kind)  # type: ignore[arg-type]  # stated as bytes, taken as a name
+    palette.setColor(QPalette.ColorRole.Highlight, QColor(theme.chosen))
+    palette.setColor(QPalette.ColorRole.HighlightedText, QColor(theme.text))
+    app.setPalette(palette, "QTreeView")  # type: ignore[arg-type]
+    rows = _palette(theme)
+    rows.setColor(QPalette.ColorRole.Highlight, QColor(theme.chosen))
+    rows.setColor(QPalette.ColorRole.HighlightedText, QColor(theme.text))
+    for role in (QPalette.ColorRole.Window, QPalette.ColorRole.Button):  # behind headings
+        rows.setColor(role, QColor(theme.base))
+    app.setPalette(rows, "QAbstractItemView")  # type: ignore[arg-type]
 
 
 def follow_system(app: QApplication) -> None:

@@ -11,6 +11,7 @@ from PySide6.QtWidgets import QFrame, QGridLayout, QHBoxLayout, QPushButton, QTo
 
 from calibgui.engine.errors import CalibrationError
 from calibgui.gui.widgets import theme
+from calibgui.gui.widgets.buttons import Button
 from calibgui.gui.widgets.wrapped_label import WrappedLabel
 
 _NARROW = 640
@@ -95,7 +96,7 @@ class Banner(QFrame):
             button.deleteLater()
         self.buttons = []
         for name, does in choices.items():
-            button = QPushButton(name)
+            button = Button(name)
             button.clicked.connect(self._end)
             button.clicked.connect(lambda _=False, does=does: does())
             self._row.addWidget(button)

@@ -69,7 +69,7 @@ class Body(QWidget):
         )
 
     def minimumSizeHint(self) -> QSize:  # noqa: N802 - Qt's name
-        return QSize(480, 320)
+        return QSize(480, 240)  # with header and menus on a small screen at twice the scale
 
     def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name
         super().resizeEvent(event)

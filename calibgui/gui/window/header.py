@@ -108,7 +108,9 @@ class Header(QWidget):
         if not count:
             return ""
         parts = [
-            self.tr("{0} photographs").format(count)
+            self.tr("1 photograph")
+            if count == 1
+            else self.tr("{0} photographs").format(count)
             if usable in (0, count)
             else self.tr("{0} of {1} photographs usable").format(usable, count)
         ]

@@ -26,8 +26,8 @@ from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.scrolling import make_scrollable
 from calibgui.gui.window.progress import Progress
 
-_LEAST_ROW = 296
-"""Least height below the strip, device-independent px."""
+_BAR = 8
+"""Room for a scroll bar in the margin, device-independent px."""
 _HIGH_ENOUGH = 700
 """Height beside the desk for which the verdict is as it is below the strip."""
 
@@ -59,7 +59,7 @@ class Inspector(QWidget):
         self._verdict = verdict
         self.done, self.camera = DoneList(session), CameraValues(session)
         self._lists = QBoxLayout(QBoxLayout.Direction.TopToBottom)
-        self._lists.setContentsMargins(0, 0, 0, 0)
+        self._lists.setContentsMargins(0, 0, _BAR, 0)
         self._lists.setSpacing(theme.MARGIN)
         first = QVBoxLayout()
         first.setSpacing(theme.SPACING)
@@ -71,24 +71,26 @@ class Inspector(QWidget):
         inside.setLayout(self._lists)
         tools = QWidget()
         words = QVBoxLayout(tools)
-        words.setContentsMargins(0, 0, 0, 0)
+        words.setContentsMargins(0, 0, _BAR, 0)
         for bar in (page.marker.roi_bar, page.marker.corner_bar):
             words.addWidget(bar)
         words.addStretch(1)
         self._lower = QStackedWidget()
-        self._lower.addWidget(make_scrollable(inside))
+        area = make_scrollable(inside)
+        self._bar = area.verticalScrollBar()
+        self._bar.rangeChanged.connect(self._leave_margin)
+        self._lower.addWidget(area)
         self._lower.addWidget(tools)
         page.tool_changed.connect(self._lower.setCurrentIndex)
         self._foot = QWidget()
         foot = QHBoxLayout(self._foot)
-        foot.setContentsMargins(0, 0, 0, 0)
+        foot.setContentsMargins(0, 0, _BAR, 0)
         foot.addWidget(progress, 1)
         foot.addWidget(calibrate)
         self._hint = self._make_hint()
         self._grid = QGridLayout(self)
-        self._grid.setContentsMargins(theme.MARGIN, 12, theme.MARGIN, 12)
+        verdict.setContentsMargins(0, 0, _BAR, 0)
         self._grid.setHorizontalSpacing(theme.MARGIN)
-        self._grid.setVerticalSpacing(12)
         self._is_row: bool | None = None
         self.stand_in_row(False)
 
@@ -104,18 +106,25 @@ class Inspector(QWidget):
         self._lists.setStretch(0, int(is_row))
         top = Qt.AlignmentFlag.AlignTop
         if is_row:
-            self._grid.addWidget(self._verdict, 0, 0, 2, 1, top)
-            self._grid.addWidget(self._lower, 0, 1)
-            self._grid.addWidget(self._foot, 1, 1)
+            self._grid.addWidget(self._verdict, 0, 0, top)
+            self._grid.addWidget(self._lower, 0, 1, 2, 1)
+            self._grid.addWidget(self._foot, 1, 0)
         else:
             self._grid.addWidget(self._verdict, 0, 0)
             self._grid.addWidget(self._lower, 1, 0)
             self._grid.addWidget(self._foot, 2, 0)
+        edge = theme.SPACING if is_row else 12
+        self._grid.setContentsMargins(theme.MARGIN, edge, theme.MARGIN - _BAR, edge)
+        self._grid.setVerticalSpacing(4 if is_row else 12)
         for row in range(3):
             self._grid.setRowStretch(row, int(row == (0 if is_row else 1)))
         for column in range(2):
             self._grid.setColumnStretch(column, column if is_row else 1 - column)
         self._grid.setColumnMinimumWidth(0, self.WIDTH - 2 * theme.MARGIN if is_row else 0)
+
+    def _leave_margin(self, _: int, most: int) -> None:
+        """Let the lists end where the verdict does, whether a scroll bar stands beside them."""
+        self._lists.setContentsMargins(0, 0, 0 if most else _BAR, 0)
 
     def _make_hint(self) -> QLabel:
         """Return what lies over the inspector while photographs are dragged over the window."""
@@ -149,8 +158,8 @@ class Inspector(QWidget):
         margins, parts = self._grid.contentsMargins(), self._verdict.layout()
         assert parts is not None
         parts.invalidate()
-        needed = parts.sizeHint().height() + margins.top() + margins.bottom()
-        return max(_LEAST_ROW, needed)
+        needed = parts.sizeHint().height() + self._foot.sizeHint().height()
+        return needed + margins.top() + self._grid.verticalSpacing() + margins.bottom()
 
     def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name
         super().resizeEvent(event)

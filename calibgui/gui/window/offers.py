@@ -12,7 +12,7 @@ from calibgui.app.photographs.other_board import OtherBoard, find_other_board, r
 from calibgui.app.photographs.paths import NoImagesError, is_remote
 from calibgui.app.projects.autosave import find_unsaved_work, read_unsaved_work
 from calibgui.app.projects.document import Document
-from calibgui.app.projects.project import Project, set_grid_size, take_pattern
+from calibgui.app.projects.project import Project, hold_known, set_grid_size, take_pattern
 from calibgui.dataset import ViewStatus
 from calibgui.engine.arrays import GridSize
 from calibgui.engine.boards import CHECKERBOARD, Pattern
@@ -58,6 +58,7 @@ class Offers(QObject):
         files.saver.discarded.connect(self._offer_to_bring_back)
         files.images_missing.connect(self._offer_relocation)
         files.images_elsewhere.connect(self._offer_folders)
+        files.report_refused.connect(self._offer_calibration)
         images.thumbnails.found_altered.connect(self._offer_detection)
         images.search_wanted.connect(self._search_again)
         detector.finished.connect(self._look_for_another)
@@ -124,6 +125,18 @@ class Offers(QObject):
             choices[text] = partial(self._files.open_paths, list(map(str, counts)))
         self._banner.show_text(error.message, choices)
         self._folders_offered = error.message, len(self._session.project.views)
+
+    def _offer_calibration(self) -> None:
+        """Offer to calibrate the camera that is held: there is a report on that only."""
+        text = self.tr(
+            "A report tells how a camera was calibrated, and this one is known from a file. "
+            "Calibrate it from these photographs?"
+        )
+        self._offer(text, self.tr("C&alibrate it"), self._calibrate_held)
+
+    def _calibrate_held(self) -> None:
+        self._session.edit(self.tr("Calibrate again"), lambda p: hold_known(p, None))
+        self._calibrator.calibrate()
 
     def _name_choice(self, folder: Path) -> str:
         """Return the text of a button that opens a folder; a letter of a name is no shortcut."""

@@ -17,6 +17,7 @@ from PySide6.QtWidgets import (
 )
 
 from calibgui.gui.widgets import theme
+from calibgui.gui.widgets.scrolling import make_thin
 from calibgui.gui.widgets.wrapped_label import WrappedLabel
 from calibgui.gui.window.menus import Menus, strip_mnemonic
 
@@ -50,6 +51,7 @@ class Palette(QDialog):
         self.search.installEventFilter(self)
         self.list = QTreeWidget()
         self.list.setAccessibleName(self.tr("Actions"))
+        make_thin(self.list)
         self.list.setRootIsDecorated(False)
         self.list.setUniformRowHeights(True)
         self.list.setHeaderLabels([self.tr("Action"), self.tr("Menu"), self.tr("Keys")])

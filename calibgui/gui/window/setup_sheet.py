@@ -43,6 +43,10 @@ class SetupSheet(Sheet):
             column.addWidget(self.folds[-1])
             column.addWidget(part)
         column.addStretch(1)
+        labels = board.pattern.label, board.counted, *settings.labels
+        width = max(max(each.minimumWidth(), each.sizeHint().width()) for each in labels)
+        for each in labels:  # the fields of all parts begin alike
+            each.setMinimumWidth(width)
         layout = QVBoxLayout(self)
         layout.setContentsMargins(1, 0, 0, 0)
         layout.addWidget(make_scrollable(inside))

@@ -9,7 +9,6 @@ from PySide6.QtCore import QEvent, QPointF, QSize, Qt, Signal, SignalInstance
 from PySide6.QtGui import QIcon, QImage, QPainter, QPixmap, QResizeEvent
 from PySide6.QtWidgets import (
     QCommandLinkButton,
-    QFrame,
     QGridLayout,
     QLabel,
     QScrollArea,
@@ -25,6 +24,7 @@ from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.focus_ring import FocusRing
 from calibgui.gui.widgets.icons import Icon, draw_icon
 from calibgui.gui.widgets.picture import make_qimage, shrink_picture
+from calibgui.gui.widgets.scrolling import make_calm
 from calibgui.gui.window.good_set import (
     DropPlace,
     GoodSet,
@@ -61,6 +61,7 @@ class Welcome(QScrollArea):
 
     def __init__(self, jobs: Jobs) -> None:
         super().__init__()
+        make_calm(self)
         self._jobs = jobs
         title = QLabel(self.tr("Calibrate a camera"))
         title.setFont(theme.make_font(_TITLE, bold=True))
@@ -116,7 +117,6 @@ class Welcome(QScrollArea):
         self._grid.setContentsMargins(theme.MARGIN, theme.MARGIN, theme.MARGIN, theme.MARGIN)
         self._grid.setSpacing(2 * theme.MARGIN)
         self._parts = begin, self.good_set, self._recent_part
-        self.setFrameShape(QFrame.Shape.NoFrame)
         self.setWidgetResizable(True)
         self.setWidget(body)
         self.show_recent([])

@@ -3,12 +3,14 @@ from __future__ import annotations
 import hashlib
 from pathlib import Path
 
+import cv2
 import numpy as np
 import pytest
 
 from calibgui.app.photographs.image_store import ImageStore, read_thumbnail
 from calibgui.engine.errors import CalibrationError
-from calibgui.engine.images.reading import write_image
+from calibgui.engine.images.reading import read_image, stretch_levels, write_image
+from calibgui.engine.opencv import halve_image
 
 
 def test_a_thumbnail_tells_size_and_digest(tmp_path: Path) -> None:
@@ -23,6 +25,20 @@ def test_a_thumbnail_tells_size_and_digest(tmp_path: Path) -> None:
     assert thumbnail.digest == hashlib.sha256(path.read_bytes()).hexdigest()
     with pytest.raises(CalibrationError, match="missing"):
         read_thumbnail(str(tmp_path / "missing.png"))
+
+
+def test_a_photograph_is_read_small_as_it_would_be_made_small(tmp_path: Path) -> None:
+    u, v = np.meshgrid(np.linspace(0, 9, 1600), np.linspace(0, 7, 1201))
+    path = tmp_path / "waves.jpg"
+    cv2.imwrite(str(path), (120 + 100 * np.sin(u) * np.cos(v)).astype(np.uint8))
+    thumbnail = read_thumbnail(str(path))
+    small = read_image(path).pixels
+    while max(small.shape) >= 384:
+        small = halve_image(small)
+    assert thumbnail.size == (1600, 1201)
+    rows, cols = small.shape
+    near = thumbnail.grey[:rows, :cols].astype(float) - stretch_levels(small)
+    assert np.abs(near).mean() < 2
 
 
 def test_memory_is_bounded_and_the_last_used_stay(tmp_path: Path) -> None:

@@ -108,14 +108,14 @@ _CANDIDATES = [
     Switch("small squares wait", {"_is_resolved": _ALWAYS}),
     Switch("whole boards do not grow", {"is_whole": _NEVER}),
     Switch("edges followed", {"LatticePriors.follow_edges": _do_not_follow}),
-    Switch("edges followed: lens", {"fit_edge_maps": lambda call, *_: call()[:1]}),
+    Switch("edges followed: lens", {"fit_lenses_to_edges": lambda call, *_: call()[:1]}),
     Switch("hard edges", {"has_hard_edges": _NEVER}),
     Switch(
         "stray light",
         {"estimate_stray_light": lambda _, shift, *__: (0.0, np.zeros(len(shift)))},
     ),
     Switch("local light", {"find_uneven_light": marks_none}),
-    Switch("flat squares", {"read_flat_squares": marks_none}),
+    Switch("light between edges", {"read_between_edges": marks_none}),
     Switch("noise in common", {"estimate_growth": says(1.0)}),
     Switch("noise pooled over the board", {"pool_noise": keeps(0)}),
     Switch("light moves corners", {"correct_for_light": keeps(0)}),
@@ -232,8 +232,8 @@ _FIT = [
         "fit: edges followed along lines",
         {"_follow_lines": lambda call, *_: call()._replace(misfit=math.inf)},
     ),
-    Switch("fit: weak lens of edges", {"edge_map._fit_lenses": says([])}),
-    Switch("fit: what edges lack of the map", numbers={"edge_map.MIN_CORNERS": 10**6}),
+    Switch("fit: weak lens of edges", {"edge_lens_fit._fit_lenses": says([])}),
+    Switch("fit: what edges lack of the map", numbers={"edge_lens_fit.MIN_CORNERS": 10**6}),
 ]
 
 _WORTHLESS_BEFORE = [
@@ -251,7 +251,7 @@ _GROUPS = [
     combine("ALL that changed nothing before", [_BY_NAME[name] for name in _WORTHLESS_BEFORE]),
     combine(
         "ALL of stray, local and flat light",
-        [_BY_NAME[name] for name in ("stray light", "local light", "flat squares")],
+        [_BY_NAME[name] for name in ("stray light", "local light", "light between edges")],
     ),
     combine("ALL of the ends but where boards end", [*_ENDS[1:5], _BY_NAME["stands alone"]]),
     combine(

@@ -13,6 +13,7 @@ import cv2
 import numpy as np
 import pytest
 
+from calibgui.engine.capture.camera_settings import CameraSettings
 from calibgui.engine.capture.frame_sources import CameraSource, FolderSource, open_source
 from calibgui.engine.errors import CalibrationError
 
@@ -109,3 +110,44 @@ def test_what_is_none_is_refused_with_what_would_be_one(tmp_path: Path) -> None:
     for name in (tmp_path / "missing", tmp_path / "notes.txt"):
         with pytest.raises(CalibrationError, match=r"no camera, video or folder.*by its number"):
             open_source(str(name), 1.0)
+
+
+class _Device:
+    """What OpenCV knows of a camera that has two sizes, one exposure, and autofocus."""
+
+    def __init__(self) -> None:
+        self.has = {
+            cv2.CAP_PROP_FRAME_WIDTH: 640.0,
+            cv2.CAP_PROP_FRAME_HEIGHT: 480.0,
+            cv2.CAP_PROP_EXPOSURE: 156.0,
+            cv2.CAP_PROP_AUTOFOCUS: 1.0,
+            cv2.CAP_PROP_FOCUS: 0.0,
+        }
+
+    def isOpened(self) -> bool:  # noqa: N802 - OpenCV's name
+        return True
+
+    def getBackendName(self) -> str:  # noqa: N802 - OpenCV's name
+        return "V4L2"
+
+    def get(self, which: int) -> float:
+        return self.has[which]
+
+    def set(self, which: int, value: float) -> bool:
+        if which != cv2.CAP_PROP_EXPOSURE:
+            self.has[which] = value
+        return True
+
+
+def test_a_camera_is_set_as_it_is_wanted_and_says_what_it_does_not_take(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(cv2, "VideoCapture", lambda _: _Device())
+    remark = CameraSource(0).remark
+    assert remark.startswith("The camera has 640 x 480 px, exposure 156. Autofocus is on, ")
+    source = open_source("0", 1.0, CameraSettings((1280, 720), -6.0, 30.0))
+    assert source.remark == (
+        "The camera has 1280 x 720 px, exposure 156, focus 30. It does not take exposure -6."
+    )
+    with pytest.raises(CalibrationError, match="has no settings here"):
+        open_source("rtsp://none", 1.0, CameraSettings(focus=1.0))

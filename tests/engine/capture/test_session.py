@@ -123,3 +123,14 @@ def test_images_of_another_size_are_refused(session: CaptureSession, film: Film)
     session.observe(film.take(FIRST))
     with pytest.raises(CalibrationError, match="320 x 240 px to 640 x 480 px"):
         session.observe(Frame(np.zeros((480, 640), np.uint8), 1.0))
+
+
+def test_a_board_too_bright_is_not_taken_while_the_light_can_be_changed(
+    session: CaptureSession, film: Film
+) -> None:
+    frame = film.take(FIRST)
+    bright = frame._replace(image=np.where(frame.image > 110, 255, frame.image).astype(np.uint8))
+    states = [session.observe(bright) for _ in range(STILL)]
+    assert states[-1].instruction.startswith("Too bright")
+    assert not session.pictures
+    assert session.observe(bright, is_live=False).taken is not None

@@ -9,7 +9,7 @@ import pytest
 from numpy.typing import NDArray
 
 from calibgui.engine.corner_fit.board_priors import LatticePriors, compute_curvatures
-from calibgui.engine.corner_fit.edge_map import ReadEdges, clip_arms
+from calibgui.engine.corner_fit.edge_lens_fit import ReadEdges, clip_arms
 from calibgui.engine.corner_fit.followed_edges import EdgeGeometry, follow_edges
 from tests.scenes.camera import Camera
 from tests.scenes.conditions import Conditions

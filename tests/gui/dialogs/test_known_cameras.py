@@ -105,7 +105,13 @@ def test_panels_show_what_a_known_camera_allows(
     write_result(result, file)
     assert is_held(read_result(file).calibration)
     window.files.report()
-    assert "no report on a camera that is known" in window.banner.text.text()
+    assert "this one is known from a file" in window.banner.text.text()
+    (button,) = window.banner.buttons
+    qtbot.mouseClick(button, LEFT)
+    assert window.session.project.settings.known is None
+    qtbot.waitUntil(lambda: window.session.result is not result, timeout=60_000)
+    assert window.session.result is not None
+    assert not is_held(window.session.result.calibration)
 
 
 def test_the_set_up_names_the_camera_and_gives_it_up(

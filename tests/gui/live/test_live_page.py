@@ -14,7 +14,7 @@ from pytestqt.qtbot import QtBot
 from calibgui.dataset import ViewStatus
 from calibgui.engine.boards import Board
 from calibgui.engine.camera.camera import Camera
-from calibgui.engine.capture import Frame, FrameSource
+from calibgui.engine.capture import CameraSettings, Frame, FrameSource
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.geometry.pose import Pose
 from calibgui.gui.live import live_page
@@ -34,12 +34,14 @@ class Hand:
     """A camera before which a hand holds a board where the page wants it."""
 
     title = "the rendered camera"
+    remark = "The camera has 320 x 240 px."
     is_continuous = True
     is_live = False
 
     def __init__(self) -> None:
         self.page: LivePage | None = None
         self.is_open, self.is_dead = True, False
+        self.wanted = CameraSettings()
         self._film, self._rng = Film(CAMERA, BOARD), np.random.default_rng(1)
         self._poses = self._hold()
 
@@ -80,8 +82,8 @@ class Page:
 def live(window: MainWindow, qtbot: QtBot, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Page:
     hand = Hand()
 
-    def open_hand(_: str, __: float) -> FrameSource:
-        hand.is_open = True
+    def open_hand(_: str, __: float, wanted: CameraSettings) -> FrameSource:
+        hand.is_open, hand.wanted = True, wanted
         return hand
 
     monkeypatch.setattr(live_page, "open_source", open_hand)
@@ -96,8 +98,12 @@ def live(window: MainWindow, qtbot: QtBot, tmp_path: Path, monkeypatch: pytest.M
 def test_a_hand_that_follows_ends_with_a_calibrated_project(live: Page, window: MainWindow) -> None:
     page = live.page
     page.limit.setValue(0.2)
+    page.image_size.setCurrentIndex(2)
+    page.focus.setValue(30)
     live.click("start")
     live.wait(lambda: page.strip.list.count() >= 2)
+    assert live.hand.wanted == CameraSettings((1280, 720), None, 30.0)
+    assert page.words.text().startswith(live.hand.remark)
     assert page.view.accessibleDescription()
     live.wait(lambda: not page.is_running)
     assert "known well enough" in page.view.accessibleDescription()

@@ -48,7 +48,7 @@ class CountingPanel(OnDemandPanel[int]):
         return len(result.used)
 
     def _show_found(self, result: Result, found: int) -> None:
-        self.words.show_text(f"{found} views")
+        self.words.setText(f"{found} views")
         self.content.setText(f"{found} of {len(result.views)}")
 
 
@@ -68,7 +68,7 @@ def state(panel: CountingPanel) -> tuple[bool, str, bool]:
     """Whether the button can be pressed, the words, and whether what was found is on screen."""
     visible = panel.content.isVisible()
     assert panel.use.isVisible() is visible
-    return panel.run.isEnabled(), panel.words.toPlainText(), visible
+    return panel.run.isEnabled(), panel.words.text(), visible
 
 
 IDLE, WORKING, DONE = (

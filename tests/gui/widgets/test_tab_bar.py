@@ -27,6 +27,5 @@ def count_ink(bar: TabBar, qtbot: QtBot) -> int:
 
 
 def test_letters_below_the_line_are_whole_where_a_tab_is_not_chosen(qtbot: QtBot) -> None:
-    style = {"documentMode": True, "expanding": False, "drawBase": False}
-    whole = count_ink(HighTabBar(**style), qtbot)
-    assert count_ink(TabBar(**style), qtbot) == whole > 20
+    whole = count_ink(HighTabBar(), qtbot)
+    assert count_ink(TabBar(), qtbot) == whole > 20

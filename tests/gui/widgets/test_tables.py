@@ -1,10 +1,11 @@
 from __future__ import annotations
 
+import gc
 import math
 from pathlib import Path
 
 from PySide6.QtCore import Qt
-from PySide6.QtGui import QGuiApplication
+from PySide6.QtGui import QGuiApplication, QStandardItem
 from pytestqt.qtbot import QtBot
 
 from calibgui.gui.widgets.tables import Column, Table, with_decimals, with_digits
@@ -37,6 +38,15 @@ def test_sorting_is_by_value_with_missing_ones_last(qtbot: QtBot) -> None:
     # Other rows come in the order that the user has chosen.
     table.show_columns([Column("view", ["d", "e", "f"]), Column("RMS", [10.0, 9.0, -1.0])])
     assert shown(table) == ["f", "e", "d"]
+
+
+def test_pythons_collector_owns_no_item_of_qts(qtbot: QtBot) -> None:
+    """One that it frees before the model does, as in a cycle, the model frees once more."""
+    table = example(qtbot)
+    table.show()
+    table.sortByColumn(1, Qt.SortOrder.AscendingOrder)
+    table.hover(1)
+    assert not [each for each in gc.get_objects() if isinstance(each, QStandardItem)]
 
 
 def test_a_click_announces_the_original_row(qtbot: QtBot) -> None:

@@ -36,6 +36,7 @@ from calibgui.gui.panels.method.stage_one import StageOnePanel
 from calibgui.gui.panels.mode_page import PANEL_WIDTH
 from calibgui.gui.panels.modes import Mode
 from calibgui.gui.settings.limits_choice import LimitsChoice
+from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.elided import ElidedLabel
 from calibgui.gui.widgets.reserved_label import ReservedLabel
 from calibgui.gui.window.body import Place
@@ -470,3 +471,15 @@ def test_the_inspector_follows_the_tool_that_is_taken(window: MainWindow, qtbot:
     assert window.page.canvas.geometry() == place
     hand.key(Qt.Key.Key_Escape)
     assert window.inspector.camera.isVisible()
+
+
+def test_an_open_sheet_follows_a_switch_of_the_theme(full: MainWindow, qapp: QApplication) -> None:
+    full.show_setup()
+    try:
+        for scheme in (theme.Scheme.DARK, theme.Scheme.LIGHT):
+            theme.apply(qapp, scheme)
+            QApplication.processEvents()
+            shown = full.setup.palette().windowText().color().name()
+            assert shown == theme.current().text, scheme
+    finally:
+        theme.apply(qapp, theme.Scheme.LIGHT)

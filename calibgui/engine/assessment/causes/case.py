@@ -30,14 +30,21 @@ from calibgui.engine.assessment.causes.rival_lens import Rival, fit_rival
 from calibgui.engine.assessment.changes.camera_uncertainty import split_camera_uncertainty
 from calibgui.engine.assessment.changes.comparison import find_covered_pixels
 from calibgui.engine.assessment.finding import MIN_VIEWS_TO_JUDGE
-from calibgui.engine.assessment.residuals.residual_checks import NoiseReport, check_residuals
+from calibgui.engine.assessment.residuals.residual_checks import (
+    NoiseReport,
+    check_residuals,
+    find_largest_share,
+)
 from calibgui.engine.assessment.residuals.residual_statistics import summarise_residuals
 from calibgui.engine.assessment.residuals.systematic_errors import prepare_fit
 from calibgui.engine.calibration.observations import Observation
 from calibgui.engine.calibration.result import Calibration
 from calibgui.engine.images.sampling import make_mesh
 from calibgui.engine.numbers import format_two_digits
-from calibgui.engine.uncertainty.projection_uncertainty import compute_worst_sigma
+from calibgui.engine.uncertainty.projection_uncertainty import (
+    ProjectionUncertainty,
+    compute_worst_sigma,
+)
 
 
 @dataclass(frozen=True, eq=False)
@@ -83,6 +90,12 @@ class Case:
         """The views as a lens model of another kind follows them."""
         return fit_rival(self.calibration, self.views)
 
+    @property
+    def explained(self) -> float:
+        """Share of the squared residuals that the best cause explains, but for a lens of another
+        kind."""
+        return find_largest_share(self.report.checks)
+
     @cached_property
     def split(self) -> Split | None:
         """The views parted in two kinds, if they certainly are of two; None if not, or if they are
@@ -127,14 +140,16 @@ def prepare_case(
     views: Sequence[Observation],
     names: Sequence[str],
     check: Callable[[], None] = lambda: None,
+    known: tuple[ProjectionUncertainty, ProjectionUncertainty] | None = None,
 ) -> Case:
-    """Prepare a case: find out how well pixels are known, by everything and by noise alone."""
+    """Prepare a case: find out how well pixels are known, by everything and by noise alone, unless
+    that is already `known`."""
     check()
-    total, by_noise = split_camera_uncertainty(calibration, views)
+    total, by_noise = known or split_camera_uncertainty(calibration, views)
     over_image = total.worst_direction
-    known = over_image[np.isfinite(over_image)]  # a lens may image nothing in the corners
-    if not known.size:
-        known = np.array(calibration.camera.size)
+    seen = over_image[np.isfinite(over_image)]  # a lens may image nothing in the corners
+    if not seen.size:
+        seen = np.array(calibration.camera.size)
     noise = by_noise.worst_direction[np.isfinite(over_image)]
     covered = find_covered_pixels(make_mesh(total.u, total.v), views)
     rms = summarise_residuals(calibration.residuals).rms
@@ -143,9 +158,9 @@ def prepare_case(
         views,
         names,
         range(len(views)),
-        sigma=float(np.median(known)),
-        by_noise_alone=float(np.median(noise)) if noise.size else float(known.max()),
-        worst=float(known.max()),
+        sigma=float(np.median(seen)),
+        by_noise_alone=float(np.median(noise)) if noise.size else float(seen.max()),
+        worst=float(seen.max()),
         part=float(covered[~np.isnan(over_image)].sum() / max(np.sum(~np.isnan(over_image)), 1)),
         total=total.covariance[covered],
         by_noise=by_noise.covariance[covered],

@@ -50,11 +50,12 @@ from calibgui.engine.assessment.residuals.residual_causes import (
     find_cause,
     list_tests,
 )
-from calibgui.engine.assessment.residuals.residual_checks import NoiseCheck
+from calibgui.engine.assessment.residuals.residual_checks import NoiseCheck, find_largest_share
 from calibgui.engine.assessment.residuals.residual_statistics import summarise_residuals
 from calibgui.engine.boards.shape import BoardShapeModel
 from calibgui.engine.calibration.calibrate import calibrate
 from calibgui.engine.calibration.problem import recover_image_arguments
+from calibgui.engine.calibration.result import Calibration
 from calibgui.engine.camera.models import find_model
 from calibgui.engine.errors import CalibrationError
 
@@ -93,13 +94,8 @@ _CAUSES_BESIDE_SCALE = (
 """Causes of each view's own, beside which a scale of the images may explain more."""
 _OF_BOARD, _OF_VIEWS = list_tests(Family.BOARD), list_tests(Family.OF_VIEW)
 """Tests of a board that is the same in all views, and of causes of each view's own."""
-_EXPLAINING = [*list_tests(Family.BOARD, Family.LENS, Family.OF_VIEW), "lines"]
-"""Tests of causes that explain what they do, and do not merely follow it."""
-
-
-def explain_most(case: Case) -> float:
-    """Return the share of the squared residuals that the best cause explains."""
-    return find_largest_share(case.report.checks)
+_TESTED = list_tests(*Family)
+"""Tests of all causes."""
 
 
 def find_systematic_cause(case: Case) -> Finding | None:
@@ -172,7 +168,12 @@ def _find_cause_beside_board(case: Case, failed: Mapping[str, NoiseCheck]) -> Fi
 
 
 def _find_wrong_lens(case: Case) -> Finding | None:
-    """Find a lens that a model of another kind follows better by far; None if it does not."""
+    """Find a lens that a model of another kind follows better by far; None if it does not.
+
+    None is fitted where no test of a cause fails: they see a part of what a lens leaves.
+    """
+    if not any(check.share for check in case.report.checks if check.name in _TESTED):
+        return None
     share, displacement = case.rival
     if share < MIN_SHARE_OF_RIVAL or displacement < MIN_HARM_PX:
         return None
@@ -185,6 +186,21 @@ def _find_blur(case: Case, failed: dict[str, NoiseCheck]) -> Finding | None:
     return None if check is None else _describe_blur(case, check)
 
 
+def estimate_board(case: Case) -> Calibration | None:
+    """Estimate the board's shape if it is the most probable cause; None if it is not, or if the
+    views do not determine it."""
+    check = _choose_shared_cause(case.report.checks)
+    if check is None or check.name not in _OF_BOARD:
+        return None
+    adds = find_cause(check.name).adds
+    model = adds if adds == BoardShapeModel.AFFINE else BoardShapeModel.FREE
+    settings = recover_image_arguments(case.calibration) | {"board_shape": model}
+    try:
+        return calibrate(case.views, case.calibration.camera.size, **settings)
+    except CalibrationError:
+        return None
+
+
 def _choose_shared_cause(checks: Sequence[NoiseCheck]) -> NoiseCheck | None:
     """Choose between board and lens, if either is the cause; None if not."""
     likely = [c for c in _order_by_probability(checks) if not c.passed and c.share >= _MIN_SHARE]
@@ -195,11 +211,6 @@ def _choose_shared_cause(checks: Sequence[NoiseCheck]) -> NoiseCheck | None:
     if lens and not is_board and lens[0].share >= least:
         return lens[0]
     return board[0] if board and (is_board or find_largest_share(board) >= least) else None
-
-
-def find_largest_share(checks: Iterable[NoiseCheck]) -> float:
-    """Return the largest share of the squared residuals that any cause explains, but for noise."""
-    return max((check.share for check in checks if check.name in _EXPLAINING), default=0.0)
 
 
 def _choose_cause_of_views(checks: Sequence[NoiseCheck]) -> NoiseCheck | None:
@@ -324,6 +335,8 @@ def _describe_check(case: Case, check: NoiseCheck) -> Finding | None:
     """Describe the cause that a test of the residuals points to; None if it does no harm."""
     tested, harm = find_cause(check.name), case.measure_harm(check.share)
     if tested.cause is Cause.LENS:
+        if case.rival.share > check.share:  # what a model misses is no part of its covariance
+            harm = max(harm, case.rival.displacement)
         error = case.calibration.lens_error or float(np.sqrt(check.share)) * case.rms
         return _describe_lens(case, error, harm) if harm > MIN_HARM_PX else None
     if harm < MIN_HARM_PX:

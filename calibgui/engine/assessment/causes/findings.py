@@ -30,7 +30,7 @@ from calibgui.engine.assessment.causes.cause_choice import (
     MIN_SHARE_OF_RIVAL,
     describe_strangers,
     describe_turned_views,
-    explain_most,
+    estimate_board,
     find_systematic_cause,
     list_names,
 )
@@ -38,11 +38,14 @@ from calibgui.engine.assessment.causes.input_errors import (
     describe_misplaced_corners,
     find_wrong_frame,
     find_wrong_values,
+    has_outlying_corners,
     screen_misplaced_corners,
 )
 from calibgui.engine.assessment.causes.odd_views import Strangers, find_odd_views
 from calibgui.engine.assessment.causes.two_pictures import TwoPictures, find_two_pictures
 from calibgui.engine.assessment.finding import (
+    MAX_GOOD_PX,
+    MAX_USABLE_PX,
     MIN_VIEWS_TO_JUDGE,
     REMEDY_OF_FEW_VIEWS,
     Cause,
@@ -61,13 +64,8 @@ from calibgui.engine.camera.models.splined_stereographic import SplinedStereogra
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.numbers import format_two_digits
 from calibgui.engine.threads import with_one_blas_thread
+from calibgui.engine.uncertainty.projection_uncertainty import ProjectionUncertainty
 
-_MAX_POOR_PX = 1.0
-"""Uncertainty of a pixel, median over the image, above which the views are too few, px. A choice,
-as what makes a calibration unusable (``verdict.py``)."""
-_MAX_WORST_PX = 0.5
-"""Uncertainty of the worst pixel of the image above which fewer than `MIN_VIEWS_TO_JUDGE` views
-are too few, px."""
 _MAX_NOISE_PX = 0.5
 """Uncertainty of a pixel by the noise that no cause explains, median over the image, above which
 the views are too much alike, px. Of ten bursts it was 0.2 to 1.8, above this in nine; of 60 faults
@@ -85,6 +83,7 @@ def list_findings(
     views: Sequence[Observation],
     names: Sequence[str] | None = None,
     check: Callable[[], None] = lambda: None,
+    known: tuple[ProjectionUncertainty, ProjectionUncertainty] | None = None,
 ) -> tuple[Finding, ...]:
     """List what is wrong with a calibration, the most harmful first.
 
@@ -93,8 +92,9 @@ def list_findings(
         views: the views that it was made from.
         names: names of the views, for messages; numbers by default.
         check: a function that is called now and then, and raises to abandon the work.
+        known: what ``split_camera_uncertainty`` says of it, if that is at hand.
     """
-    found = _find(calibration, views, names or name_views(len(views)), check)
+    found = _find(calibration, views, names or name_views(len(views)), check, known)
     return tuple(sorted(found, key=lambda finding: finding.harm, reverse=True))
 
 
@@ -103,6 +103,7 @@ def _find(
     views: Sequence[Observation],
     names: Sequence[str],
     check: Callable[[], None],
+    known: tuple[ProjectionUncertainty, ProjectionUncertainty] | None,
 ) -> Iterator[Finding]:
     """Yield what is wrong; the order of the tests is that of the description above."""
     frame = find_wrong_frame(calibration.camera, views)
@@ -115,7 +116,7 @@ def _find(
     if wrong is not None:
         yield wrong
         return
-    case = prepare_case(calibration, views, names, check)
+    case = prepare_case(calibration, views, names, check, known)
     open_coefficients = _find_open_coefficients(case)
     if calibration.cost is not Cost.IMAGE:
         calibration = _minimise_image_cost(calibration, views)
@@ -214,11 +215,15 @@ def _misses_views(case: Case, left: Case) -> bool:
     Such a cause is a lens that another model follows better. Or it explains the residuals of the
     other corners, too: of corners that are misplaced a cause may explain much by chance, but
     without them it explains nothing. Two kinds of views explain most, and nothing is left of them
-    where one kind is left out.
+    where one kind is left out. With a board that was far from its drawing all corners fit once its
+    shape is estimated; misplaced ones do not.
     """
     split = case.split
     is_of_two_kinds = split is not None and split.share > MIN_SHARE_OF_KINDS
-    return is_of_two_kinds or _is_cause_of_all(case, left)
+    if is_of_two_kinds or _is_cause_of_all(case, left):
+        return True
+    shaped = estimate_board(case)
+    return shaped is not None and not has_outlying_corners(shaped, case.views)
 
 
 def _is_cause_of_all(case: Case, left: Case) -> bool:
@@ -226,7 +231,7 @@ def _is_cause_of_all(case: Case, left: Case) -> bool:
     another model follows better, or one that the case without them shows, too."""
     if case.rival.share > MIN_SHARE_OF_RIVAL:
         return True
-    before, after = (explain_most(each) * each.rms**2 for each in (case, left))
+    before, after = (each.explained * each.rms**2 for each in (case, left))
     return after > _MIN_PART_LEFT * before
 
 
@@ -256,10 +261,10 @@ def _find_lack_of_views(case: Case) -> Finding | None:
     """Find out whether the views are too few, or too much alike; None if they are not."""
     count = len(case.views)
     few = count < MIN_VIEWS_TO_JUDGE
-    if not (case.sigma > _MAX_POOR_PX or (few and case.worst > _MAX_WORST_PX)):
+    if not (case.sigma > MAX_USABLE_PX or (few and case.worst > MAX_GOOD_PX)):
         return None
     harm = case.measure_harm(share=1.0)
-    if not few and harm <= _MAX_POOR_PX:
+    if not few and harm <= MAX_USABLE_PX:
         return describe_narrow_views(case.part, harm, case.sigma)
     return Finding(
         Cause.FEW_VIEWS,

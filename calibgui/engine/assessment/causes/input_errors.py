@@ -186,7 +186,7 @@ def screen_misplaced_corners(
 
     Corners that are off by a few standard deviations are those that the model misses.
     """
-    if not _has_outlying_corners(calibration, views):
+    if not has_outlying_corners(calibration, views):
         return None
     try:
         screening = screen_outliers(
@@ -203,7 +203,7 @@ def screen_misplaced_corners(
     return screening if (off > _MIN_GROSS_SIGMAS * sigma).any() else None
 
 
-def _has_outlying_corners(calibration: Calibration, views: Sequence[Observation]) -> bool:
+def has_outlying_corners(calibration: Calibration, views: Sequence[Observation]) -> bool:
     """Return whether a residual is too long for its corner's noise, and may be of a gross error."""
     lengths = np.linalg.norm(stack_residuals(calibration, on_reference=False), axis=1)
     sigmas = np.concatenate(

@@ -30,7 +30,8 @@ is not to be told, and does no harm.
 Where as many are turned as are not, none stands out. Then the views part in two kinds
 (``mixed_views.py``). Two cameras of one make, each with its principal point somewhere near the
 middle, look turned to some degree as well. What tells is E of all the odd views together: if they
-were turned, a camera of their own leaves hardly less of them.
+were turned, a camera of their own leaves hardly less of them. A lens that the model does not follow
+makes some look turned, too: turned back they have to leave less than a lens of another kind.
 """
 
 from __future__ import annotations
@@ -45,6 +46,7 @@ from calibgui.engine.arrays import Array, BoolArray, IntArray, Size
 from calibgui.engine.assessment.causes.case import Case
 from calibgui.engine.assessment.causes.mixed_views import MAX_SEEDS
 from calibgui.engine.assessment.finding import MIN_VIEWS_TO_JUDGE
+from calibgui.engine.assessment.residuals.residual_statistics import summarise_residuals
 from calibgui.engine.assessment.residuals.systematic_errors import (
     compute_reductions,
     multiply_columns,
@@ -164,7 +166,7 @@ def find_turn(case: Case, is_odd: BoolArray) -> Turned | None:
 
 def _describe_turned(case: Case, chosen: IntArray, turns: Sequence[int]) -> Turned | None:
     """Describe views (K,) of which some are read turned back, in ways among `turns`; None if none
-    are, or if they are no views of a camera then."""
+    are, if they are no views of a camera then, or if a lens of another kind leaves less."""
     if not chosen.any():
         return None
     words = [list(_TURNS.values())[turn - 1] for turn in turns]
@@ -174,6 +176,8 @@ def _describe_turned(case: Case, chosen: IntArray, turns: Sequence[int]) -> Turn
         return None
     if calibration.overdispersion >= _MAX_DISAGREEMENT_LEFT * case.calibration.overdispersion:
         return None
+    if summarise_residuals(calibration.residuals).rms > case.rms * np.sqrt(1 - case.rival.share):
+        return None  # as they are they suit a lens that the model does not follow
     views = tuple(np.flatnonzero(chosen).tolist())
     return Turned(views, how, f"{back[:1].upper()}{back[1:]}", calibration)
 

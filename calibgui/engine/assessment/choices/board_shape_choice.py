@@ -28,7 +28,7 @@ from calibgui.engine.threads import with_one_blas_thread
 
 _MIN_GAIN_IN_STANDARD_ERRORS = 2.0
 """Mean gain over its standard error above which a richer model is taken."""
-_MIN_RELATIVE_GAIN = 0.01
+MIN_RELATIVE_GAIN = 0.01
 """Mean relative gain above which a richer model is taken."""
 _MAX_DEVIATION = 0.01
 """Deviation of a board over its length, up to which its shape is estimated from where a flat board
@@ -136,4 +136,4 @@ def predicts_better(candidate: Array, incumbent: Array) -> bool:
     """Return whether errors (K,) are lower than others of the same views, beyond chance and 1 %."""
     gain = np.log(incumbent / candidate)
     error = gain.std(ddof=1) / np.sqrt(len(gain))
-    return bool(gain.mean() > max(_MIN_GAIN_IN_STANDARD_ERRORS * error, _MIN_RELATIVE_GAIN))
+    return bool(gain.mean() > max(_MIN_GAIN_IN_STANDARD_ERRORS * error, MIN_RELATIVE_GAIN))

@@ -15,7 +15,9 @@ which corners to trust, each on what the one before left:
    `MAX_RESIDUAL_IN_SIGMA` sigma are kept, those set aside before among them, and the solve is
    repeated until nothing changes. It rejects one good Gaussian corner in fifty thousand.
 
-A view that loses more than a third of its corners is left out whole.
+A view that loses more than a third of its corners is left out whole. Beside a view that does not
+belong to the others good ones lose as many, as it draws the camera: so once nothing changes, those
+left out are asked again how they fit the others' camera, with their own poses.
 """
 
 from __future__ import annotations
@@ -33,6 +35,8 @@ from calibgui.engine.calibration.initialisation.stage_one import (
     register_views,
 )
 from calibgui.engine.calibration.initialisation.start import compute_reference_points, find_facing
+from calibgui.engine.calibration.methods import find_method
+from calibgui.engine.calibration.methods.method import start_from_calibration
 from calibgui.engine.calibration.observations import (
     REFERENCE_PITCH,
     Observation,
@@ -41,8 +45,10 @@ from calibgui.engine.calibration.observations import (
     name_views,
     pack_observations,
 )
-from calibgui.engine.calibration.result import Calibration
+from calibgui.engine.calibration.resection import estimate_poses, refine_poses
+from calibgui.engine.calibration.result import DEFAULT_METHOD, Calibration, Cost
 from calibgui.engine.camera.projection import pixels_from_rays
+from calibgui.engine.errors import CalibrationError
 from calibgui.engine.geometry.frames import paper_from_array
 from calibgui.engine.geometry.rotations import rotation_from_vector
 
@@ -60,6 +66,8 @@ _MAX_SOLVES = 20
 """Number of joint solves after which screening ends even if corners still change."""
 MAX_LOST_SHARE = 1 / 3
 """Share of a view's corners that are rejected, beyond which the whole view is left out."""
+_LOST = "corners do not fit"
+"""End of the reason why a view is left out that has lost too many corners."""
 RAYLEIGH_MEDIAN = float(np.sqrt(2 * np.log(2)))
 """Median of a Rayleigh distribution, in units of its parameter."""
 
@@ -125,10 +133,20 @@ def screen_outliers(
     nominal: dict[str, Any] = {"model_errors": False} | {
         name: settings[name] for name in ("fix", "free", "model") if name in settings
     }
+    asked: set[int] = set()
+    found: Calibration | None = None
+    before: list[int] = []
     for _ in range(_MAX_SOLVES):
-        if not _screen_by_residual(_calibrate_kept(given, size, names, kept, nominal), given, kept):
-            break
+        how = nominal | _start_from(found, before, kept)
+        found, before = _calibrate_kept(given, size, names, kept, how), _list_used(kept)
+        if not _screen_by_residual(found, given, kept):
+            lost = [k for k, why in reasons.items() if k not in asked and why.endswith(_LOST)]
+            asked.update(lost)
+            if not _take_back_views(found, given, kept, reasons, lost):
+                break
         _leave_out_poor_views(kept, reasons)
+    if settings.get("method", DEFAULT_METHOD) == DEFAULT_METHOD:
+        settings |= _start_from(found, before, kept)
     calibration = _calibrate_kept(given, size, names, kept, settings)
     return Screening(tuple(kept), tuple(_list_rejections(kept, reasons)), calibration)
 
@@ -141,9 +159,26 @@ def _calibrate_kept(
     settings: dict[str, Any],
 ) -> Calibration:
     """Calibrate from the kept corners of the views that keep any."""
-    used = [k for k, good in enumerate(kept) if good.any()]
+    used = _list_used(kept)
     parts = [select_corners(given[k], kept[k]) for k in used]
     return calibrate(parts, size, names=[names[k] for k in used], **settings)
+
+
+def _list_used(kept: Sequence[BoolArray]) -> list[int]:
+    """List the views that keep any corners."""
+    return [k for k, good in enumerate(kept) if good.any()]
+
+
+def _start_from(
+    found: Calibration | None, before: Sequence[int], kept: Sequence[BoolArray]
+) -> dict[str, Any]:
+    """Return the method that starts from what was found of the views `before`, as an argument of
+    `calibrate`; none if there was nothing, or if one of the views was not among them."""
+    used = _list_used(kept)
+    if found is None or not set(used).issubset(before):
+        return {}
+    places = [list(before).index(k) for k in used]
+    return {"method": start_from_calibration(find_method(DEFAULT_METHOD), found, places)}
 
 
 def _screen_by_stage_one(
@@ -190,26 +225,70 @@ def _screen_by_residual(
     calibration: Calibration, given: Sequence[Observation], kept: list[BoolArray]
 ) -> bool:
     """Keep the corners within the noise of the prediction, and return whether that changed any."""
-    used = [k for k, good in enumerate(kept) if good.any()]
-    placed = [
-        given[k].xy @ rotation_from_vector(pose.rvec)[:, :2].T + pose.tvec
-        for k, pose in zip(used, calibration.poses, strict=True)
-    ]
-    predicted = pixels_from_rays(np.concatenate(placed), calibration.camera)
-    ends = np.cumsum([len(points) for points in placed])[:-1]
-    error = calibration.model_error
-    lengths = [
-        np.linalg.norm(given[k].uv - uv, axis=1) / predict_coordinate_sigma(given[k], error)
-        for k, uv in zip(used, np.split(predicted, ends), strict=True)
-    ]
-    trusted = np.concatenate([length[kept[k]] for k, length in zip(used, lengths, strict=True)])
-    # Perfect data leave rounding only, of which the largest is no outlier.
-    limit = max(MAX_RESIDUAL_IN_SIGMA * estimate_coordinate_sigma(trusted), 1e-6)
+    used = _list_used(kept)
+    turns = rotation_from_vector(np.array([pose.rvec for pose in calibration.poses]))
+    places = np.array([pose.tvec for pose in calibration.poses])
+    lengths = _measure_lengths(calibration, [given[k] for k in used], turns, places)
+    limit = _find_limit([length[kept[k]] for k, length in zip(used, lengths, strict=True)])
     changed = False
     for k, length in zip(used, lengths, strict=True):
         changed |= bool((kept[k] != (length <= limit)).any())
         kept[k][:] = length <= limit
     return changed
+
+
+def _take_back_views(
+    calibration: Calibration,
+    given: Sequence[Observation],
+    kept: list[BoolArray],
+    reasons: dict[int, str],
+    lost: Sequence[int],
+) -> bool:
+    """Keep what fits of views that were left out and are no worse than others under the camera, and
+    return whether there are any."""
+    if not lost:
+        return False
+    views = [given[k] for k in lost]
+    observations = pack_observations(views)
+    try:
+        start = estimate_poses(calibration.camera, observations)
+        state = refine_poses(start, observations, calibration.camera.model, Cost.IMAGE)
+    except CalibrationError:
+        return False
+    used = [select_corners(given[k], good) for k, good in enumerate(kept) if good.any()]
+    misses = [np.linalg.norm(view.image, axis=1) for view in calibration.residuals]
+    error = calibration.model_error
+    limit = _find_limit(
+        [m / predict_coordinate_sigma(view, error) for m, view in zip(misses, used, strict=True)]
+    )
+    lengths = _measure_lengths(calibration, views, state.R, state.T)
+    for k, length in zip(lost, lengths, strict=True):
+        if np.count_nonzero(length > limit) <= MAX_LOST_SHARE * len(length):
+            kept[k][:] = length <= limit
+            del reasons[k]
+    return any(k not in reasons for k in lost)
+
+
+def _measure_lengths(
+    calibration: Calibration, views: Sequence[Observation], R: Array, T: Array
+) -> list[Array]:
+    """Measure how far corners are from their predictions, in standard deviations, for boards that
+    are turned by R (K, 3, 3) and placed at T (K, 3)."""
+    placed = [view.xy @ turn[:, :2].T + at for view, turn, at in zip(views, R, T, strict=True)]
+    predicted = pixels_from_rays(np.concatenate(placed), calibration.camera)
+    parts = np.split(predicted, np.cumsum([len(points) for points in placed])[:-1])
+    error = calibration.model_error
+    return [
+        np.linalg.norm(view.uv - uv, axis=1) / predict_coordinate_sigma(view, error)
+        for view, uv in zip(views, parts, strict=True)
+    ]
+
+
+def _find_limit(trusted: Sequence[Array]) -> float:
+    """Find the length up to which a corner is within the noise of those that are trusted."""
+    # Perfect data leave rounding only, of which the largest is no outlier.
+    sigma = estimate_coordinate_sigma(np.concatenate(trusted))
+    return max(MAX_RESIDUAL_IN_SIGMA * sigma, 1e-6)
 
 
 def predict_coordinate_sigma(view: Observation, model_error: float) -> Array | float:
@@ -229,7 +308,7 @@ def _leave_out_poor_views(kept: list[BoolArray], reasons: dict[int, str]) -> Non
     for k, good in enumerate(kept):
         lost = np.count_nonzero(~good)
         if k not in reasons and lost > MAX_LOST_SHARE * len(good):
-            reasons[k] = f"{lost} of its {len(good)} corners do not fit"
+            reasons[k] = f"{lost} of its {len(good)} {_LOST}"
         if k in reasons:
             good[:] = False
 

@@ -40,7 +40,7 @@ farther than they are uncertain pass, and are counted.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -53,7 +53,7 @@ from calibgui.engine.assessment.residuals.cause_fits import (
     fit_nothing,
     fit_own_cause,
 )
-from calibgui.engine.assessment.residuals.residual_causes import CAUSES, Family
+from calibgui.engine.assessment.residuals.residual_causes import CAUSES, Family, list_tests
 from calibgui.engine.assessment.residuals.residual_statistics import summarise_residuals
 from calibgui.engine.assessment.residuals.systematic_errors import (
     make_cubic_displacements,
@@ -83,6 +83,8 @@ FAR_OFF = 5.0
 _MAX_RMS_OVER_MEDIAN = 1.5
 """A view's rms over that from its median, above which few corners are taken to raise it."""
 
+_EXPLAINING = [*list_tests(Family.BOARD, Family.LENS, Family.OF_VIEW), "lines"]
+"""Tests of causes that explain what they do, and do not merely follow it."""
 _ADVICE_ON_OUTLIERS = (
     "A few corners are much farther off than the others: look for misplaced ones, or leave "
     "outliers out."
@@ -137,6 +139,11 @@ class NoiseReport:
     def passed(self) -> bool:
         """True if all tests are passed."""
         return all(check.passed for check in self.checks)
+
+
+def find_largest_share(checks: Iterable[NoiseCheck]) -> float:
+    """Return the largest share of the squared residuals that any cause explains, but for noise."""
+    return max((check.share for check in checks if check.name in _EXPLAINING), default=0.0)
 
 
 def check_residuals(

@@ -53,6 +53,11 @@ class ResidualSummary:
     count: int
     """Number of corners."""
 
+    @property
+    def sigma(self) -> float:
+        """Return the standard deviation of a coordinate of the image residual, px."""
+        return float(np.hypot(self.sigma_x, self.sigma_y) / np.sqrt(2))
+
 
 def summarise_residuals(residuals: Sequence[ViewResiduals]) -> ResidualSummary:
     """Compute the statistics of all views' residuals together.

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from calibgui.engine.arrays import GreyImage, GridSize
 from calibgui.engine.camera.image_circle import ImageCircle
-from calibgui.engine.errors import NoBoardError
+from calibgui.engine.errors import NoBoardError, OtherSizeError
 from calibgui.engine.features.lattice import Lattice
 from calibgui.engine.lattices import board_ends
 from calibgui.engine.lattices.prefilter import LIKE_DOTS, OBJECTIONS_TO_CIRCLES, Refusal
@@ -13,10 +13,6 @@ _CHECK_SIZE = (
     "Check the stated number of inner corners, rows x columns, or leave it out; if it is right,"
     " take the picture again with nothing on the board's outermost squares."
 )
-
-
-class OtherSizeError(NoBoardError):
-    """There are boards, but none of the stated size."""
 
 
 def describe_other_sizes(

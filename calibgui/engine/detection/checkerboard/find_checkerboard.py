@@ -34,7 +34,7 @@ from calibgui.engine.detection.checkerboard.board_refinement import (
     verify_parts,
 )
 from calibgui.engine.detection.detector_io import check_grey_levels, list_rejected_corners
-from calibgui.engine.errors import NoBoardError
+from calibgui.engine.errors import NoBoardError, OtherSizeError
 from calibgui.engine.features import harris
 from calibgui.engine.features.corners import METHODS, Corners, OtherBoard
 from calibgui.engine.features.lattice import MIN_CORNERS, MIN_LINES, Lattice
@@ -99,7 +99,7 @@ def find_checkerboard(
             raise
         marked = find_marked_board(grey, grid_size, outline, method)
         if marked is None:
-            if isinstance(error, descriptions.OtherSizeError):
+            if isinstance(error, OtherSizeError):
                 raise
             raise descriptions.describe_misfit(grid_size) from None
         board = marked

@@ -7,7 +7,7 @@ from html import escape
 
 import numpy as np
 from PySide6.QtCore import QT_TRANSLATE_NOOP
-from PySide6.QtWidgets import QTextBrowser, QVBoxLayout
+from PySide6.QtWidgets import QFrame, QTextBrowser, QVBoxLayout
 
 from calibgui.dataset import Result
 from calibgui.dataset.judging import recall_verdict
@@ -21,6 +21,7 @@ from calibgui.gui.panels.parts.estimates import estimate_columns
 from calibgui.gui.panels.parts.split import Split
 from calibgui.gui.panels.services import Services
 from calibgui.gui.widgets import theme
+from calibgui.gui.widgets.scrolling import make_thin
 from calibgui.gui.widgets.tab_bar import TabWidget
 from calibgui.gui.widgets.tables import Column, Table, with_digits
 from calibgui.gui.widgets.wrapped_label import typeset
@@ -50,6 +51,8 @@ class ResultPanel(Panel):
         self._work = Latest(services.jobs, self)
         self.words = QTextBrowser()
         self.words.setAccessibleName(self.tr("Summary"))
+        self.words.setFrameShape(QFrame.Shape.NoFrame)
+        make_thin(self.words)
         self.array_frame, self.paper_units = Table(), Table()
         self.correlations = Matrix()
         self.correlations.setToolTip(

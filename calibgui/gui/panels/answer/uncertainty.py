@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 from PySide6.QtCore import QT_TRANSLATE_NOOP, QPointF
-from PySide6.QtWidgets import QDoubleSpinBox, QHBoxLayout, QLabel, QVBoxLayout
+from PySide6.QtWidgets import QHBoxLayout, QLabel, QVBoxLayout
 
 from calibgui.dataset import Result
 from calibgui.engine.numbers import format_two_digits
@@ -18,6 +18,7 @@ from calibgui.gui.panels.parts.heat import CORNERS, HeatMap, surround_places
 from calibgui.gui.panels.services import Services
 from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.lengths import describe_condition
+from calibgui.gui.widgets.number_box import NumberBox
 from calibgui.gui.widgets.point_cloud import PointCloud
 from calibgui.gui.widgets.reserved_label import ReservedLabel
 
@@ -38,7 +39,7 @@ class UncertaintyPanel(Panel):
     purpose = str(
         QT_TRANSLATE_NOOP(
             "UncertaintyPanel",
-            "How well it is known where points are imaged, over the whole image.",
+            "How well it is known where points are imaged.",
         )
     )
 
@@ -47,14 +48,12 @@ class UncertaintyPanel(Panel):
         self._work = Latest(services.jobs, self)
         self.found: ProjectionUncertainty | None = None
         """The uncertainty that is drawn; None while it is being computed."""
-        self.distance = QDoubleSpinBox(
-            decimals=0, maximum=1e7, singleStep=100, suffix=self.tr(" mm")
-        )
+        self.distance = NumberBox(decimals=0, maximum=1e7, singleStep=100, suffix=self.tr(" mm"))
         self.distance.setSpecialValueText(self.tr("far away"))
         self.distance.setToolTip(
             self.tr("Of the points that the camera will look at; 0 for points far away.")
         )
-        self.limit = QDoubleSpinBox(
+        self.limit = NumberBox(
             decimals=3, minimum=0.001, maximum=100, singleStep=0.01, suffix=self.tr(" px")
         )
         self.limit.setValue(_LIMIT)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from PySide6.QtCore import QT_TRANSLATE_NOOP
-from PySide6.QtWidgets import QComboBox, QHBoxLayout, QPushButton, QSpinBox, QVBoxLayout
+from PySide6.QtWidgets import QComboBox, QHBoxLayout, QSpinBox, QVBoxLayout
 
 from calibgui.app.calibrating.calibration import shorten_names
 from calibgui.app.outputs.previews import Grey, transform_image
@@ -16,6 +16,7 @@ from calibgui.gui.panels.latest import Latest
 from calibgui.gui.panels.panel import Panel
 from calibgui.gui.panels.parts.divided_images import DividedImages
 from calibgui.gui.panels.services import Services
+from calibgui.gui.widgets.buttons import Button
 from calibgui.gui.widgets.elided import elide_name
 from calibgui.gui.widgets.narrow_combo import NarrowCombo
 from calibgui.gui.widgets.reserved_label import ReservedLabel
@@ -63,8 +64,8 @@ class UndistortPanel(Panel):
         self.way.currentIndexChanged.connect(self._change)
         self.view.currentIndexChanged.connect(self._change)
         self.angle.valueChanged.connect(self._refresh_now)
-        self.save_one = QPushButton(self.tr("Save &this…"))
-        self.save_all = QPushButton(self.tr("&Save all…"))
+        self.save_one = Button(self.tr("Save &this…"))
+        self.save_all = Button(self.tr("&Save all…"))
         self.save_one.setToolTip(
             self.tr("Write the selected image as it is shown here into a folder")
         )

@@ -6,7 +6,7 @@ import numpy as np
 import pyqtgraph as pg
 import scipy
 from PySide6.QtCore import QT_TRANSLATE_NOOP, QPointF, QRectF
-from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QVBoxLayout
+from PySide6.QtWidgets import QHBoxLayout, QLabel, QVBoxLayout
 
 from calibgui.dataset import Result
 from calibgui.engine.arrays import Array
@@ -17,6 +17,7 @@ from calibgui.gui.panels.panel import Panel
 from calibgui.gui.panels.parts.arrows import trace_arrows
 from calibgui.gui.panels.services import Services
 from calibgui.gui.widgets import theme
+from calibgui.gui.widgets.buttons import Button
 from calibgui.gui.widgets.lengths import describe_condition, name_unit, state_condition
 from calibgui.gui.widgets.plots import ColourBar, Plot
 from calibgui.gui.widgets.save_names import ask_for_name
@@ -43,7 +44,7 @@ class BoardShapePanel(Panel):
     def __init__(self, services: Services) -> None:
         super().__init__(services)
         self.words = WrappedLabel()
-        self.save = QPushButton(self.tr("&Save shape…"))
+        self.save = Button(self.tr("&Save shape…"))
         self.save.setToolTip(
             self.tr(
                 "Write the board's shape to a file, for later calibrations with the same board: "

@@ -28,7 +28,7 @@ from calibgui.report.coverage import measure_attitudes
 
 _CELLS = (24, 18)
 """Columns and rows of the density that is drawn."""
-_MAP_HEIGHT = 240
+_MAP_HEIGHT = 248
 """Least height of the map, px: it is the panel's main thing, and as wide as a narrow panel then."""
 _RING = 15
 """Tilt from one circle to the next, degrees."""
@@ -86,9 +86,10 @@ class CoveragePanel(Panel):
         for plot in (self.tilts, self.distances):
             plot.picked.connect(self._pick)
         layout = QVBoxLayout(self.body)
-        sensor = Split(900, (self.density, 3), (self.distances, 2))
         layout.addWidget(self.advice)
-        layout.addWidget(Split(1100, (sensor, 3), (self.tilts, 2)), 1)
+        plots = (self.density, 3), (self.distances, 2), (self.tilts, 2)
+        layout.addWidget(Split(820, *plots), 1)
+        layout.addStretch()  # of a high card: the map is no higher than its width allows
 
     def _refresh(self, result: Result) -> None:
         size = result.calibration.camera.size

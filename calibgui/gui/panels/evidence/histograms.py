@@ -102,7 +102,7 @@ class HistogramsPanel(Panel):
             )
         layout = QVBoxLayout(self.body)
         layout.addWidget(self.plane, 0, Qt.AlignmentFlag.AlignLeft)
-        layout.addWidget(Split(900, *((plot, 1) for plot in self.plots)), 1)
+        layout.addWidget(Split(820, *((plot, 1) for plot in self.plots)), 1)
 
     def _refresh(self, result: Result) -> None:
         residuals = np.concatenate(self.plane.residuals(result.calibration))

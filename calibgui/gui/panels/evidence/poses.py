@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 from PySide6.QtCore import QT_TRANSLATE_NOOP
-from PySide6.QtWidgets import QComboBox, QHBoxLayout, QPushButton, QVBoxLayout
+from PySide6.QtWidgets import QComboBox, QHBoxLayout, QVBoxLayout
 
 from calibgui.app.calibrating.calibration import shorten_names
 from calibgui.dataset import Result
@@ -12,6 +12,7 @@ from calibgui.gui.panels.evidence.scene_view import SceneView
 from calibgui.gui.panels.panel import Panel
 from calibgui.gui.panels.services import Services
 from calibgui.gui.widgets import theme
+from calibgui.gui.widgets.buttons import Button
 from calibgui.gui.widgets.elided import elide_name
 from calibgui.gui.widgets.lengths import describe_condition, state_condition
 from calibgui.gui.widgets.reserved_label import ReservedLabel
@@ -43,7 +44,7 @@ class PosesPanel(Panel):
         )
         self.centre.setAccessibleName(self.tr("What stands still"))
         self.centre.currentIndexChanged.connect(self._refresh_now)
-        self.home = QPushButton(self.tr("&Reset view"))
+        self.home = Button(self.tr("&Reset view"))
         self.home.setToolTip(self.tr("Show everything, from where it was seen first"))
         self.space = SceneView()
         self.space.setToolTip(

@@ -41,7 +41,7 @@ class ResidualsPanel(Panel):
     purpose = str(
         QT_TRANSLATE_NOOP(
             "ResidualsPanel",
-            "Measured minus predicted corners: the reprojection errors, one dot each.",
+            "Measured minus predicted corners.",
         )
     )
 

@@ -24,7 +24,7 @@ class ConvergencePanel(Panel):
     purpose = str(
         QT_TRANSLATE_NOOP(
             "ConvergencePanel",
-            "The cost after each step of the joint refinement, also while it runs.",
+            "The cost after each step, also while it runs.",
         )
     )
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from PySide6.QtCore import QT_TRANSLATE_NOOP
-from PySide6.QtWidgets import QPushButton, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QVBoxLayout, QWidget
 
 from calibgui.app.calibrating.lens_comparison import compare_lenses_again
 from calibgui.dataset import Result
@@ -12,6 +12,7 @@ from calibgui.gui.jobs.job import Job
 from calibgui.gui.panels.method.lens_tables import LensTables
 from calibgui.gui.panels.on_demand import OnDemandPanel, have_same_views
 from calibgui.gui.panels.services import Services
+from calibgui.gui.widgets.buttons import Button
 from calibgui.gui.widgets.reserved_label import ReservedLabel
 from calibgui.report.boards import name_point
 from calibgui.report.lens_choice import LensRow, describe_lens_choice, list_lens_rows
@@ -47,7 +48,7 @@ class LensModelsPanel(OnDemandPanel[LensChoice]):
         self._rows: list[LensRow] = []
         self._chosen: LensRow | None = None
         """The selected row."""
-        self.use = QPushButton(self.tr("&Use this model"))
+        self.use = Button(self.tr("&Use this model"))
         self.use.setToolTip(self.tr("Set the selected lens model in the Set-up and calibrate."))
         self.use.clicked.connect(self._use)
         self.tables = LensTables()
@@ -90,7 +91,7 @@ class LensModelsPanel(OnDemandPanel[LensChoice]):
             self.tr("{0} cannot be calibrated: {1}").format(get_lens_title(model), reason)
             for model, reason in found.refused.items()
         ]
-        self.words.show_text("\n".join([describe_lens_choice(found), *refused]))
+        self.words.setText("\n".join([describe_lens_choice(found), *refused]))
         self._rows = list_lens_rows(found)
         self.tables.show_rows(self._rows)
         models = [row.model for row in self._rows]

@@ -44,6 +44,13 @@ class MethodTables(LinkedTables):
                 unit="px",
             ),
             Column(
+                self.tr("σ"),
+                [row.sigma for row in rows],
+                _format_length,
+                self.tr("Standard deviation of a coordinate of these residuals"),
+                unit="px",
+            ),
+            Column(
                 self.tr("Unseen"),
                 [row.unseen for row in rows],
                 _format_length,

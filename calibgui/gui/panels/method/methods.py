@@ -8,7 +8,7 @@ from html import escape
 import numpy as np
 from PySide6.QtCore import QT_TRANSLATE_NOOP, Qt
 from PySide6.QtGui import QResizeEvent
-from PySide6.QtWidgets import QFrame, QPushButton, QSplitter, QTextBrowser, QWidget
+from PySide6.QtWidgets import QFrame, QSplitter, QTextBrowser, QWidget
 
 from calibgui.app.calibrating.method_comparison import compare_methods_again
 from calibgui.dataset import Result
@@ -21,6 +21,8 @@ from calibgui.gui.panels.on_demand import OnDemandPanel, have_same_views
 from calibgui.gui.panels.parts.difference_map import Difference, DifferenceMap
 from calibgui.gui.panels.services import Services
 from calibgui.gui.widgets import theme
+from calibgui.gui.widgets.buttons import Button
+from calibgui.gui.widgets.scrolling import make_thin
 from calibgui.gui.widgets.wrapped_label import typeset
 from calibgui.report.methods import MethodRow, describe_method_comparison, list_method_rows
 
@@ -53,7 +55,7 @@ class MethodsPanel(OnDemandPanel[MethodComparison]):
         self._rows: list[MethodRow] = []
         self._chosen = ""
         """Name of the selected method."""
-        self.use = QPushButton(self.tr("&Use this method"))
+        self.use = Button(self.tr("&Use this method"))
         self.use.clicked.connect(self._use)
         self.tables = MethodTables()
         self.tables.picked.connect(self._show_row)
@@ -61,6 +63,7 @@ class MethodsPanel(OnDemandPanel[MethodComparison]):
         self.about = QTextBrowser()
         self.about.setAccessibleName(self.tr("About the method"))
         self.about.setFrameShape(QFrame.Shape.NoFrame)
+        make_thin(self.about)
         self.compared = _Compared(
             self.tables, {self.tr("Map"): self.map, self.tr("About"): self.about}
         )
@@ -88,12 +91,18 @@ class MethodsPanel(OnDemandPanel[MethodComparison]):
         return compare_methods_again(result, job.advance, job.check_stop)
 
     def _show_found(self, result: Result, found: MethodComparison) -> None:
-        sentences = [describe_method_comparison(found, by_label=True)]
+        counts = [len(view.uv) for view in result.observations()]
+        sentences = [
+            self.tr("Each RMS and σ is of {0:,} corners in {1} views.").format(
+                sum(counts), len(counts)
+            ),
+            describe_method_comparison(found, by_label=True),
+        ]
         if result is not self._asked:
             sentences.append(
                 self.tr("Differences are from the calibration that was shown when they were found.")
             )
-        self.words.show_text(" ".join(sentences))
+        self.words.setText(" ".join(sentences))
         self._rows = list_method_rows(found)
         self.tables.show_rows(self._rows)
         names = [row.name for row in self._rows]
@@ -202,7 +211,7 @@ class _Compared(QSplitter):
             self._apart.addWidget(part)
             part.show()
         self._apart.show()
-        self.setSizes([2 * length // 5, 3 * length // 5])
+        self.setSizes([length // 2, length // 2])
         self._apart.setSizes([5 * self.height() // 7, 2 * self.height() // 7])
 
 

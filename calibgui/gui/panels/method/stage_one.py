@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 from pathlib import PurePath
 from typing import Any
@@ -30,6 +31,8 @@ _OPTIONAL = ("fy", "iterations")
 """Columns that a narrow table does without: fy is fx times the ratio."""
 _RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
+_UNKNOWNS = 11
+"""Of a view in Stage I: xp, yp, k1 and a homography."""
 _TABLE_HEIGHT = 160
 """Least height of the table, px: some views, whatever the plots below it need."""
 
@@ -73,10 +76,11 @@ class StageOnePanel(Panel):
         self._current = self.aspects.plot(pen=None, symbol="o", symbolSize=13, symbolBrush=None)
         plots = Split(400, (self.equation, 1), (self.aspects, 1))
         layout = QVBoxLayout(self.body)
-        layout.addWidget(Split(640, (self.table, 1), (plots, 1)))
+        layout.addWidget(Split(640, (self.table, 3), (plots, 2)))
 
     def _refresh(self, result: Result) -> None:
         self._rows = tuple(result.calibration.stage_one)
+        self._counts = [len(view.uv) for view in result.observations()]
         self._names = shorten_names(result.used)
         rows, colours = self._rows, theme.current()
         self.table.show_columns(self._list_columns(), self._outlying(rows))
@@ -156,7 +160,7 @@ class StageOnePanel(Panel):
                 self.tr("Residual on the reference plane; px′ are its pixels, 30 to a square"),
             ),
         )
-        headings = {"k1": f"k1·10{str(-power).translate(_RAISED)}", steps: "n"}
+        headings = {"k1": f"k1·10{str(-power).translate(_RAISED)}"}
         alike = len({PurePath(name).suffix for name in names}) == 1
         return [
             Column(self.tr("View"), names, (lambda name: PurePath(name).stem) if alike else str),
@@ -172,6 +176,19 @@ class StageOnePanel(Panel):
                     unit=unit,
                 )
                 for t, name, text, unit, tip in shown
+            ),
+            Column(
+                self.tr("σ"),
+                [_measure_sigma(row, n) for row, n in zip(rows, self._counts, strict=False)],
+                with_decimals(3),
+                self.tr("Standard deviation of a coordinate, from RMS, corners and 11 unknowns"),
+                unit=self.tr("px′"),
+            ),
+            Column(
+                self.tr("Corners"),
+                self._counts,
+                tip=self.tr("Number of the view's corners"),
+                heading="n",
             ),
         ]
 
@@ -189,6 +206,15 @@ class StageOnePanel(Panel):
             k: self.tr("Far from the other views: {0}").format(", ".join(names))
             for k, names in marked.items()
         }
+
+
+def _measure_sigma(row: StageOne, corners: int) -> float:
+    """Return the standard deviation of a coordinate on the reference plane, reference px.
+
+    Stage I has 11 unknowns in a view: NaN where they take up all that was measured.
+    """
+    left = 2 * corners - _UNKNOWNS
+    return row.rms * math.sqrt(corners / left) if left > 0 else math.nan
 
 
 def _power(values: Sequence[float]) -> int:

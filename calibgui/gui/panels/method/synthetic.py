@@ -42,7 +42,7 @@ class SyntheticPanel(OnDemandPanel[SyntheticCheck]):
     purpose = str(
         QT_TRANSLATE_NOOP(
             "SyntheticPanel",
-            "Whether the method finds this camera again in pictures that are rendered with it.",
+            "Whether the method finds this camera again.",
         )
     )
 
@@ -101,7 +101,7 @@ class SyntheticPanel(OnDemandPanel[SyntheticCheck]):
             summarise_residuals(r.calibration.residuals) for r in (found.real, found.synthetic)
         )
         verdict = describe_synthetic_verdict(found, judge_synthetic_check(found))
-        self.words.show_text(
+        self.words.setText(
             verdict
             + "\n"
             + self.tr(
@@ -144,7 +144,7 @@ class SyntheticPanel(OnDemandPanel[SyntheticCheck]):
             self.tr("Rendering {0}").format(shorten_names(result.used)[view]),
             lambda _: render_pair(result, view, self._read_image),
             lambda images: self.images.show_images(*images),
-            lambda error: self.words.show_text(str(error)),
+            lambda error: self.words.setText(str(error)),
         )
 
 

@@ -235,3 +235,19 @@ def test_another_frame_is_named_or_refused() -> None:
     assert finding is not None
     assert "upper left quarter" in finding.message
     assert find_wrong_frame(barrel(), CLEAN) is None
+
+
+def test_corners_are_not_misplaced_where_the_board_was_not_printed_true() -> None:
+    """Sharp views of squares that are half a percent too high miss by many of their sigmas."""
+    views = scene(barrel(), 8, seed=2).noisy(0.004, np.random.default_rng(1))
+    stretched = [Observation(view.uv, view.xy * [1.0, 1.005]) for view in views]
+    found = list_findings(calibrate(stretched, VGA), stretched)
+    assert [finding.cause for finding in found] == [Cause.BOARD_SHAPE]
+
+
+def test_a_lens_is_named_by_what_it_misses_beside_an_estimated_board() -> None:
+    """Standard deviations do not include what a lens leaves where the board takes it up."""
+    made = inject_fault("wide-lens-rough-print", 7301)
+    found = list_findings(calibrate(made.views, made.size, **made.options), made.views)
+    assert [finding.cause for finding in found] == [Cause.LENS]
+    assert found[0].harm == pytest.approx(0.08, abs=0.01)

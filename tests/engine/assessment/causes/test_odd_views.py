@@ -10,6 +10,7 @@ from calibgui.engine.assessment.causes import odd_views
 from calibgui.engine.assessment.causes.case import prepare_case
 from calibgui.engine.assessment.causes.findings import list_findings
 from calibgui.engine.assessment.causes.odd_views import OddViews, find_odd_views, turn_view
+from calibgui.engine.assessment.causes.rival_lens import Rival
 from calibgui.engine.assessment.finding import Cause
 from calibgui.engine.calibration.calibrate import calibrate
 from calibgui.engine.calibration.observations import Observation
@@ -85,6 +86,16 @@ def test_rows_read_in_motion_make_no_view_turned() -> None:
     ]
     names = [str(k) for k in range(len(views))]
     assert find_odd_views(prepare_case(calibrate(views, VGA), views, names)) == OddViews()
+
+
+def test_no_view_is_turned_that_suits_another_lens_as_it_is() -> None:
+    """Turning views back takes a part of what a lens leaves that its model does not follow."""
+    views = make_views(9)
+    views[8] = turn_view(views[8], (-1, -1), VGA, ENDS)
+    case = prepare_case(calibrate(views, VGA), views, [str(k) for k in range(9)])
+    for share, is_turned in ((0.0, True), (0.9999, False)):
+        case.__dict__["rival"] = Rival(share, 1.0)
+        assert (find_odd_views(case).turned is not None) == is_turned
 
 
 def test_a_view_weighs_alike_in_every_reading() -> None:

@@ -14,6 +14,7 @@ from calibgui.engine.assessment.choices.lens_choice import (
     _Attempt,
     _list_dispensable,
     _prefer_determined,
+    _recommend,
     choose_lens,
     choose_lens_stepwise,
 )
@@ -53,7 +54,7 @@ def test_a_model_that_the_views_leave_open_is_not_solved_to_its_end() -> None:
 
 def test_a_fisheye_gets_its_model(fisheye: LensChoice) -> None:
     assert fisheye.model == "kannala-brandt"
-    assert fisheye.reference == "kannala-brandt-decentering"
+    assert set(fisheye.errors) == {"kannala-brandt", "kannala-brandt-decentering"}
     assert fisheye.chosen.held_out == pytest.approx(0.1 * np.sqrt(2), rel=0.08)
 
 
@@ -74,7 +75,7 @@ def test_the_figures_of_a_candidate_are_those_of_the_lens(fisheye: LensChoice) -
     assert 0.85 < trial.valid_share < 1.0  # it folds in the image's corners,
     assert np.isnan(trial.field_of_view[2])  # whose rays are therefore not known
     assert fisheye.differences["kannala-brandt"] == 0.0
-    assert fisheye.differences["ucm"] > fisheye.tolerance
+    assert fisheye.differences["ucm"] > 0.1
 
 
 def test_models_far_from_the_corners_are_not_asked_about_unseen_views(
@@ -83,7 +84,7 @@ def test_models_far_from_the_corners_are_not_asked_about_unseen_views(
     trial = fisheye.trials["brown-conrady-4"]
     assert trial.validation is None
     assert trial.held_out == np.inf
-    assert "brown-conrady-4" not in fisheye.adequate
+    assert "brown-conrady-4" not in fisheye.errors
 
 
 def test_models_that_are_not_sound_are_asked_only_if_none_is(fisheye: LensChoice) -> None:
@@ -145,13 +146,13 @@ def test_coefficients_that_the_views_leave_open_are_held() -> None:
     assert not trial.calibration.undetermined
 
 
-def test_a_lens_with_open_coefficients_has_to_predict_2_percent_better(fisheye: LensChoice) -> None:
+def test_a_lens_with_open_coefficients_has_to_predict_better(fisheye: LensChoice) -> None:
     determined = fisheye.trials["kannala-brandt"]
     other = replace(fisheye.trials["kannala-brandt-decentering"], fixed={"k4": 0.0})
     assert other.left_open == ("k4",)
-    for gain, kept in ((0.019, [determined]), (0.021, [determined, other])):
-        better = replace(other, validation=predict(determined.held_out / (1 + gain), other))
-        kept_models = [t.model for t in _prefer_determined([determined, better], [SIMPLEST_MODEL])]
+    for gain, kept in ((0.009, [determined]), (0.02, [determined, other])):
+        better = replace(other, validation=predict(determined.held_out / (1 + gain), determined))
+        kept_models = [t.model for t in _prefer_determined([determined, better])]
         assert kept_models == [trial.model for trial in kept]
 
 
@@ -163,7 +164,7 @@ def test_coefficients_that_are_spared_count_as_determined(fisheye: LensChoice) -
     paper = replace(fisheye.trials[SIMPLEST_MODEL], fixed={"k3": 0.0})
     assert paper.left_open == ("k3",)
     near = replace(paper, validation=predict(spared.held_out, whole))
-    assert _prefer_determined([spared, near], [SIMPLEST_MODEL]) == [spared, near]
+    assert _prefer_determined([spared, near]) == [spared, near]
 
 
 def predict(held_out: float, like: LensTrial) -> LeftOut:
@@ -225,8 +226,38 @@ def test_it_can_be_cancelled() -> None:
         choose_lens(scene(barrel(), 4).views, VGA, progress=cancel)
 
 
-def test_what_is_preferred_is_taken_wherever_it_is_as_good() -> None:
-    """A lens without distortion is followed by all: the first of the list is the choice."""
+def predict_as(trial: LensTrial, held_out: float) -> LensTrial:
+    """Return a trial with another error on unseen views."""
+    return replace(trial, validation=predict(held_out, trial))
+
+
+def test_of_those_that_predict_alike_the_best_known_is_chosen() -> None:
+    """A simpler one is taken as long as no other knows pixels better by more than a fifth."""
     views = scene(example("pinhole"), 8).noisy(0.1, np.random.default_rng(2))
-    for names in (("kannala-brandt", "brown-conrady"), ("brown-conrady", "kannala-brandt")):
-        assert choose_lens(views, VGA, names, preferred=names).model == names[0]
+    attempt = _Attempt(views, VGA, None, {})
+    attempt.try_lenses(("brown-conrady-4", "brown-conrady"))
+    simple, rich = attempt.trials["brown-conrady-4"], attempt.trials["brown-conrady"]
+    assert simple.parameters < rich.parameters
+    h, few = simple.held_out, simple.model
+    for unseen, sigmas, chosen in (
+        (h, 1.0, few),  # as the views have it
+        (h, 0.7, rich.model),  # known better by more than a fifth,
+        (h, 0.9, few),  # or by less
+        (0.9 * h, 40.0, rich.model),  # predicts better, so that it does not matter
+        (h - 1e-4, 40.0, few),  # or better by what nobody sees
+    ):
+        other = predict_as(rich, unseen)
+        covariance = simple.calibration.covariance
+        scale = covariance[0, 0] / rich.calibration.covariance[0, 0] * sigmas**2
+        calibration = replace(other.calibration, covariance=other.calibration.covariance * scale)
+        trials = {few: simple, rich.model: replace(other, calibration=calibration)}
+        assert _recommend(trials, {}, views).model == chosen, (unseen, sigmas)
+
+
+def test_no_coefficients_are_taken_for_what_nobody_sees() -> None:
+    """Corners good to 0.004 px tell Brown's model from the paper's, and more so a thin prism."""
+    views = scene(barrel(), 8, seed=3).noisy(0.004, np.random.default_rng(3))
+    choice = choose_lens(views, VGA, ("brown-conrady", "thin-prism"))
+    brown, rich = choice.trials["brown-conrady"], choice.trials["thin-prism"]
+    assert rich.held_out < 0.9 * brown.held_out < 0.02
+    assert choice.model == "brown-conrady"

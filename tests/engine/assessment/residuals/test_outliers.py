@@ -13,6 +13,7 @@ from calibgui.engine.calibration.observations import Observation
 from calibgui.engine.camera.camera import Camera
 from calibgui.engine.camera.projection import pixels_from_rays
 from calibgui.engine.geometry.rotations import rotation_from_vector
+from tests.engine.scenes import VGA, barrel, scene
 
 CAMERA = Camera((640, 480), [657, 655, 305, 243, 0.25, 0.06, -0.05, 1e-4, 3e-4, 0])
 BOARD = Board(9, 12, 25.0)
@@ -97,3 +98,14 @@ def test_clean_data_lose_next_to_nothing() -> None:
 
 def test_perfect_data_lose_nothing() -> None:
     assert not screen_outliers(clean(6, 1, noise=0.0), CAMERA.size).rejected
+
+
+def test_good_views_come_back_once_those_that_draw_the_camera_are_left_out() -> None:
+    """Beside two that were cropped and stretched a third loses most of its corners at first."""
+    rng, middle = np.random.default_rng(6), np.array([320.0, 240.0])
+    views = scene(barrel(), 10, seed=6).noisy(0.05, rng)
+    for k in range(2):
+        uv = middle + np.array([1.2, 1.1]) * (views[k].uv - middle) + [10, -15]
+        views[k] = Observation(uv, views[k].xy)
+    screening = screen_outliers(views, VGA)
+    assert [rejected.view for rejected in screening.rejected] == [0, 1]

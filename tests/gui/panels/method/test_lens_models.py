@@ -49,13 +49,13 @@ def test_the_button_compares_and_the_tables_hold_the_figures(
     shown: Shown[LensModelsPanel], few_views: Result, choice: LensChoice, qtbot: QtBot
 ) -> None:
     panel = shown(LensModelsPanel, few_views)
-    assert panel.words.toPlainText().startswith("This result is of the lens model Lucchese")
+    assert panel.words.text().startswith("This result is of the lens model Lucchese")
     assert not panel.tables.isVisible() and not panel.use.isVisible()
     qtbot.mouseClick(panel.run, LEFT)
     assert not panel.run.isEnabled()
     qtbot.waitUntil(lambda: panel.found is not None, timeout=60_000)
     assert panel.tables.isVisible() and "ompare" in panel.run.text()
-    assert panel.words.toPlainText() == describe_lens_choice(choice)
+    assert panel.words.text() == describe_lens_choice(choice)
     rows = list_lens_rows(choice)
     for row, errors, image in zip(
         rows, read_table(panel.tables.errors), read_table(panel.tables.image), strict=True
@@ -114,7 +114,7 @@ def test_a_comparison_holds_for_the_views_that_it_is_of(
     assert panel.found is choice
     panel.show_result(other)
     assert panel.found is None
-    assert panel.words.toPlainText().startswith("This result is of")
+    assert panel.words.text().startswith("This result is of")
     panel.show_result(few_views)
     assert panel.found is None, "it would have to be made again"
 
@@ -122,9 +122,7 @@ def test_a_comparison_holds_for_the_views_that_it_is_of(
 def test_too_few_views_are_told(shown: Shown[LensModelsPanel], qtbot: QtBot) -> None:
     panel = shown(LensModelsPanel, made(count=2))
     qtbot.mouseClick(panel.run, LEFT)
-    qtbot.waitUntil(
-        lambda: "too few to compare lens models" in panel.words.toPlainText(), timeout=60_000
-    )
+    qtbot.waitUntil(lambda: "too few to compare lens models" in panel.words.text(), timeout=60_000)
 
 
 def test_using_a_model_sets_it_and_calibrates(full: MainWindow, qtbot: QtBot) -> None:

@@ -22,13 +22,19 @@ from tests.gui.panels.conftest import Shown, click
 def test_table_holds_stage_one(shown: Shown[StageOnePanel], result: Result) -> None:
     panel = shown(StageOnePanel, result)
     rows = list(csv.reader(io.StringIO(panel.table.as_csv())))
-    units = {"px": ("xp", "yp", "fx", "fy"), "1/px²": ("k1",), "px′": ("RMS",)}
+    units = {"px": ("xp", "yp", "fx", "fy"), "1/px²": ("k1",), "px′": ("RMS", "σ")}
     unit_of = {name: f" [{unit}]" for unit, names in units.items() for name in names}
-    names = ["View", "xp", "yp", "k1", "fy/fx", "fx", "fy", "Steps", "RMS"]
+    names = ["View", "xp", "yp", "k1", "fy/fx", "fx", "fy", "Steps", "RMS", "σ", "Corners"]
     assert rows[0] == [name + unit_of.get(name, "") for name in names]
-    for row, view, name in zip(
-        rows[1:], result.calibration.stage_one, [v.image for v in result.used], strict=True
+    for row, view, name, seen in zip(
+        rows[1:],
+        result.calibration.stage_one,
+        [v.image for v in result.used],
+        result.observations(),
+        strict=True,
     ):
+        corners = len(seen.uv)
+        assert view.rms * np.sqrt(corners / (2 * corners - 11)) == pytest.approx(float(row[-2]))
         values = [
             view.xp,
             view.yp,
@@ -38,6 +44,8 @@ def test_table_holds_stage_one(shown: Shown[StageOnePanel], result: Result) -> N
             view.fy,
             view.iterations,
             view.rms,
+            float(row[-2]),
+            corners,
         ]
         assert row[0] == name
         np.testing.assert_array_equal([float(text) for text in row[1:]], values)

@@ -97,7 +97,7 @@ class ReadEdges(NamedTuple):
         return np.stack([n[..., 1], -n[..., 0]], axis=-1) * np.array([[1.0], [-1.0]])
 
 
-class EdgeMap(NamedTuple):
+class EdgeLens(NamedTuple):
     """The map fitted to the edges at n corners, and how it varies with k parameters."""
 
     first: Array
@@ -142,7 +142,7 @@ def clip_arms(uv: Array, tangents: Array, arm: Array, size: Size) -> tuple[Array
     return (begin + end) / 2, (end - begin) / 2
 
 
-def fit_edge_maps(cells: Array, edges: ReadEdges) -> list[EdgeMap]:
+def fit_lenses_to_edges(cells: Array, edges: ReadEdges) -> list[EdgeLens]:
     """Fit the map to the edges at corners: without a lens and, where the corners show one, with it.
 
     Without, three of the parameters stand for what a weak lens adds to a homography.
@@ -178,7 +178,7 @@ def fit_edge_maps(cells: Array, edges: ReadEdges) -> list[EdgeMap]:
         third = unit * np.tensordot(_THIRD_DERIVATIVE, offset, 1).T / edges.half**3
         degree = np.maximum(np.arange(varied.shape[-1]) - _PARAMETERS, LENS)
         fits.append(
-            EdgeMap(
+            EdgeLens(
                 unit / scale * first.transpose(0, 2, 1),
                 stretch,
                 rest,

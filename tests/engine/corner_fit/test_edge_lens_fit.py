@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from calibgui.engine.corner_fit.edge_map import clip_arms
+from calibgui.engine.corner_fit.edge_lens_fit import clip_arms
 
 SIZE = (200, 100)
 TANGENTS = np.array([[0.8, 0.6], [-0.6, 0.8]])

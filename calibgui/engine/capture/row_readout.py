@@ -1,0 +1,100 @@
+"""The time that a camera needs to read the rows of an image, from how a moving board is bent.
+
+A rolling shutter reads one row after the other. Where the board moves by m px/s in the image, a
+corner in row v of H is seen where it has come to by then,
+
+    uv = projection(pose) + tau (v / H) m,
+
+tau being the time from the first row to the last. Most of that looks like another pose. With P the
+projection on what no pose explains (derivatives by the pose J: P = 1 - J (J^T J)^-1 J^T), g the
+corners' (v / H) m and r the residuals of the best pose, one frame tells
+
+    tau_k = g^T P r / g^T P g,     var(tau_k) = s^2 / g^T P g,
+
+s^2 being what is left of the residuals. Frames in which nothing moves tell nothing, and weigh
+nothing. What the camera so far has wrong bends all frames of one motion alike: the frames' scatter
+about their mean counts where it is larger than these variances. The sign tells from which end the
+rows are read.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from calibgui.engine.arrays import Array
+from calibgui.engine.camera.camera import Camera
+from calibgui.engine.camera.distortion import project_points
+from calibgui.engine.geometry.pose import Pose
+
+_MIN_SIGMAS = 4.0
+"""Standard deviations from which a time is told: chance reaches it once in 16,000 looks."""
+_STEP = np.cbrt(np.finfo(np.float64).eps)
+"""Step of the central differences by the pose, rad, and over the distance: with it rounding and
+curvature err alike."""
+
+
+class RowReadout:
+    """Adds up what frames of a moving board tell of the time in which rows are read."""
+
+    def __init__(self) -> None:
+        self._times: list[float] = []
+        self._weights: list[float] = []
+
+    def add_frame(self, camera: Camera, pose: Pose, xy: Array, uv: Array, motion: Array) -> None:
+        """Add a frame.
+
+        Args:
+            camera: the camera, as far as it is known.
+            pose: cam_from_board that fits best.
+            xy: (n, 2) corners on the board, mm.
+            uv: (n, 2) where they were found, px.
+            motion: (n, 2) how they move in the image, px/s.
+        """
+        J = _differentiate_by_pose(camera, pose, xy)
+        g = (motion * (uv[:, 1:] / camera.size[1])).ravel()
+        r = (uv - project_points(xy, camera, pose)).ravel()
+        if not (np.isfinite(J).all() and np.isfinite(r).all()) or len(r) <= 7:
+            return
+        basis = np.linalg.qr(J)[0]
+        g, r = (each - basis @ (basis.T @ each) for each in (g, r))
+        information = float(g @ g)
+        if not information:
+            return
+        time = float(g @ r) / information
+        variance = float(np.sum((r - time * g) ** 2)) / (len(r) - 7)
+        self._times.append(time)
+        self._weights.append(information / variance)
+
+    def estimate(self) -> tuple[float, float]:
+        """Return tau and its standard deviation, s; NaN and infinite before the second frame."""
+        times, weights = np.array(self._times), np.array(self._weights)
+        if len(times) < 2:
+            return np.nan, np.inf
+        mean = float(weights @ times / weights.sum())
+        scatter = float(weights @ (times - mean) ** 2) / (len(times) - 1)
+        return mean, float(np.sqrt(max(1.0, scatter) / weights.sum()))
+
+    def describe(self) -> str:
+        """Say how long the rows take, where that is certain; else ""."""
+        time, sigma = self.estimate()
+        if not abs(time) > _MIN_SIGMAS * sigma:
+            return ""
+        return (
+            f"Rolling shutter: rows are read over {1000 * abs(time):.0f} ± {1000 * sigma:.0f} ms. "
+            "Let the board stand by itself."
+        )
+
+
+def _differentiate_by_pose(camera: Camera, pose: Pose, xy: Array) -> Array:
+    """Return the derivatives (2n, 6) of the corners by rvec and tvec, by central differences."""
+    rvec, tvec = np.array(pose.rvec), np.array(pose.tvec)
+    steps = np.repeat([_STEP, _STEP * np.linalg.norm(tvec)], 3)
+    columns = []
+    for k in range(6):
+        step = steps[k] * np.eye(6)[k]
+        ahead, behind = (
+            project_points(xy, camera, Pose(rvec + sign * step[:3], tvec + sign * step[3:]))
+            for sign in (1, -1)
+        )
+        columns.append((ahead - behind).ravel() / (2 * steps[k]))
+    return np.stack(columns, axis=-1)
