@@ -17,13 +17,15 @@ from calibgui.app.calibrating.settings import Settings
 from calibgui.app.outputs.output_files import check_outputs, check_suffix
 from calibgui.app.photographs.detection import Detection
 from calibgui.app.rig.calibrating import calibrate_photographs, search_cameras
-from calibgui.app.rig.frames import write_frames
-from calibgui.app.rig.pairing import pair_files, pair_photographs
+from calibgui.app.rig.frames import find_videos, read_frame_times, write_frames
+from calibgui.app.rig.pairing import find_cameras, pair_files, state_times
+from calibgui.app.rig.time_pairing import Times, pair_by_times, read_file_times
 from calibgui.cli.arguments import (
     add_corner_method,
     add_grid_size_option,
     add_square_option,
     parse_model,
+    parse_positive,
     require_board,
     search_images,
 )
@@ -35,7 +37,6 @@ from calibgui.dataset import DEFAULT_SQUARE, RigPairing, RigResult
 from calibgui.engine.boards import Board
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.images import is_video
-from calibgui.engine.opencv import read_frame_rate
 from calibgui.engine.rig import Mistake
 from calibgui.formats import ImportedCamera
 from calibgui.formats.origin import RIG
@@ -92,8 +93,15 @@ def configure(parser: argparse.ArgumentParser) -> None:
         "--times",
         type=Path,
         metavar="FILE",
-        help="CSV table of times with the columns camera, number (of the photograph or frame) and "
-        "time_s",
+        help="CSV table of times with the columns file and time_s, or camera, number (of the "
+        "photograph or frame) and time_s",
+    )
+    parser.add_argument(
+        "--within",
+        type=parse_positive,
+        metavar="SECONDS",
+        help="pair photographs that were taken at most so far apart, by --times, by names with "
+        "seconds or nanoseconds since 1970 as of ROS, or by EXIF",
     )
     parser.add_argument(
         "--every",
@@ -129,10 +137,8 @@ def run(options: argparse.Namespace, console: Console) -> None:
     output = console.take_output(options.output)
     if output:
         check_suffix(output, (".json",), "JSON")
-    pairing, times = _pair(options, console, output)
-    if options.times:
-        times = read_times(options.times, {camera.name for camera in pairing.cameras})
-    if options.offsets and len(times) < len(pairing.cameras):
+    pairing = _pair(options, console, output)
+    if options.offsets and not all(camera.times for camera in pairing.cameras):
         raise CalibrationError(
             "Offsets in time cannot be told in seconds: it is not known when the photographs were "
             "taken.",
@@ -156,7 +162,6 @@ def run(options: argparse.Namespace, console: Console) -> None:
             settings,
             known,
             options.hold,
-            times,
             options.offsets,
             tell=lambda _: advance(next(done), len(pairing.cameras)),
         )
@@ -175,27 +180,26 @@ def run(options: argparse.Namespace, console: Console) -> None:
         console.print_text("\n" + "\n".join(map(format_bullet, messages)))
 
 
-def _pair(
-    options: argparse.Namespace, console: Console, output: Path | None
-) -> tuple[RigPairing, dict[str, dict[int, float]]]:
-    """Pair the photographs, or the frames of videos, of the cameras; frames have times."""
-    paths = [Path(name) for name in options.cameras]
-    videos = [path for path in paths if path.is_file() and is_video(path)]
-    if not videos:
-        return pair_photographs(options.cameras), {}
-    if len(videos) < len(paths) or len(videos) < 2:
+def _pair(options: argparse.Namespace, console: Console, output: Path | None) -> RigPairing:
+    """Pair the photographs, or the frames of videos, of the cameras."""
+    videos = find_videos(options.cameras)
+    times: Times = {}
+    groups: Mapping[str, Sequence[Path]]
+    if videos:
+        folder = output.parent if output else Path()
+        groups = write_frames(videos, folder, options.every, console.show_progress)
+        times = read_frame_times(videos, groups)
+    elif any(is_video(name) for name in options.cameras if Path(name).is_file()):
         raise CalibrationError(
             "A rig is of videos of all cameras, or of photographs.", "Name a video for each camera."
         )
-    folder = output.parent if output else Path()
-    pairing = pair_files(write_frames(videos, folder, options.every, console.show_progress))
-    rates = {video.stem: read_frame_rate(str(video)) for video in videos}
-    times = {
-        camera.name: {number: number / rates[camera.name] for number in camera.files}
-        for camera in pairing.cameras
-        if rates[camera.name]
-    }
-    return pairing, times
+    else:
+        groups = find_cameras(options.cameras)
+    if options.times:
+        times = read_times(options.times, groups)
+    if options.within is not None:
+        return pair_by_times(groups, times or read_file_times(groups), options.within)
+    return state_times(pair_files(groups), times)
 
 
 def _search(

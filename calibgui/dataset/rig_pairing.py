@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 
 
@@ -16,6 +16,8 @@ class CameraPhotographs:
     """Name of the camera, which no other of the rig has."""
     files: Mapping[int, Path]
     """Its photographs by the number of the instant."""
+    times: Mapping[Path, float] = field(default_factory=dict)
+    """When they were taken by the camera's clock, s, as far as it is known."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -117,7 +117,7 @@ def read_exif_date(files: Iterable[Path]) -> str:
             continue  # the search of the photograph says what is wrong with it
         if date is not None:
             dates.append(date)
-    return statistics.median_low(dates).isoformat() if dates else ""
+    return statistics.median_low(dates).isoformat(timespec="seconds") if dates else ""
 
 
 def combine_digests(parts: Iterable[str]) -> str:

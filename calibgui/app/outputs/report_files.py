@@ -149,7 +149,7 @@ def _read_camera(header: Header) -> Mapping[str, str]:
         "camera": named.strip(),
         "lens": exif.lens or "",
         "setting": "" if length is None else f"{length:g} mm",
-        "date": "" if exif.date is None else exif.date.isoformat(sep=" "),
+        "date": "" if exif.date is None else exif.date.isoformat(sep=" ", timespec="seconds"),
     }
 
 

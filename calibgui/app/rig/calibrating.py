@@ -51,7 +51,6 @@ def calibrate_photographs(
     settings: Settings,
     known: Mapping[str, ImportedCamera] | None = None,
     hold: bool = False,
-    times: Mapping[str, Mapping[int, float]] | None = None,
     estimate_offsets: bool = False,
     tell: Callable[[str], None] = lambda _: None,
 ) -> RigResult:
@@ -64,8 +63,8 @@ def calibrate_photographs(
         known: cameras that are known beforehand, by name. One whose errors are known is estimated
             with them as prior; any other is held.
         hold: True to hold all cameras as each alone is.
-        times: time of each photograph, s, by the names of cameras and the numbers of instants.
-        estimate_offsets: True to estimate by how much the clock of each camera is late.
+        estimate_offsets: True to estimate by how much the clock of each camera is late, by the
+            times of the photographs; it is taken that they are a second apart if none is known.
         tell: a function that is told which camera is calibrated.
 
     Raises:
@@ -81,7 +80,9 @@ def calibrate_photographs(
             camera = _calibrate_alone(name, corner_set, numbers, settings)
         else:
             camera = _take_known(name, given, corner_set, numbers)
-        camera = replace(camera, times=(times or {}).get(name, {}))
+        taken = photographs.times
+        times = {instant: taken[f] for instant, f in photographs.files.items() if f in taken}
+        camera = replace(camera, times=times)
         cameras.append(camera.hold() if hold else camera)
         named = {instant: image for image, instant in numbers.items()}
         for instant, view in camera.views.items():

@@ -6,14 +6,29 @@ of the others. Whoever cannot start his cameras together knows it at the end (``
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from calibgui.app.outputs.output_files import make_folder
 from calibgui.app.photographs.videos import ShowProgress
 from calibgui.engine import opencv
 from calibgui.engine.errors import CalibrationError
-from calibgui.engine.images import write_image
+from calibgui.engine.images import FORMATS, is_video, list_suffixes, write_image
+
+
+def find_videos(names: Sequence[str]) -> list[Path]:
+    """Return the videos of several cameras: files, or those of one folder without photographs.
+
+    The list is empty if some names are of something else.
+    """
+    paths = [Path(name) for name in names]
+    if len(paths) == 1 and paths[0].is_dir():
+        files = sorted(path for path in paths[0].iterdir() if path.is_file())
+        if any(file.suffix.lower() in (*FORMATS, *list_suffixes()) for file in files):
+            return []
+        paths = [file for file in files if is_video(file)]
+    is_of_videos = len(paths) > 1 and all(path.is_file() and is_video(path) for path in paths)
+    return paths if is_of_videos else []
 
 
 def write_frames(
@@ -58,3 +73,20 @@ def write_frames(
                 "Save it as MP4 with H.264, or frames of it as PNG.",
             )
     return written
+
+
+def read_frame_times(
+    videos: Sequence[Path], frames: Mapping[str, Sequence[Path]]
+) -> dict[str, dict[Path, float]]:
+    """Return the time of each frame from the beginning of its video, s, where its rate is known.
+
+    Args:
+        videos: the videos.
+        frames: their frames as `write_frames` has written them.
+    """
+    rates = {video.stem: opencv.read_frame_rate(str(video)) for video in videos}
+    return {
+        name: {file: int(file.stem.rpartition("-")[2]) / rates[name] for file in files}
+        for name, files in frames.items()
+        if rates[name]
+    }

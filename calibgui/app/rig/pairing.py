@@ -5,8 +5,9 @@ folder for each, or the photographs of all: then one part of the names, a word o
 the camera, as in left01 and right01 or cam0_0007 and cam1_0007. It is a word that varies, or the
 number without which most names occur for several cameras.
 
-Photographs of one instant have the same name but for the camera, or the same last number in it;
-whichever pairs more.
+Photographs of one instant have the same name but for the camera, or the same last number in it, or
+were taken at the same time if their names tell it (``time_pairing.py``); whichever pairs more.
+Where none of these pairs any it is EXIF that tells.
 """
 
 from __future__ import annotations
@@ -14,9 +15,11 @@ from __future__ import annotations
 import re
 from collections import Counter, defaultdict
 from collections.abc import Collection, Hashable, Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 
 from calibgui.app.photographs.paths import count_images_below, find_images, make_natural_key
+from calibgui.app.rig.time_pairing import Times, pair_by_times, read_file_times, read_name_times
 from calibgui.dataset import CameraPhotographs, RigPairing, RigResult
 from calibgui.engine.errors import CalibrationError
 
@@ -28,24 +31,34 @@ _HINT = (
 )
 
 
-def pair_photographs(names: Sequence[str]) -> RigPairing:
+def pair_photographs(names: Sequence[str], tolerance: float | None = None) -> RigPairing:
     """Find the cameras and instants of photographs.
 
     Args:
         names: folders, files and patterns.
+        tolerance: largest time between photographs of one instant, s, which are paired by their
+            times alone; None to pair by what pairs most.
 
     Raises:
         CalibrationError: if a name means no photographs, the names tell no cameras, or no two
             cameras have a photograph of one instant.
     """
-    groups = _group_by_camera(names)
-    if len(groups) < 2:
-        raise CalibrationError("The names of the photographs tell no two cameras.", _HINT)
+    groups = find_cameras(names)
+    if tolerance is not None:
+        return pair_by_times(groups, read_file_times(groups), tolerance)
     return pair_files(groups)
 
 
+def find_cameras(names: Sequence[str]) -> dict[str, Sequence[Path]]:
+    """Find the photographs of each camera by its name. Raises as `pair_photographs`."""
+    groups = _group_by_camera(names)
+    if len(groups) < 2:
+        raise CalibrationError("The names of the photographs tell no two cameras.", _HINT)
+    return groups
+
+
 def pair_files(groups: Mapping[str, Sequence[Path]]) -> RigPairing:
-    """Pair the photographs of cameras, by whichever of names and numbers pairs more.
+    """Pair the photographs of cameras, by what pairs most.
 
     Args:
         groups: the photographs of each camera, by its name.
@@ -65,10 +78,14 @@ def pair_files(groups: Mapping[str, Sequence[Path]]) -> RigPairing:
         ("names", by_name),
     ]
     how, keyed = max(candidates, key=lambda candidate: _count_shared(candidate[1]))
+    by_times = _pair_by_file_times(groups, _count_shared(keyed))
+    if by_times is not None:
+        return by_times
     if not _count_shared(keyed):
         raise CalibrationError(
             "No two cameras have photographs of the same name or number.",
-            "Photographs of one instant are paired by their names: give them the same number.",
+            "Photographs of one instant are paired by their names: give them the same number, or "
+            "say how far apart in time they may be (--within).",
         )
     keys = sorted(
         {key for files in keyed.values() for key in files},
@@ -82,6 +99,22 @@ def pair_files(groups: Mapping[str, Sequence[Path]]) -> RigPairing:
         for camera, files in keyed.items()
     )
     return RigPairing(cameras, {number[key]: str(key) for key in keys}, how)
+
+
+def _pair_by_file_times(groups: Mapping[str, Sequence[Path]], shared: int) -> RigPairing | None:
+    """Pair photographs by times, if that pairs more than are `shared` by names; else return None.
+
+    EXIF is read only if none is shared.
+    """
+    times = read_name_times(groups) if shared else read_file_times(groups)
+    if len(times) < len(groups):
+        return None
+    try:
+        pairing = pair_by_times(groups, times)
+    except CalibrationError:
+        return None
+    pairs = sum(len(camera.files) for camera in pairing.cameras) - len(pairing.instants)
+    return pairing if pairs > shared else None
 
 
 def move_photographs(
@@ -134,10 +167,16 @@ def _replace_files(
     """
     cameras = list(pairing.cameras)
     in_order = {instant: files[instant] for instant in instants if instant in files}
-    cameras[camera] = CameraPhotographs(cameras[camera].name, in_order)
+    cameras[camera] = replace(cameras[camera], files=in_order)
     seen = {instant for each in cameras for instant in each.files}
     kept = {instant: name for instant, name in instants.items() if instant in seen}
     return RigPairing(tuple(cameras), kept, pairing.how)
+
+
+def state_times(pairing: RigPairing, times: Times) -> RigPairing:
+    """Return a pairing whose photographs were taken at these times."""
+    cameras = tuple(replace(each, times=times.get(each.name, {})) for each in pairing.cameras)
+    return replace(pairing, cameras=cameras)
 
 
 def recall_pairing(result: RigResult) -> RigPairing:

@@ -35,6 +35,8 @@ class _Tag(IntEnum):
     EXIF_DIRECTORY = 34665
     DATE_OF_EXPOSURE = 36867
     FOCAL_LENGTH = 37386
+    FRACTION_OF_CHANGE = 37520
+    FRACTION_OF_EXPOSURE = 37521
     EQUIVALENT_FOCAL_LENGTH = 41989
     LENS_MAKE = 42035
     LENS_MODEL = 42036
@@ -75,7 +77,8 @@ class Exif:
     focal_length_mm: float | None = None
     """Nominal focal length, mm."""
     date: datetime | None = None
-    """Local time of the exposure, or of the last change of the file."""
+    """Local time of the exposure, or of the last change of the file, with its fraction of a second
+    if that is stated."""
     lens_maker: str | None = None
     """Maker of the lens."""
     equivalent_focal_length_mm: float | None = None
@@ -170,7 +173,8 @@ def _read_tags(data: bytes | mmap) -> tuple[Any, Exif]:
         _read_text(tags[_Tag.MODEL]),
         _read_text(tags.get(_Tag.LENS_MODEL)),
         _read_length(tags.get(_Tag.FOCAL_LENGTH)),
-        _read_date(tags.get(_Tag.DATE_OF_EXPOSURE)) or _read_date(tags[_Tag.DATE_OF_CHANGE]),
+        _read_date(tags.get(_Tag.DATE_OF_EXPOSURE), tags.get(_Tag.FRACTION_OF_EXPOSURE))
+        or _read_date(tags[_Tag.DATE_OF_CHANGE], tags.get(_Tag.FRACTION_OF_CHANGE)),
         _read_text(tags.get(_Tag.LENS_MAKE)),
         _read_length(tags.get(_Tag.EQUIVALENT_FOCAL_LENGTH)),
     )
@@ -190,9 +194,14 @@ def _read_length(value: Any) -> float | None:
     return length if 0 < length < float("inf") else None
 
 
-def _read_date(value: object) -> datetime | None:
-    """Return a tag's date; None if it is unknown or damaged."""
+def _read_date(value: object, fraction: object) -> datetime | None:
+    """Return a tag's date with the digits of its fraction of a second, if there are any; None if it
+    is unknown or damaged."""
     try:
-        return datetime.strptime(_read_text(value) or "", "%Y:%m:%d %H:%M:%S")
+        date = datetime.strptime(_read_text(value) or "", "%Y:%m:%d %H:%M:%S")
     except ValueError:
         return None
+    digits = _read_text(fraction) or ""
+    if not (digits.isascii() and digits.isdecimal()):
+        return date
+    return date.replace(microsecond=int(digits[:6].ljust(6, "0")))

@@ -3,17 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import replace
 from functools import partial
 from pathlib import Path
-from typing import cast
+from typing import TypeVar
 
 from PySide6.QtCore import Signal
 from PySide6.QtGui import QColor, QPainter, QPaintEvent
 from PySide6.QtWidgets import (
-    QCheckBox,
     QFileDialog,
-    QFormLayout,
     QHBoxLayout,
     QLabel,
     QMenu,
@@ -24,21 +21,11 @@ from PySide6.QtWidgets import (
 )
 
 from calibgui.app.calibrating.settings import Settings
-from calibgui.app.photographs.board_recognition import explain_missing_board, find_any_board
-from calibgui.app.photographs.detection import Detection, find_views
-from calibgui.app.rig.calibrating import calibrate_photographs, search_cameras
-from calibgui.app.rig.pairing import (
-    leave_photographs_out,
-    move_photographs,
-    pair_photographs,
-    recall_pairing,
-)
-from calibgui.dataset import DEFAULT_SQUARE, CornerSet, RigPairing, RigResult, relate_cameras
-from calibgui.engine.arrays import GridSize
-from calibgui.engine.boards import Board, Pattern
+from calibgui.app.rig.frames import find_videos
+from calibgui.app.rig.pairing import recall_pairing
+from calibgui.dataset import CornerSet, RigPairing, RigResult
 from calibgui.engine.errors import CalibrationError
-from calibgui.engine.images import Pixels, read_colour
-from calibgui.engine.rig import rectify_pair, rectify_stereo_image
+from calibgui.engine.images import read_colour
 from calibgui.formats.rig_files import RIG_EXPORTERS
 from calibgui.formats.rig_json import read_rig, write_rig
 from calibgui.gui.jobs.job import Job
@@ -46,23 +33,26 @@ from calibgui.gui.jobs.jobs import Jobs
 from calibgui.gui.panels.evidence.scene_view import SceneView
 from calibgui.gui.panels.latest import Latest
 from calibgui.gui.rig.instant_view import InstantView
-from calibgui.gui.rig.pairing_matrix import PairingMatrix
+from calibgui.gui.rig.pairing_pane import PairingPane
 from calibgui.gui.rig.rig_answer import RigAnswer
+from calibgui.gui.rig.rig_form import RigForm
+from calibgui.gui.rig.rig_work import (
+    Shown,
+    pair_names,
+    rectify_photographs,
+    search_and_calibrate,
+)
 from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.buttons import Button, Kind
-from calibgui.gui.widgets.number_box import NumberBox
 from calibgui.gui.widgets.save_names import ask_for_name
 from calibgui.gui.widgets.scrolling import make_scrollable
 from calibgui.gui.widgets.tab_bar import TabWidget
-from calibgui.gui.widgets.wrapped_label import WrappedLabel
 from calibgui.report.rig import describe_pairing
 from calibgui.report.scene3d import build_rig_scene
 
-_SIDE, _MATRIX = 340, 300
-"""Widths of what stands at the right and of the matrix, device-independent px."""
-
-Shown = tuple[list[Pixels], list[str], int | None]
-"""Photographs, their names, and the number of columns that they stand in, if it matters."""
+T = TypeVar("T")
+_SIDE = 340
+"""Width of what stands at the right, device-independent px."""
 
 
 class RigPage(QWidget):
@@ -78,76 +68,95 @@ class RigPage(QWidget):
         super().__init__()
         self._jobs = jobs
         self._job: Job | None = None
-        self.pairing: RigPairing | None = None
+        self._names: list[str] = []
+        """Folders or videos that the photographs are of; empty for those of a saved rig."""
         self.result: RigResult | None = None
-        self._found: dict[str, CornerSet] = {}
-        self._undo: list[RigPairing] = []
+        self._found: Mapping[str, CornerSet] = {}
         self._at = (0, 0)
         """Camera and instant that are looked at."""
         self._photographs, self._rectified = Latest(jobs, self), Latest(jobs, self)
-        self.matrix, self.answer = PairingMatrix(), RigAnswer()
+        self.pane, self.form, self.answer = PairingPane(), RigForm(), RigAnswer()
+        self.matrix = self.pane.matrix
         self.photographs, self.rectified, self.scene = InstantView(), InstantView(), SceneView()
         self._make_controls()
         self._lay_out()
         self.matrix.instant_chosen.connect(self._look_at)
-        self.matrix.itemSelectionChanged.connect(self._show_buttons)
+        self.pane.changed.connect(self._forget_result)
+        self.form.pairing_wanted.connect(self._pair_again)
         self.scene.picked.connect(self._pick)
         self._show_start()
 
+    @property
+    def pairing(self) -> RigPairing | None:
+        """The cameras and instants; None while there are no photographs."""
+        return self.pane.pairing
+
+    @property
+    def is_running(self) -> bool:
+        """Return whether photographs are paired or searched, or a rig is calibrated."""
+        return self._job is not None
+
     def open_folders(self, names: Sequence[str]) -> None:
-        """Pair the photographs of folders: one for each camera, or one that holds all."""
-        self._jobs.start(
-            self.tr("Pairing photographs"),
-            lambda _: pair_photographs(list(names)),
-            self._begin,
-            failed=self._show_failure,
-            is_about_document=False,
-            owner=self,
-        )
+        """Pair the photographs of folders, one for each camera or one that holds all, or videos."""
+        if self.is_running:
+            return
+        self.form.begin()
+
+        def done(pairing: RigPairing) -> None:
+            self._names = list(names)
+            self._begin(pairing)
+
+        self._pair(names, done)
 
     def open_rig(self, path: Path) -> None:
         """Show a rig that was saved."""
+        if self.is_running:
+            return
 
         def read(_: Job) -> RigResult:
             return read_rig(path)
 
         def done(result: RigResult) -> None:
+            self._names = []
             self._begin(recall_pairing(result))
             self._show_result(result)
 
-        self._jobs.start(
-            self.tr("Opening {0}").format(path.name),
-            read,
+        self._run(self.tr("Opening {0}").format(path.name), read, done)
+
+    def _pair(self, names: Sequence[str], done: Callable[[RigPairing], None]) -> None:
+        """Pair photographs as the form says."""
+        work = partial(pair_names, list(names), self.form.tolerance, self.form.every.value())
+        self._run(self.tr("Pairing photographs"), work, done)
+
+    def _pair_again(self) -> None:
+        """Pair the same photographs by other times, or other frames of the same videos."""
+
+        def done(pairing: RigPairing) -> None:
+            if find_videos(self._names):
+                self._found = {}
+            self.pane.change(pairing)
+
+        if self._names and not self.is_running:
+            self._pair(self._names, done)
+
+    def _run(self, label: str, work: Callable[[Job], T], done: Callable[[T], None]) -> None:
+        """Work beside the window, with the progress at the right."""
+        self._job = self._jobs.start(
+            label,
+            work,
             done,
             failed=self._show_failure,
+            ended=self._end,
             is_about_document=False,
             owner=self,
         )
-
-    @property
-    def is_running(self) -> bool:
-        """Return whether photographs are searched, or a rig is calibrated."""
-        return self._job is not None
+        self._jobs.changed.connect(self._show_progress)
+        self._show_buttons()
 
     def _make_controls(self) -> None:
-        self.square = NumberBox(decimals=3, minimum=0.0, maximum=10_000.0)
-        self.square.setSuffix(self.tr(" mm"))
-        self.square.setSpecialValueText(self.tr("not measured (as if {0} mm)").format("30"))
-        self.square.setAccessibleName(self.tr("Side of a square"))
-        self.robust = QCheckBox(self.tr("Leave out what no camera e&xplains"))
-        self.robust.setToolTip(self.tr("Corners and views that no camera explains take no part"))
-        self.words = WrappedLabel()
         self.state, self.progress = QLabel(), QProgressBar()
         self.progress.setTextVisible(False)
         self.add, self.open = Button(self.tr("&Folders…")), Button(self.tr("O&pen rig…"))
-        self.earlier, self.later = Button(self.tr("Earli&er")), Button(self.tr("La&ter"))
-        self.leave_out, self.undo = Button(self.tr("Lea&ve out")), Button(self.tr("&Undo"))
-        self.earlier.setToolTip(
-            self.tr("Move the chosen photographs of a camera to the instant before")
-        )
-        self.later.setToolTip(
-            self.tr("Move the chosen photographs of a camera to the instant after")
-        )
         self.calibrate = Button(self.tr("&Calibrate rig"), Kind.MAIN)
         self.stop, self.leave = Button(self.tr("&Stop")), Button(self.tr("C&lose"))
         self.export = Button(self.tr("E&xport"), Kind.MAIN)
@@ -159,10 +168,6 @@ class RigPage(QWidget):
         for button, run in (
             (self.add, self._ask_for_folder),
             (self.open, self._ask_for_rig),
-            (self.earlier, lambda: self._move(-1)),
-            (self.later, lambda: self._move(1)),
-            (self.leave_out, self._leave_out),
-            (self.undo, self._take_back),
             (self.calibrate, self._calibrate),
             (self.stop, self._stop),
             (self.leave, self._leave),
@@ -170,35 +175,14 @@ class RigPage(QWidget):
             button.clicked.connect(run)
 
     def _lay_out(self) -> None:
-        left = QWidget()
-        left.setFixedWidth(_MATRIX)
-        column = QVBoxLayout(left)
-        column.setContentsMargins(0, 0, 0, theme.SPACING)
-        column.addWidget(self.matrix, 1)
-        row = QHBoxLayout()
-        row.setContentsMargins(theme.SPACING, 0, theme.SPACING, 0)
-        row.setSpacing(theme.SPACING // 2)
-        for button in (self.earlier, self.later, self.leave_out, self.undo):
-            row.addWidget(button)
-        row.addStretch(1)
-        column.addLayout(row)
         self.tabs = TabWidget()
         self.tabs.addTab(self.photographs, self.tr("Photographs"))
         self.tabs.addTab(self.rectified, self.tr("Rectified"))
         self.tabs.addTab(self.scene, self.tr("3-D"))
-        self._middle = QStackedWidget()
-        self._middle.addWidget(self.tabs)
         title = QLabel(self.tr("Several cameras"))
         title.setFont(theme.make_font(theme.HEADLINE, bold=True))
-        form = QWidget()
-        rows = QFormLayout(form)
-        rows.setContentsMargins(0, 0, 0, 0)
-        rows.setRowWrapPolicy(QFormLayout.RowWrapPolicy.WrapAllRows)
-        rows.addRow(self.words)
-        rows.addRow(self.tr("Side of a square (distance of circles)"), self.square)
-        rows.addRow(self.robust)
         self._side = QStackedWidget()
-        self._side.addWidget(form)
+        self._side.addWidget(make_scrollable(self.form))
         self._side.addWidget(make_scrollable(self.answer))
         side = QWidget()
         side.setFixedWidth(_SIDE)
@@ -220,16 +204,16 @@ class RigPage(QWidget):
         whole = QHBoxLayout(self)
         whole.setContentsMargins(0, 0, 0, 0)
         whole.setSpacing(0)
-        whole.addWidget(left)
-        whole.addWidget(self._middle, 1)
+        whole.addWidget(self.pane)
+        whole.addWidget(self.tabs, 1)
         whole.addWidget(side)
 
     def _show_start(self) -> None:
-        self.words.setText(
+        self._tell(
             self.tr(
                 "Cameras that stand fast to each other and photograph one board together: choose "
                 "the folder that holds a folder for each camera (or all photographs, named as "
-                "left01 and right01), or drop the folders here."
+                "left01 and right01), or drop the folders here, or a video of each camera."
             )
         )
         self.photographs.show_words(self.tr("No photographs yet."))
@@ -238,8 +222,8 @@ class RigPage(QWidget):
 
     def _begin(self, pairing: RigPairing) -> None:
         """Show a new pairing."""
-        self.pairing, self.result = pairing, None
-        self._found, self._undo = {}, []
+        self.pane.begin(pairing)
+        self.result, self._found = None, {}
         self._side.setCurrentIndex(0)
         self._show_pairing()
         shared = pairing.shared or tuple(pairing.instants)
@@ -247,11 +231,9 @@ class RigPage(QWidget):
 
     def _show_pairing(self) -> None:
         assert self.pairing is not None
-        if self.pairing.shared:
-            self.words.setText(describe_pairing(self.pairing))
-        else:
-            self.words.setText(self.tr("No two cameras have a photograph of one instant."))
-        self.matrix.show_pairing(self.pairing, self._found, self.result)
+        nothing_shared = self.tr("No two cameras have a photograph of one instant.")
+        self._tell(describe_pairing(self.pairing) if self.pairing.shared else nothing_shared)
+        self.pane.show_pairing(self._found, self.result)
         self._show_buttons()
 
     def _look_at(self, camera: int, instant: int) -> None:
@@ -282,7 +264,7 @@ class RigPage(QWidget):
             self._start(
                 self._rectified,
                 self.rectified,
-                lambda _: _rectify(result, second, both, list(names)),
+                lambda _: rectify_photographs(result, second, both, list(names)),
             )
 
     def _pick(self, place: int) -> None:
@@ -300,34 +282,9 @@ class RigPage(QWidget):
             lambda error: view.show_words(str(error)),
         )
 
-    def _move(self, step: int) -> None:
-        """Move the chosen photographs to other instants."""
-        assert self.pairing is not None
-        chosen: dict[int, list[int]] = {}
-        for camera, instants in self.matrix.list_chosen().items():
-            files = self.pairing.cameras[camera].files
-            moved = [files[instant] for instant in instants if instant in files]
-            self._change(move_photographs(self.pairing, camera, instants, step))
-            there = self.pairing.cameras[camera].files
-            chosen[camera] = [instant for instant, file in there.items() if file in moved]
-        self.matrix.choose(chosen)
-
-    def _leave_out(self) -> None:
-        assert self.pairing is not None
-        for camera, instants in self.matrix.list_chosen().items():
-            self._change(leave_photographs_out(self.pairing, camera, instants))
-
-    def _change(self, pairing: RigPairing) -> None:
-        """Take another pairing; the rig of the last one no longer holds."""
-        assert self.pairing is not None
-        self._undo.append(self.pairing)
-        self._take(pairing)
-
-    def _take_back(self) -> None:
-        self._take(self._undo.pop())
-
-    def _take(self, pairing: RigPairing) -> None:
-        self.pairing, self.result = pairing, None
+    def _forget_result(self) -> None:
+        """Show another pairing; the rig of the last one no longer holds."""
+        self.result = None
         self._side.setCurrentIndex(0)
         self.rectified.show_words(self.tr("Calibrate the rig first."))
         self.scene.show_scene((), (), (), "")
@@ -335,40 +292,21 @@ class RigPage(QWidget):
 
     def _calibrate(self) -> None:
         """Search what was not searched, and calibrate."""
-        pairing, known = self.pairing, dict(self._found)
-        assert pairing is not None
-        square = self.square.value() or None
-        settings = Settings(robust=self.robust.isChecked())
+        assert self.pairing is not None
 
-        def work(job: Job) -> tuple[dict[str, CornerSet], RigResult]:
-            found = known
-            if not known:
-                job.rename(self.tr("Searching"))
-                found = search_cameras(pairing, partial(_search, job), square)
-            found = {name: _state_square(each, square) for name, each in found.items()}
-            rig = calibrate_photographs(
-                pairing,
-                _keep_paired(found, pairing),
-                settings,
-                tell=lambda name: job.rename(self.tr("Calibrating {0}").format(name)),
-            )
-            return found, rig
-
-        def done(answer: tuple[dict[str, CornerSet], RigResult]) -> None:
+        def done(answer: tuple[Mapping[str, CornerSet], RigResult]) -> None:
             self._found, result = answer
             self._show_result(result)
 
-        self._job = self._jobs.start(
-            self.tr("Searching"),
-            work,
-            done,
-            failed=self._show_failure,
-            ended=self._end,
-            is_about_document=False,
-            owner=self,
+        work = partial(
+            search_and_calibrate,
+            self.pairing,
+            self._found,
+            self.form.side,
+            Settings(robust=self.form.robust.isChecked()),
+            self.form.offsets.isChecked(),
         )
-        self._jobs.changed.connect(self._show_progress)
-        self._show_buttons()
+        self._run(self.tr("Searching"), work, done)
 
     def _show_progress(self) -> None:
         if (job := self._job) is not None:
@@ -404,23 +342,24 @@ class RigPage(QWidget):
     def _show_failure(self, error: Exception) -> None:
         if isinstance(error, CalibrationError):
             self._side.setCurrentIndex(0)
-            self.words.setText(f"{error.message} {error.hint}")
-            theme.set_text_colour(self.words, theme.current().bad)
+            self._tell(f"{error.message} {error.hint}", theme.current().bad)
         else:
             self._jobs.failed.emit(error)
 
+    def _tell(self, text: str, colour: str | None = None) -> None:
+        """Say in the form what is to do, or what went wrong."""
+        self.form.words.setText(text)
+        theme.set_text_colour(self.form.words, colour or theme.current().text)
+
     def _show_buttons(self) -> None:
-        running, has_pairing = self.is_running, self.pairing is not None
-        theme.set_text_colour(self.words, theme.current().text)
-        chosen = bool(self.matrix.list_chosen()) and not running
-        for button in (self.earlier, self.later, self.leave_out):
-            button.setEnabled(chosen)
-        self.undo.setEnabled(bool(self._undo) and not running)
+        running, pairing = self.is_running, self.pairing
+        self.pane.hold(running)
+        self.form.show_choices(pairing, bool(find_videos(self._names)))
+        self.form.setEnabled(not running)
         for button in (self.add, self.open):
             button.setEnabled(not running)
-        is_ready = self.pairing is not None and bool(self.pairing.shared)
-        self.calibrate.setVisible(has_pairing and not running and self.result is None)
-        self.calibrate.setEnabled(is_ready)
+        self.calibrate.setVisible(pairing is not None and not running and self.result is None)
+        self.calibrate.setEnabled(pairing is not None and bool(pairing.shared))
         self.stop.setVisible(running)
         self.progress.setVisible(running)
         self.state.setVisible(running)
@@ -473,53 +412,3 @@ class RigPage(QWidget):
 
     def paintEvent(self, event: QPaintEvent) -> None:  # noqa: N802, ARG002 - Qt's name
         QPainter(self).fillRect(self.rect(), QColor(theme.current().base))
-
-
-def _search(job: Job, files: Sequence[str], board: Board | None) -> Detection:
-    """Search photographs of one camera, for a board that another camera may have told."""
-    images = [Path(file) for file in files]
-
-    def find(pattern: Pattern, grid_size: GridSize | None) -> Detection:
-        return find_views(
-            images,
-            grid_size,
-            progress=lambda done, total, _: job.advance(done, total),
-            stop=job.cancelling,
-            pattern=pattern,
-        )
-
-    if board is not None:
-        return find(board.pattern, board.grid_size)
-    detection = find_any_board(find, None)
-    error, _ = explain_missing_board(detection, None, True)
-    if error is not None:
-        raise error
-    return detection
-
-
-def _state_square(corner_set: CornerSet, square: float | None) -> CornerSet:
-    """Return corners on a board of squares of another length; None if it is not measured."""
-    if corner_set.board is None:
-        return corner_set
-    board = replace(corner_set.board, square=square or DEFAULT_SQUARE)
-    return replace(corner_set, board=board, lengths_confirmed=square is not None)
-
-
-def _keep_paired(found: Mapping[str, CornerSet], pairing: RigPairing) -> dict[str, CornerSet]:
-    """Return the corners of photographs that are not left out of the pairing."""
-    kept = {}
-    for camera in pairing.cameras:
-        files, corner_set = {str(file) for file in camera.files.values()}, found[camera.name]
-        views = tuple(view for view in corner_set.views if view.image in files)
-        kept[camera.name] = replace(corner_set, views=views)
-    return kept
-
-
-def _rectify(result: RigResult, second: int, both: list[Path], names: list[str]) -> Shown:
-    """Rectify a pair of photographs."""
-    pair = rectify_pair(*relate_cameras(result.rig, 0, second))
-    images = [
-        cast(Pixels, rectify_stereo_image(read_colour(path), pair, which).image)
-        for which, path in enumerate(both)
-    ]
-    return images, names, 1 if pair.is_upright else 2

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 from PySide6.QtCore import QObject, Signal
 from PySide6.QtWidgets import QStackedWidget
 
+from calibgui.app.rig.frames import find_videos
 from calibgui.formats.origin import RIG, is_own
 from calibgui.gui.jobs.jobs import Jobs
 from calibgui.gui.widgets import questions
@@ -65,19 +66,20 @@ class OwnPages(QObject):
             self.rig.open_folders(names)
 
     def are_of_rig(self, names: Sequence[str]) -> bool:
-        """Return whether what was dropped is of several cameras; ask if folders may be."""
+        """Return whether what was dropped is of several cameras; ask if it may be."""
         if self.rig is not None and self._desk.currentWidget() is self.rig:
             return True
         if len(names) == 1 and Path(names[0]).is_file() and is_own(names[0], RIG):
             return True
-        if len(names) < 2 or not all(Path(name).is_dir() for name in names):
+        are_folders = all(Path(name).is_dir() for name in names)
+        if len(names) < 2 or not (are_folders or find_videos(names)):
             return False
         answer = questions.ask(
             self._desk,
-            self.tr("Several folders"),
+            self.tr("Several cameras"),
             self.tr(
                 "Are these the photographs of several cameras that stand fast to each other, a "
-                "folder for each? No: all are of one camera."
+                "folder or a video for each? No: all are of one camera."
             ),
             Answer.Yes | Answer.No,
             Answer.No,

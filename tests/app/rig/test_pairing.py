@@ -5,10 +5,13 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
+from PIL import Image
 
 from calibgui.app.rig.pairing import pair_photographs
+from calibgui.app.rig.time_pairing import pair_by_times
 from calibgui.dataset import RigPairing
 from calibgui.engine.errors import CalibrationError
+from calibgui.formats.times_csv import read_times
 from calibgui.report.rig import describe_pairing
 
 
@@ -87,6 +90,78 @@ def test_names_pair_where_numbers_do_not(tmp_path: Path) -> None:
     assert len(pairing.shared) == 3
     for instant in pairing.shared:
         assert len({camera.files[instant].name for camera in pairing.cameras}) == 1
+
+
+def make_stamped(
+    folder: Path, lags_ms: dict[str, int], count: int = 4, every_ms: int = 400
+) -> None:
+    """Files called by nanoseconds, as recorders of ROS call them."""
+    for camera, lag in lags_ms.items():
+        stamps = [1403636579763555584 + (k * every_ms + lag) * 10**6 for k in range(count)]
+        make_files(folder / camera, *(f"{stamp}.png" for stamp in stamps))
+
+
+def test_names_with_nanoseconds_pair_by_time(tmp_path: Path) -> None:
+    make_stamped(tmp_path, {"cam0": 0, "cam1": 7, "cam2": -4})
+    pairing = pair_photographs([str(tmp_path)])
+    assert len(pairing.shared) == 4 and not pairing.left_over
+    assert list(pairing.instants.values())[1] == "0.400 s"
+    assert "by their times, which are at most 11 ms apart: 4 instants" in describe_pairing(pairing)
+    first = pairing.cameras[1]
+    assert [round(first.times[file], 3) for file in first.files.values()][:2] == [0.011, 0.411]
+
+
+def test_a_tolerance_parts_what_is_too_far(tmp_path: Path) -> None:
+    make_stamped(tmp_path, {"cam0": 0, "cam1": 30})
+    make_files(tmp_path / "cam1", "1403636579764555584.png")
+    pairing = pair_photographs([str(tmp_path)], tolerance=0.005)
+    assert len(pairing.shared) == 1 and len(pairing.left_over) == 7
+    with pytest.raises(
+        CalibrationError, match=r"at most 0\.0005 s apart; the nearest are 0\.001 s"
+    ):
+        pair_photographs([str(tmp_path)], tolerance=0.0005)
+
+
+def test_what_is_nearer_to_another_has_no_partner(tmp_path: Path) -> None:
+    names = {"a": ["1700000000.000", "1700000000.030"], "b": ["1700000000.020", "1700000000.041"]}
+    for camera, stamps in names.items():
+        make_files(tmp_path / camera, *(f"{stamp}.png" for stamp in stamps))
+    pairing = pair_photographs([str(tmp_path)], tolerance=0.05)
+    (shared,) = pairing.shared
+    assert [c.files[shared].stem for c in pairing.cameras] == ["1700000000.030", "1700000000.020"]
+
+
+def test_exif_pairs_where_names_do_not(tmp_path: Path) -> None:
+    for camera, lag in (("x", 0), ("y", 150)):
+        (tmp_path / camera).mkdir()
+        for k in range(3):
+            exif = Image.Exif()
+            exif.get_ifd(0x8769).update(
+                {36867: f"2026:03:01 10:00:{10 * k:02d}", 37521: f"{lag:03d}"}
+            )
+            name = f"{camera}{k + (7 if lag else 0)}.jpg"
+            Image.new("L", (64, 48)).save(tmp_path / camera / name, exif=exif)
+    pairing = pair_photographs([str(tmp_path)])
+    assert len(pairing.shared) == 3 and "at most 150 ms apart" in pairing.how
+
+
+def test_photographs_without_times_cannot_be_paired_by_them(tmp_path: Path) -> None:
+    make_files(tmp_path, "x/1.jpg", "x/2.jpg", "y/1.jpg", "y/2.jpg")
+    with pytest.raises(CalibrationError, match="not known when the photographs of x and y were"):
+        pair_photographs([str(tmp_path)], tolerance=0.1)
+
+
+def test_a_table_tells_the_times(tmp_path: Path) -> None:
+    files = {c: [Path(c) / f"{k}.png" for k in range(3)] for c in ("x", "y")}
+    table = tmp_path / "times.csv"
+    table.write_text("file,time_s\nx/0.png,0\nx/1.png,1\ny/0.png,1.01\ny/2.png,5\n,7\n")
+    times = read_times(table, files)
+    pairing = pair_by_times(files, times, 0.1)
+    (shared,) = pairing.shared
+    assert [c.files[shared].as_posix() for c in pairing.cameras] == ["x/1.png", "y/0.png"]
+    table.write_text("file,time_s\n0.png,0\n")
+    with pytest.raises(CalibrationError, match=r"line 2: several photographs are called 0\.png"):
+        read_times(table, files)
 
 
 def test_photographs_of_one_camera_are_refused(tmp_path: Path) -> None:

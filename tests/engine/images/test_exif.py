@@ -128,3 +128,11 @@ def test_a_phone_photograph(data_dir: Path) -> None:
     assert exif.focal_length_mm == 4.0
     assert exif.date is not None
     assert exif.date.year == 2023
+
+
+@pytest.mark.parametrize(
+    ("fraction", "microseconds"), [("25", 250000), ("0071234", 7123), ("x", 0), ("", 0)]
+)
+def test_a_fraction_of_a_second_is_of_the_date(fraction: str, microseconds: int) -> None:
+    exif = block(write_exif({}, {36867: "2026:03:01 10:20:30", 37521: fraction}))
+    assert read_exif(exif).date == datetime(2026, 3, 1, 10, 20, 30, microseconds)

@@ -365,7 +365,7 @@ def _list_other_readers(folder: Path) -> list[Reader]:
             "times of photographs",
             "times.csv",
             b"camera,number,time_s\nleft,1,0.1\nright,1,0.11\n",
-            lambda file: read_times(file, ("left", "right")),
+            lambda file: read_times(file, {c: [Path(f"{c}1.png")] for c in ("left", "right")}),
             ("read_times",),
         ),
         Reader(

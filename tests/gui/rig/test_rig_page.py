@@ -57,7 +57,7 @@ def page(window: MainWindow, qtbot: QtBot, drawn: Path) -> RigPage:
     window.own_pages.show_rig([str(drawn / "left"), str(drawn / "right")])
     page = window.own_pages.rig
     assert page is not None
-    qtbot.waitUntil(lambda: page.pairing is not None)
+    qtbot.waitUntil(lambda: page.pairing is not None and not page.is_running)
     return page
 
 
@@ -79,8 +79,8 @@ def test_a_rig_is_calibrated_written_and_opened(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     assert page.matrix.rowCount() == INSTANTS
-    assert "8 instants of several cameras" in page.words.text()
-    page.square.setValue(30.0)
+    assert "8 instants of several cameras" in page.form.words.text()
+    page.form.square.setValue(30.0)
     calibrate()
     assert page.result is not None
     assert page.result.rig.poses[1].tvec == pytest.approx(RIGHT.tvec, abs=0.5)
@@ -144,7 +144,7 @@ def test_a_wrong_pairing_is_corrected_by_hand(
     header = page.matrix.horizontalHeader()
     at = QPoint(header.sectionViewportPosition(1) + 20, header.height() // 2)
     qtbot.mouseClick(header.viewport(), LEFT_BUTTON, pos=at)
-    qtbot.mouseClick(page.later, LEFT_BUTTON)
+    qtbot.mouseClick(page.pane.later, LEFT_BUTTON)
     assert [page.pairing.cameras[1].files.get(k) for k in page.pairing.instants] == [
         None,
         *before.cameras[1].files.values(),
@@ -153,18 +153,18 @@ def test_a_wrong_pairing_is_corrected_by_hand(
     calibrate()
     assert page.result is not None
     assert "instant earlier: nothing above holds" in page.answer.words.text()
-    qtbot.mouseClick(page.earlier, LEFT_BUTTON)
+    qtbot.mouseClick(page.pane.earlier, LEFT_BUTTON)
     assert page.result is None
     assert page.pairing.cameras[1].files == before.cameras[1].files
     page.matrix.choose({0: [1]})
-    qtbot.mouseClick(page.leave_out, LEFT_BUTTON)
+    qtbot.mouseClick(page.pane.leave_out, LEFT_BUTTON)
     assert 1 not in page.pairing.cameras[0].files
     calibrate()
     assert page.answer.headline.text() == "The cameras agree"
     for _ in range(3):
-        qtbot.mouseClick(page.undo, LEFT_BUTTON)
+        qtbot.mouseClick(page.pane.undo, LEFT_BUTTON)
     assert page.pairing == before
-    assert not page.undo.isEnabled()
+    assert not page.pane.undo.isEnabled()
 
 
 def test_folders_that_are_dropped_may_be_of_several_cameras(
@@ -178,6 +178,59 @@ def test_folders_that_are_dropped_may_be_of_several_cameras(
     assert window.pages.currentWidget() is page
 
 
+def test_videos_that_are_dropped_are_cameras(
+    window: MainWindow, drawn: Path, tmp_path: Path, qtbot: QtBot, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    for side in ("left", "right"):
+        writer = cv2.VideoWriter(
+            str(tmp_path / f"{side}.avi"), cv2.VideoWriter.fourcc(*"MJPG"), 10, (320, 240), False
+        )
+        for k in range(INSTANTS):
+            writer.write(cv2.imread(str(drawn / side / f"{k + 1}.png"), cv2.IMREAD_GRAYSCALE))
+        writer.release()
+    monkeypatch.setattr(questions, "ask", lambda *_: Answer.Yes)
+    drop(window, tmp_path / "left.avi", tmp_path / "right.avi")
+    page = window.own_pages.rig
+    assert page is not None
+    qtbot.waitUntil(lambda: page.pairing is not None and not page.is_running)
+    assert page.pairing is not None
+    assert [camera.name for camera in page.pairing.cameras] == ["left", "right"]
+    assert page.matrix.rowCount() == INSTANTS
+    assert page.form.offsets.isVisible()
+    assert page.form.every.isVisible() and not page.form.within.isVisible()
+    page.form.every.setFocus()
+    qtbot.keyClick(page.form.every, Qt.Key.Key_Up)
+    qtbot.waitUntil(lambda: page.matrix.rowCount() == INSTANTS // 2)
+    assert page.pairing.cameras[0].times[page.pairing.cameras[0].files[2]] == 0.2
+
+
+def test_photographs_are_paired_by_time(
+    window: MainWindow, drawn: Path, tmp_path: Path, qtbot: QtBot
+) -> None:
+    for side, lag in (("left", 0), ("right", 30)):
+        (tmp_path / side).mkdir()
+        for k in range(4):
+            late = lag + (60 if lag and k == 2 else 0)
+            name = f"{1403636579763555584 + (500 * k + late) * 10**6}.png"
+            shutil.copy(drawn / side / f"{k + 1}.png", tmp_path / side / name)
+    window.own_pages.show_rig([str(tmp_path)])
+    page = window.own_pages.rig
+    assert page is not None
+    qtbot.waitUntil(lambda: page.pairing is not None and not page.is_running)
+    assert page.pairing is not None
+    assert "times, which are at most 90 ms apart: 4 instants" in page.form.words.text()
+    within = page.form.within
+    within.setFocus()
+    within.selectAll()
+    qtbot.keyClicks(within, "50")
+    qtbot.keyClick(within, Qt.Key.Key_Return)
+    qtbot.waitUntil(lambda: "30 ms apart: 3 instants" in page.form.words.text())
+    assert page.matrix.rowCount() == 5
+    qtbot.waitUntil(lambda: not page.is_running)
+    qtbot.mouseClick(page.pane.undo, LEFT_BUTTON)
+    assert page.matrix.rowCount() == 4
+
+
 def test_what_tells_no_cameras_is_refused(
     window: MainWindow, drawn: Path, tmp_path: Path, qtbot: QtBot
 ) -> None:
@@ -186,5 +239,5 @@ def test_what_tells_no_cameras_is_refused(
     window.own_pages.show_rig([str(tmp_path)])
     page = window.own_pages.rig
     assert page is not None
-    qtbot.waitUntil(lambda: "tell no two cameras" in page.words.text())
+    qtbot.waitUntil(lambda: "tell no two cameras" in page.form.words.text())
     assert not page.calibrate.isVisible()
