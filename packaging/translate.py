@@ -9,6 +9,7 @@ text without a translation is shown in English.
 
 from __future__ import annotations
 
+import argparse
 import shutil
 import subprocess
 import sys
@@ -50,7 +51,9 @@ def list_missing(file: Path) -> list[str]:
 
 def main() -> None:
     """Update all languages, and say what is missing."""
-    added = {FOLDER / f"calibgui_{language}.ts" for language in sys.argv[1:]}
+    parser = argparse.ArgumentParser(description=(__doc__ or "").partition("\n")[0])
+    parser.add_argument("languages", nargs="*", metavar="LANGUAGE", help="to be added, as it")
+    added = {FOLDER / f"calibgui_{each}.ts" for each in parser.parse_args().languages}
     for file in sorted({*FOLDER.glob("*.ts"), *added}):
         update(file)
         missing = list_missing(file)

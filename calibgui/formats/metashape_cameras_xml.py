@@ -2,9 +2,9 @@
 
 Reader: Metashape and PhotoScan (File, Import, Import Cameras), nerfstudio's and other converters of
 such files, and `read_metashape` for the camera, which is written as in ``metashape_xml.py``: as the
-adjusted calibration of a sensor. `transform` of a photograph leads from the camera, Y down and Z
-ahead, to the world in metres, row by row; the world is the board, Y up and Z out of it. Photographs
-are known by the names of their files without suffix.
+adjusted calibration of a sensor, in its convention of pixels. `transform` of a photograph leads
+from the camera, Y down and Z ahead, to the world in metres, row by row; the world is the board, Y
+up and Z out of it. Photographs are known by the names of their files without suffix.
 Cannot hold: other lens models (they are refitted), standard deviations, corners.
 """
 

@@ -3137,12 +3137,12 @@ wo die äußerste Ecke liegt; negativ zur Mitte hin</translation>
 <context>
     <name>OwnPages</name>
     <message>
-        <source>Several folders</source>
-        <translation>Mehrere Ordner</translation>
+        <source>Several cameras</source>
+        <translation type="unfinished">Mehrere Kameras</translation>
     </message>
     <message>
-        <source>Are these the photographs of several cameras that stand fast to each other, a folder for each? No: all are of one camera.</source>
-        <translation>Sind das die Fotos mehrerer Kameras, die fest zueinander stehen, ein Ordner für jede? Nein: alle sind von einer Kamera.</translation>
+        <source>Are these the photographs of several cameras that stand fast to each other, a folder or a video for each? No: all are of one camera.</source>
+        <translation>Sind das Fotos mehrerer Kameras, die fest zueinander stehen, je Kamera ein Ordner oder ein Video? Nein: Alle sind von einer Kamera.</translation>
     </message>
 </context>
 <context>
@@ -3174,6 +3174,33 @@ wo die äußerste Ecke liegt; negativ zur Mitte hin</translation>
     <message>
         <source>no board</source>
         <translation>kein Brett</translation>
+    </message>
+</context>
+<context>
+    <name>PairingPane</name>
+    <message>
+        <source>Earli&amp;er</source>
+        <translation type="unfinished">&amp;Früher</translation>
+    </message>
+    <message>
+        <source>La&amp;ter</source>
+        <translation type="unfinished">&amp;Später</translation>
+    </message>
+    <message>
+        <source>Lea&amp;ve out</source>
+        <translation type="unfinished">&amp;Weglassen</translation>
+    </message>
+    <message>
+        <source>&amp;Undo</source>
+        <translation type="unfinished">&amp;Rückgängig</translation>
+    </message>
+    <message>
+        <source>Move the chosen photographs of a camera to the instant before</source>
+        <translation type="unfinished">Die gewählten Fotos einer Kamera zum vorigen Zeitpunkt schieben</translation>
+    </message>
+    <message>
+        <source>Move the chosen photographs of a camera to the instant after</source>
+        <translation type="unfinished">Die gewählten Fotos einer Kamera zum nächsten Zeitpunkt schieben</translation>
     </message>
 </context>
 <context>
@@ -4132,6 +4159,73 @@ Der Kreis: wie die Bretter geneigt waren; die Mitte ist zur Kamera hin, der Rand
     </message>
 </context>
 <context>
+    <name>RigForm</name>
+    <message>
+        <source> mm</source>
+        <translation type="unfinished"> mm</translation>
+    </message>
+    <message>
+        <source>not measured (as if {0} mm)</source>
+        <translation type="unfinished">nicht gemessen (als ob {0} mm)</translation>
+    </message>
+    <message>
+        <source>Side of a square</source>
+        <translation type="unfinished">Seite eines Quadrats</translation>
+    </message>
+    <message>
+        <source> ms</source>
+        <translation> ms</translation>
+    </message>
+    <message>
+        <source>by names</source>
+        <translation>nach Namen</translation>
+    </message>
+    <message>
+        <source>Photographs that were taken at most so far apart are of one instant: by their names (seconds or nanoseconds since 1970, as of ROS) or by EXIF</source>
+        <translation>Fotos, die höchstens so weit auseinander aufgenommen wurden, gehören zu einem Zeitpunkt: nach ihren Namen (Sekunden oder Nanosekunden seit 1970, wie bei ROS) oder nach EXIF</translation>
+    </message>
+    <message>
+        <source>Pair photographs taken within</source>
+        <translation>Fotos zusammenführen, aufgenommen innerhalb von</translation>
+    </message>
+    <message>
+        <source>one of </source>
+        <translation>eines von </translation>
+    </message>
+    <message>
+        <source>all</source>
+        <translation type="unfinished">alle</translation>
+    </message>
+    <message>
+        <source>Frames of videos that are taken</source>
+        <translation>Bilder, die aus Videos genommen werden</translation>
+    </message>
+    <message>
+        <source>Leave out what no camera e&amp;xplains</source>
+        <translation type="unfinished">&amp;Weglassen, was keine Kamera erklärt</translation>
+    </message>
+    <message>
+        <source>Corners and views that no camera explains take no part</source>
+        <translation type="unfinished">Ecken und Ansichten, die keine Kamera erklärt, bleiben außen vor</translation>
+    </message>
+    <message>
+        <source>Estimate how late each camera &amp;is</source>
+        <translation>&amp;Verspätung jeder Kamera schätzen</translation>
+    </message>
+    <message>
+        <source>From a board that moves, in videos or in photographs that are paired by time: the clock of each camera may be late</source>
+        <translation>Aus einem bewegten Brett, in Videos oder in Fotos, die nach der Zeit zusammengeführt sind: Die Uhr jeder Kamera kann nachgehen</translation>
+    </message>
+    <message>
+        <source>Side of a square (distance of circles)</source>
+        <translation type="unfinished">Seite eines Quadrats (Abstand der Kreise)</translation>
+    </message>
+    <message>
+        <source>Frames of videos</source>
+        <translation>Bilder aus Videos</translation>
+    </message>
+</context>
+<context>
     <name>RigPage</name>
     <message>
         <source>Pairing photographs</source>
@@ -4142,56 +4236,12 @@ Der Kreis: wie die Bretter geneigt waren; die Mitte ist zur Kamera hin, der Rand
         <translation>{0} öffnen</translation>
     </message>
     <message>
-        <source> mm</source>
-        <translation> mm</translation>
-    </message>
-    <message>
-        <source>not measured (as if {0} mm)</source>
-        <translation>nicht gemessen (als ob {0} mm)</translation>
-    </message>
-    <message>
-        <source>Side of a square</source>
-        <translation>Seite eines Quadrats</translation>
-    </message>
-    <message>
-        <source>Leave out what no camera e&amp;xplains</source>
-        <translation>&amp;Weglassen, was keine Kamera erklärt</translation>
-    </message>
-    <message>
-        <source>Corners and views that no camera explains take no part</source>
-        <translation>Ecken und Ansichten, die keine Kamera erklärt, bleiben außen vor</translation>
-    </message>
-    <message>
         <source>&amp;Folders…</source>
         <translation>&amp;Ordner…</translation>
     </message>
     <message>
         <source>O&amp;pen rig…</source>
         <translation>Rig ö&amp;ffnen…</translation>
-    </message>
-    <message>
-        <source>Earli&amp;er</source>
-        <translation>&amp;Früher</translation>
-    </message>
-    <message>
-        <source>La&amp;ter</source>
-        <translation>&amp;Später</translation>
-    </message>
-    <message>
-        <source>Lea&amp;ve out</source>
-        <translation>&amp;Weglassen</translation>
-    </message>
-    <message>
-        <source>&amp;Undo</source>
-        <translation>&amp;Rückgängig</translation>
-    </message>
-    <message>
-        <source>Move the chosen photographs of a camera to the instant before</source>
-        <translation>Die gewählten Fotos einer Kamera zum vorigen Zeitpunkt schieben</translation>
-    </message>
-    <message>
-        <source>Move the chosen photographs of a camera to the instant after</source>
-        <translation>Die gewählten Fotos einer Kamera zum nächsten Zeitpunkt schieben</translation>
     </message>
     <message>
         <source>&amp;Calibrate rig</source>
@@ -4230,12 +4280,8 @@ Der Kreis: wie die Bretter geneigt waren; die Mitte ist zur Kamera hin, der Rand
         <translation>Mehrere Kameras</translation>
     </message>
     <message>
-        <source>Side of a square (distance of circles)</source>
-        <translation>Seite eines Quadrats (Abstand der Kreise)</translation>
-    </message>
-    <message>
-        <source>Cameras that stand fast to each other and photograph one board together: choose the folder that holds a folder for each camera (or all photographs, named as left01 and right01), or drop the folders here.</source>
-        <translation>Kameras, die fest zueinander stehen und ein Brett zusammen fotografieren: den Ordner wählen, der für jede Kamera einen Ordner enthält (oder alle Fotos, benannt wie left01 und right01), oder die Ordner hier ablegen.</translation>
+        <source>Cameras that stand fast to each other and photograph one board together: choose the folder that holds a folder for each camera (or all photographs, named as left01 and right01), or drop the folders here, or a video of each camera.</source>
+        <translation>Kameras, die fest zueinander stehen und gemeinsam ein Brett fotografieren: Wählen Sie den Ordner, der für jede Kamera einen Ordner enthält (oder alle Fotos, benannt wie left01 und right01), oder ziehen Sie die Ordner hierher, oder ein Video jeder Kamera.</translation>
     </message>
     <message>
         <source>No photographs yet.</source>

@@ -3137,12 +3137,12 @@ donde está la esquina más alejada; negativo hacia él</translation>
 <context>
     <name>OwnPages</name>
     <message>
-        <source>Several folders</source>
-        <translation>Varias carpetas</translation>
+        <source>Several cameras</source>
+        <translation type="unfinished">Varias cámaras</translation>
     </message>
     <message>
-        <source>Are these the photographs of several cameras that stand fast to each other, a folder for each? No: all are of one camera.</source>
-        <translation>¿Son las fotos de varias cámaras fijas entre sí, una carpeta por cada una? No: todas son de una cámara.</translation>
+        <source>Are these the photographs of several cameras that stand fast to each other, a folder or a video for each? No: all are of one camera.</source>
+        <translation>¿Son fotografías de varias cámaras fijas entre sí, una carpeta o un vídeo por cámara? No: todas son de una sola cámara.</translation>
     </message>
 </context>
 <context>
@@ -3174,6 +3174,33 @@ donde está la esquina más alejada; negativo hacia él</translation>
     <message>
         <source>no board</source>
         <translation>sin tablero</translation>
+    </message>
+</context>
+<context>
+    <name>PairingPane</name>
+    <message>
+        <source>Earli&amp;er</source>
+        <translation type="unfinished">&amp;Antes</translation>
+    </message>
+    <message>
+        <source>La&amp;ter</source>
+        <translation type="unfinished">&amp;Después</translation>
+    </message>
+    <message>
+        <source>Lea&amp;ve out</source>
+        <translation type="unfinished">&amp;Omitir</translation>
+    </message>
+    <message>
+        <source>&amp;Undo</source>
+        <translation type="unfinished">&amp;Deshacer</translation>
+    </message>
+    <message>
+        <source>Move the chosen photographs of a camera to the instant before</source>
+        <translation type="unfinished">Mover las fotos elegidas de una cámara al instante anterior</translation>
+    </message>
+    <message>
+        <source>Move the chosen photographs of a camera to the instant after</source>
+        <translation type="unfinished">Mover las fotos elegidas de una cámara al instante siguiente</translation>
     </message>
 </context>
 <context>
@@ -4132,6 +4159,73 @@ El círculo: cómo se inclinaron los tableros; el centro es de frente, el borde 
     </message>
 </context>
 <context>
+    <name>RigForm</name>
+    <message>
+        <source> mm</source>
+        <translation type="unfinished"> mm</translation>
+    </message>
+    <message>
+        <source>not measured (as if {0} mm)</source>
+        <translation type="unfinished">sin medir (como si {0} mm)</translation>
+    </message>
+    <message>
+        <source>Side of a square</source>
+        <translation type="unfinished">Lado de un cuadro</translation>
+    </message>
+    <message>
+        <source> ms</source>
+        <translation> ms</translation>
+    </message>
+    <message>
+        <source>by names</source>
+        <translation>por los nombres</translation>
+    </message>
+    <message>
+        <source>Photographs that were taken at most so far apart are of one instant: by their names (seconds or nanoseconds since 1970, as of ROS) or by EXIF</source>
+        <translation>Las fotografías tomadas con esta separación como máximo son de un mismo instante: según sus nombres (segundos o nanosegundos desde 1970, como en ROS) o según EXIF</translation>
+    </message>
+    <message>
+        <source>Pair photographs taken within</source>
+        <translation>Emparejar fotografías tomadas en</translation>
+    </message>
+    <message>
+        <source>one of </source>
+        <translation>uno de cada </translation>
+    </message>
+    <message>
+        <source>all</source>
+        <translation type="unfinished">todas</translation>
+    </message>
+    <message>
+        <source>Frames of videos that are taken</source>
+        <translation>Fotogramas que se toman de los vídeos</translation>
+    </message>
+    <message>
+        <source>Leave out what no camera e&amp;xplains</source>
+        <translation type="unfinished">Omitir lo que ninguna cámara e&amp;xplica</translation>
+    </message>
+    <message>
+        <source>Corners and views that no camera explains take no part</source>
+        <translation type="unfinished">Las esquinas y vistas que ninguna cámara explica no participan</translation>
+    </message>
+    <message>
+        <source>Estimate how late each camera &amp;is</source>
+        <translation>Estimar el &amp;retraso de cada cámara</translation>
+    </message>
+    <message>
+        <source>From a board that moves, in videos or in photographs that are paired by time: the clock of each camera may be late</source>
+        <translation>A partir de un tablero en movimiento, en vídeos o en fotografías emparejadas por tiempo: el reloj de cada cámara puede ir retrasado</translation>
+    </message>
+    <message>
+        <source>Side of a square (distance of circles)</source>
+        <translation type="unfinished">Lado de un cuadro (distancia de círculos)</translation>
+    </message>
+    <message>
+        <source>Frames of videos</source>
+        <translation>Fotogramas de vídeos</translation>
+    </message>
+</context>
+<context>
     <name>RigPage</name>
     <message>
         <source>Pairing photographs</source>
@@ -4142,56 +4236,12 @@ El círculo: cómo se inclinaron los tableros; el centro es de frente, el borde 
         <translation>Abriendo {0}</translation>
     </message>
     <message>
-        <source> mm</source>
-        <translation> mm</translation>
-    </message>
-    <message>
-        <source>not measured (as if {0} mm)</source>
-        <translation>sin medir (como si {0} mm)</translation>
-    </message>
-    <message>
-        <source>Side of a square</source>
-        <translation>Lado de un cuadro</translation>
-    </message>
-    <message>
-        <source>Leave out what no camera e&amp;xplains</source>
-        <translation>Omitir lo que ninguna cámara e&amp;xplica</translation>
-    </message>
-    <message>
-        <source>Corners and views that no camera explains take no part</source>
-        <translation>Las esquinas y vistas que ninguna cámara explica no participan</translation>
-    </message>
-    <message>
         <source>&amp;Folders…</source>
         <translation>Car&amp;petas…</translation>
     </message>
     <message>
         <source>O&amp;pen rig…</source>
         <translation>A&amp;brir conjunto…</translation>
-    </message>
-    <message>
-        <source>Earli&amp;er</source>
-        <translation>&amp;Antes</translation>
-    </message>
-    <message>
-        <source>La&amp;ter</source>
-        <translation>&amp;Después</translation>
-    </message>
-    <message>
-        <source>Lea&amp;ve out</source>
-        <translation>&amp;Omitir</translation>
-    </message>
-    <message>
-        <source>&amp;Undo</source>
-        <translation>&amp;Deshacer</translation>
-    </message>
-    <message>
-        <source>Move the chosen photographs of a camera to the instant before</source>
-        <translation>Mover las fotos elegidas de una cámara al instante anterior</translation>
-    </message>
-    <message>
-        <source>Move the chosen photographs of a camera to the instant after</source>
-        <translation>Mover las fotos elegidas de una cámara al instante siguiente</translation>
     </message>
     <message>
         <source>&amp;Calibrate rig</source>
@@ -4230,12 +4280,8 @@ El círculo: cómo se inclinaron los tableros; el centro es de frente, el borde 
         <translation>Varias cámaras</translation>
     </message>
     <message>
-        <source>Side of a square (distance of circles)</source>
-        <translation>Lado de un cuadro (distancia de círculos)</translation>
-    </message>
-    <message>
-        <source>Cameras that stand fast to each other and photograph one board together: choose the folder that holds a folder for each camera (or all photographs, named as left01 and right01), or drop the folders here.</source>
-        <translation>Cámaras fijas entre sí que fotografían juntas un tablero: elija la carpeta que contiene una carpeta por cámara (o todas las fotos, con nombres como left01 y right01), o suelte aquí las carpetas.</translation>
+        <source>Cameras that stand fast to each other and photograph one board together: choose the folder that holds a folder for each camera (or all photographs, named as left01 and right01), or drop the folders here, or a video of each camera.</source>
+        <translation>Cámaras fijas entre sí que fotografían juntas un tablero: elija la carpeta que contiene una carpeta por cámara (o todas las fotografías, con nombres como left01 y right01), o suelte aquí las carpetas, o un vídeo de cada cámara.</translation>
     </message>
     <message>
         <source>No photographs yet.</source>

@@ -3137,12 +3137,12 @@ where the outermost corner lies; negative towards it</source>
 <context>
     <name>OwnPages</name>
     <message>
-        <source>Several folders</source>
-        <translation>多个文件夹</translation>
+        <source>Several cameras</source>
+        <translation type="unfinished">多台相机</translation>
     </message>
     <message>
-        <source>Are these the photographs of several cameras that stand fast to each other, a folder for each? No: all are of one camera.</source>
-        <translation>这些是彼此固定的多台相机的照片，每台一个文件夹吗？否：都来自一台相机。</translation>
+        <source>Are these the photographs of several cameras that stand fast to each other, a folder or a video for each? No: all are of one camera.</source>
+        <translation>这些照片是否来自多台相对固定的相机，每台相机一个文件夹或一段视频？否：全部来自同一台相机。</translation>
     </message>
 </context>
 <context>
@@ -3174,6 +3174,33 @@ where the outermost corner lies; negative towards it</source>
     <message>
         <source>no board</source>
         <translation>无标定板</translation>
+    </message>
+</context>
+<context>
+    <name>PairingPane</name>
+    <message>
+        <source>Earli&amp;er</source>
+        <translation type="unfinished">更早(&amp;E)</translation>
+    </message>
+    <message>
+        <source>La&amp;ter</source>
+        <translation type="unfinished">更晚(&amp;T)</translation>
+    </message>
+    <message>
+        <source>Lea&amp;ve out</source>
+        <translation type="unfinished">排除(&amp;V)</translation>
+    </message>
+    <message>
+        <source>&amp;Undo</source>
+        <translation type="unfinished">撤销(&amp;U)</translation>
+    </message>
+    <message>
+        <source>Move the chosen photographs of a camera to the instant before</source>
+        <translation type="unfinished">把所选相机照片移到前一时刻</translation>
+    </message>
+    <message>
+        <source>Move the chosen photographs of a camera to the instant after</source>
+        <translation type="unfinished">把所选相机照片移到后一时刻</translation>
     </message>
 </context>
 <context>
@@ -4132,6 +4159,73 @@ The circle: how the boards were tilted; the middle is facing the camera, the rim
     </message>
 </context>
 <context>
+    <name>RigForm</name>
+    <message>
+        <source> mm</source>
+        <translation type="unfinished"> mm</translation>
+    </message>
+    <message>
+        <source>not measured (as if {0} mm)</source>
+        <translation type="unfinished">未测量（按 {0} mm）</translation>
+    </message>
+    <message>
+        <source>Side of a square</source>
+        <translation type="unfinished">方格边长</translation>
+    </message>
+    <message>
+        <source> ms</source>
+        <translation> ms</translation>
+    </message>
+    <message>
+        <source>by names</source>
+        <translation>按名称</translation>
+    </message>
+    <message>
+        <source>Photographs that were taken at most so far apart are of one instant: by their names (seconds or nanoseconds since 1970, as of ROS) or by EXIF</source>
+        <translation>拍摄时间相差不超过此值的照片属于同一时刻：依据文件名（自 1970 年起的秒或纳秒，如 ROS）或 EXIF</translation>
+    </message>
+    <message>
+        <source>Pair photographs taken within</source>
+        <translation>配对拍摄间隔不超过</translation>
+    </message>
+    <message>
+        <source>one of </source>
+        <translation>每隔 </translation>
+    </message>
+    <message>
+        <source>all</source>
+        <translation type="unfinished">全部</translation>
+    </message>
+    <message>
+        <source>Frames of videos that are taken</source>
+        <translation>从视频中取用的帧</translation>
+    </message>
+    <message>
+        <source>Leave out what no camera e&amp;xplains</source>
+        <translation type="unfinished">排除没有相机能解释的(&amp;X)</translation>
+    </message>
+    <message>
+        <source>Corners and views that no camera explains take no part</source>
+        <translation type="unfinished">没有相机能解释的角点和视图不参与</translation>
+    </message>
+    <message>
+        <source>Estimate how late each camera &amp;is</source>
+        <translation>估计每台相机的延迟(&amp;I)</translation>
+    </message>
+    <message>
+        <source>From a board that moves, in videos or in photographs that are paired by time: the clock of each camera may be late</source>
+        <translation>根据移动的标定板（视频或按时间配对的照片）：每台相机的时钟可能有延迟</translation>
+    </message>
+    <message>
+        <source>Side of a square (distance of circles)</source>
+        <translation type="unfinished">方格边长（圆的间距）</translation>
+    </message>
+    <message>
+        <source>Frames of videos</source>
+        <translation>视频帧</translation>
+    </message>
+</context>
+<context>
     <name>RigPage</name>
     <message>
         <source>Pairing photographs</source>
@@ -4142,56 +4236,12 @@ The circle: how the boards were tilted; the middle is facing the camera, the rim
         <translation>正在打开 {0}</translation>
     </message>
     <message>
-        <source> mm</source>
-        <translation> mm</translation>
-    </message>
-    <message>
-        <source>not measured (as if {0} mm)</source>
-        <translation>未测量（按 {0} mm）</translation>
-    </message>
-    <message>
-        <source>Side of a square</source>
-        <translation>方格边长</translation>
-    </message>
-    <message>
-        <source>Leave out what no camera e&amp;xplains</source>
-        <translation>排除没有相机能解释的(&amp;X)</translation>
-    </message>
-    <message>
-        <source>Corners and views that no camera explains take no part</source>
-        <translation>没有相机能解释的角点和视图不参与</translation>
-    </message>
-    <message>
         <source>&amp;Folders…</source>
         <translation>文件夹(&amp;F)…</translation>
     </message>
     <message>
         <source>O&amp;pen rig…</source>
         <translation>打开相机组(&amp;P)…</translation>
-    </message>
-    <message>
-        <source>Earli&amp;er</source>
-        <translation>更早(&amp;E)</translation>
-    </message>
-    <message>
-        <source>La&amp;ter</source>
-        <translation>更晚(&amp;T)</translation>
-    </message>
-    <message>
-        <source>Lea&amp;ve out</source>
-        <translation>排除(&amp;V)</translation>
-    </message>
-    <message>
-        <source>&amp;Undo</source>
-        <translation>撤销(&amp;U)</translation>
-    </message>
-    <message>
-        <source>Move the chosen photographs of a camera to the instant before</source>
-        <translation>把所选相机照片移到前一时刻</translation>
-    </message>
-    <message>
-        <source>Move the chosen photographs of a camera to the instant after</source>
-        <translation>把所选相机照片移到后一时刻</translation>
     </message>
     <message>
         <source>&amp;Calibrate rig</source>
@@ -4230,12 +4280,8 @@ The circle: how the boards were tilted; the middle is facing the camera, the rim
         <translation>多台相机</translation>
     </message>
     <message>
-        <source>Side of a square (distance of circles)</source>
-        <translation>方格边长（圆的间距）</translation>
-    </message>
-    <message>
-        <source>Cameras that stand fast to each other and photograph one board together: choose the folder that holds a folder for each camera (or all photographs, named as left01 and right01), or drop the folders here.</source>
-        <translation>彼此固定、同时拍摄一块标定板的相机：请选择包含每台相机文件夹的文件夹（或所有照片，命名如 left01 和 right01），或把文件夹拖放到这里。</translation>
+        <source>Cameras that stand fast to each other and photograph one board together: choose the folder that holds a folder for each camera (or all photographs, named as left01 and right01), or drop the folders here, or a video of each camera.</source>
+        <translation>相对固定并同时拍摄同一标定板的多台相机：选择包含每台相机一个文件夹的文件夹（或所有照片，命名如 left01 和 right01），或将这些文件夹拖放到此处，或每台相机的一段视频。</translation>
     </message>
     <message>
         <source>No photographs yet.</source>
