@@ -16,7 +16,7 @@ from pathlib import Path
 from calibgui.app.calibrating.settings import Settings
 from calibgui.app.outputs.output_files import check_outputs, check_suffix
 from calibgui.app.photographs.detection import Detection
-from calibgui.app.rig.calibrating import calibrate_photographs, search_cameras
+from calibgui.app.rig.calibrating import calibrate_photographs, require_times, search_cameras
 from calibgui.app.rig.frames import find_videos, read_frame_times, write_frames
 from calibgui.app.rig.pairing import find_cameras, pair_files, state_times
 from calibgui.app.rig.time_pairing import Times, pair_by_times, read_file_times
@@ -138,12 +138,8 @@ def run(options: argparse.Namespace, console: Console) -> None:
     if output:
         check_suffix(output, (".json",), "JSON")
     pairing = _pair(options, console, output)
-    if options.offsets and not all(camera.times for camera in pairing.cameras):
-        raise CalibrationError(
-            "Offsets in time cannot be told in seconds: it is not known when the photographs were "
-            "taken.",
-            "Give their times with --times FILE.",
-        )
+    if options.offsets:
+        require_times(pairing)
     console.print_text(fill_lines(describe_pairing(pairing), "", "  ") + "\n")
     known = _read_known(options, pairing, console)
     if output:

@@ -12,7 +12,7 @@ import numpy.typing as npt
 from calibgui.app.calibrating.settings import AUTO_MODEL, Settings, read_model_choice
 from calibgui.app.photographs.detection import Detection
 from calibgui.app.photographs.videos import DEFAULT_CHOICE
-from calibgui.app.rig.calibrating import calibrate_photographs, search_cameras
+from calibgui.app.rig.calibrating import calibrate_photographs, require_times, search_cameras
 from calibgui.app.rig.pairing import pair_photographs
 from calibgui.dataset import RigResult, relate_cameras
 from calibgui.engine.arrays import GridSize
@@ -46,6 +46,14 @@ class CalibratedRig:
         """The engine's record: cameras, poses, covariance."""
         return self.result.rig
 
+    @property
+    def offsets(self) -> dict[str, tuple[float, float]]:
+        """By how much each camera's clock is later than the first's, s, and the standard deviation
+        of that, by the names of the cameras; 0 where it was not estimated."""
+        rig = self.rig
+        sigmas = map(rig.offset_sigma, range(len(rig.names)))
+        return dict(zip(rig.names, zip(rig.offsets.tolist(), sigmas, strict=True), strict=True))
+
     def __str__(self) -> str:
         """Return what the command line prints."""
         return format_rig(self.result)
@@ -55,7 +63,7 @@ class CalibratedRig:
         write_rig(self.result, path)
 
     def export(self, name: str, path: File, pair: tuple[str, str] | None = None) -> str:
-        """Write the rig in a format of another program: opencv, ros or kalibr.
+        """Write the rig in a format of another program, as opencv, ros, kalibr or colmap.
 
         Args:
             name: the format.
@@ -111,6 +119,8 @@ def calibrate_rig(
     known: Mapping[str, File] | None = None,
     hold: bool = False,
     robust: bool = False,
+    within: float | None = None,
+    offsets: bool = False,
     progress: Progress | None = None,
 ) -> CalibratedRig:
     """Calibrate a rig of several cameras from photographs of a board that they take together.
@@ -124,6 +134,10 @@ def calibrate_rig(
         known: files of cameras that are known beforehand, by the names of the cameras.
         hold: True to hold all cameras as each alone is, or as it is known.
         robust: True to leave out corners and views that no camera explains.
+        within: largest time between photographs of one instant, s, which are paired by the times
+            that their names or EXIF tell; None to pair by what pairs most.
+        offsets: True to estimate how late the clock of each camera is, from a board that moves
+            before cameras whose photographs tell their times.
         progress: a function that is told of the progress.
 
     Raises:
@@ -136,7 +150,9 @@ def calibrate_rig(
     """
     tell = progress or (lambda *_: None)
     paths = [photographs] if isinstance(photographs, str | os.PathLike) else list(photographs)
-    pairing = pair_photographs([os.fspath(path) for path in paths])
+    pairing = pair_photographs([os.fspath(path) for path in paths], within)
+    if offsets:
+        require_times(pairing)
 
     def search(files: Sequence[str], seen: Board | None) -> Detection:
         if seen is None:
@@ -151,6 +167,7 @@ def calibrate_rig(
             settings,
             {name: read_camera(file) for name, file in (known or {}).items()},
             hold,
+            offsets,
             tell=lambda name: tell(f"calibrating {name}", 0, 0),
         )
     )

@@ -6,6 +6,7 @@ import csv
 import json
 import re
 import shutil
+from functools import partial
 from pathlib import Path
 
 import cv2
@@ -17,6 +18,7 @@ from calibgui.cli.main import main
 from calibgui.engine import find_corners
 from calibgui.engine.boards import Board
 from calibgui.engine.camera import Camera, pixels_from_rays
+from calibgui.engine.errors import CalibrationError
 from calibgui.engine.geometry import Pose, rotation_from_vector, vector_from_rotation
 from calibgui.engine.images import read_colour, render_view, write_image
 from calibgui.formats.rig_json import read_rig
@@ -237,3 +239,21 @@ def test_offsets_are_asked_of_photographs_in_succession(
     assert "has no times of right" in capsys.readouterr().err
     assert calibrate(folder, "--offsets", "-q") == 1
     assert "--times FILE" in capsys.readouterr().err
+
+
+def test_offsets_in_python(folder: Path, tmp_path: Path) -> None:
+    for side in ("left", "right"):
+        (tmp_path / side).mkdir()
+        for k in range(1, INSTANTS + 1):
+            shutil.copy(folder / f"{side}{k}.png", tmp_path / side / f"17000000{k:02}.png")
+    make = partial(
+        calibgui.calibrate_rig, square=30, board=(5, 8), model="pinhole", hold=True, offsets=True
+    )
+    rig = make(tmp_path, within=0.1)
+    assert list(rig.offsets) == ["left", "right"]
+    assert rig.offsets["left"] == (0.0, 0.0)
+    late, sigma = rig.offsets["right"]
+    assert late == rig.rig.offsets[1]
+    assert 0 < sigma == rig.rig.offset_sigma(1)
+    with pytest.raises(CalibrationError, match="not known when the photographs were"):
+        make(folder)

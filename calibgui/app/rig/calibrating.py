@@ -45,6 +45,16 @@ def search_cameras(
     return found
 
 
+def require_times(pairing: RigPairing) -> None:
+    """Raise CalibrationError unless it is known when the photographs of all cameras were taken."""
+    if not all(camera.times for camera in pairing.cameras):
+        raise CalibrationError(
+            "Offsets in time cannot be told in seconds: it is not known when the photographs were "
+            "taken.",
+            "Give their times in a table (--times FILE), or in their names.",
+        )
+
+
 def calibrate_photographs(
     pairing: RigPairing,
     corner_sets: Mapping[str, CornerSet],
@@ -64,7 +74,7 @@ def calibrate_photographs(
             with them as prior; any other is held.
         hold: True to hold all cameras as each alone is.
         estimate_offsets: True to estimate by how much the clock of each camera is late, by the
-            times of the photographs; it is taken that they are a second apart if none is known.
+            times of the photographs (`require_times`).
         tell: a function that is told which camera is calibrated.
 
     Raises:
