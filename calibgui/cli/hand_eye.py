@@ -13,10 +13,8 @@ import argparse
 import itertools
 from pathlib import Path
 
-import numpy as np
-
 from calibgui.app.calibrating.best_camera import calibrate_best
-from calibgui.app.calibrating.hand_eye import find_hand_eye
+from calibgui.app.calibrating.hand_eye import find_hand_eye, parse_point
 from calibgui.app.calibrating.settings import Settings
 from calibgui.app.outputs.output_files import check_suffix
 from calibgui.cli.arguments import is_corners_file
@@ -30,9 +28,9 @@ from calibgui.cli.sensor_mode import adapt_to_images, add_mode_options
 from calibgui.dataset import CornerSet, Result
 from calibgui.engine.arrays import Array
 from calibgui.engine.camera import Camera
-from calibgui.formats.hand_eye_files import write_easy_handeye, write_opencv_hand_eye
-from calibgui.formats.hand_eye_json import encode_hand_eye, write_hand_eye
-from calibgui.formats.origin import HAND_EYE, HAND_EYE_OPENCV, HAND_EYE_ROS, RESULT, is_own
+from calibgui.formats.hand_eye_files import WRITERS
+from calibgui.formats.hand_eye_json import encode_hand_eye
+from calibgui.formats.origin import RESULT, is_own
 from calibgui.formats.robot_poses import read_robot_poses
 from calibgui.report.hand_eye import (
     describe_in_a_line,
@@ -40,14 +38,6 @@ from calibgui.report.hand_eye import (
     tabulate_hand_eye,
 )
 from calibgui.report.tables import format_bullet
-
-_WRITERS = {
-    ".json": (HAND_EYE, write_hand_eye),
-    ".calib": (HAND_EYE_ROS, write_easy_handeye),
-    ".yaml": (HAND_EYE_OPENCV, write_opencv_hand_eye),
-    ".yml": (HAND_EYE_OPENCV, write_opencv_hand_eye),
-}
-"""Kind of file and function that writes it, by the suffix."""
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
@@ -112,7 +102,7 @@ def run(options: argparse.Namespace, console: Console) -> None:
     eye_in_hand = None if options.mount is None else options.mount == "hand"
     found = find_hand_eye(source, table, eye_in_hand, options.tool)
     for path in options.output:
-        _WRITERS[path.suffix.lower()][1](found, path)
+        WRITERS[path.suffix.lower()][1](found, path)
     console.print_json(encode_hand_eye(found))
     console.print_text(tabulate_hand_eye(found) + "\n")
     for remark in list_hand_eye_remarks(found):
@@ -125,12 +115,9 @@ def run(options: argparse.Namespace, console: Console) -> None:
 def _parse_point(text: str) -> Array:
     """Read a point such as "0,0,120"."""
     try:
-        point = np.array([float(part) for part in text.split(",")])
+        return parse_point(text)
     except ValueError:
-        point = np.empty(0)
-    if point.shape != (3,) or not np.isfinite(point).all():
-        raise argparse.ArgumentTypeError(f"{text!r} is not X,Y,Z, as 0,0,120")
-    return point
+        raise argparse.ArgumentTypeError(f"{text!r} is not X,Y,Z, as 0,0,120") from None
 
 
 def _is_result(path: Path) -> bool:
@@ -147,8 +134,8 @@ def _check_outputs(options: argparse.Namespace) -> None:
         CalibrationError: naming the first.
     """
     for path in options.output:
-        check_suffix(path, _WRITERS, "a file of hand and eye")
-    outputs = [(path, _WRITERS[path.suffix.lower()][0]) for path in options.output]
+        check_suffix(path, WRITERS, "a file of hand and eye")
+    outputs = [(path, WRITERS[path.suffix.lower()][0]) for path in options.output]
     others = [options.poses, *([options.calibration] if options.calibration else [])]
     check_corner_outputs(options, outputs, others)
 

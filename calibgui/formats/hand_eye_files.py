@@ -25,8 +25,8 @@ from calibgui.engine import opencv
 from calibgui.engine.arrays import Array
 from calibgui.engine.files import write_atomically
 from calibgui.engine.geometry import rotation_from_vector
-from calibgui.formats.hand_eye_json import make_matrix
-from calibgui.formats.origin import HAND_EYE_OPENCV, HAND_EYE_ROS, make_mark
+from calibgui.formats.hand_eye_json import make_matrix, write_hand_eye
+from calibgui.formats.origin import HAND_EYE, HAND_EYE_OPENCV, HAND_EYE_ROS, make_mark
 from calibgui.formats.yaml_document import format_number
 
 
@@ -108,3 +108,12 @@ def _format_members(names: str, values: list[float]) -> list[str]:
 def _quote(text: str) -> str:
     """Quote a text for YAML."""
     return "'" + text.replace("'", "''") + "'"
+
+
+WRITERS = {
+    ".json": (HAND_EYE, write_hand_eye),
+    ".calib": (HAND_EYE_ROS, write_easy_handeye),
+    ".yaml": (HAND_EYE_OPENCV, write_opencv_hand_eye),
+    ".yml": (HAND_EYE_OPENCV, write_opencv_hand_eye),
+}
+"""Kind of file and function that writes it, by the suffix."""

@@ -46,7 +46,7 @@ def tabulate_hand_eye(hand_eye_set: HandEyeSet) -> str:
         *_list_pose(board, found.board_pose, found.board_covariance),
     ]
     errors = [["image", "robot off by, mm", "degrees"]]
-    for name, (turn, shift) in zip(found.names, _measure_errors(found), strict=True):
+    for name, (turn, shift) in zip(found.names, measure_errors(found), strict=True):
         errors.append([shorten_name(name), _format_mm(shift), f"{np.degrees(turn):.2g}"])
     parts = [
         describe_tool(found),
@@ -63,13 +63,21 @@ def _list_pose(name: str, pose: Pose, covariance: Array) -> list[list[str]]:
     return [[name, "mm", *place], ["  rotation vector", "deg", *turn]]
 
 
-def _measure_errors(found: HandEye) -> Array:
+def measure_errors(found: HandEye) -> Array:
     """Measure (K, 2) the robot's error in each pose, rad and mm."""
     return np.linalg.norm(found.corrections.reshape(-1, 2, 3), axis=2)
 
 
-def list_hand_eye_remarks(hand_eye_set: HandEyeSet) -> list[str]:
-    """List how the poses were read, what they leave open, and what is wrong with them."""
+def list_hand_eye_remarks(
+    hand_eye_set: HandEyeSet, mount: str = "--mount", leave_out: str = "with --exclude"
+) -> list[str]:
+    """List how the poses were read, what they leave open, and what is wrong with them.
+
+    Args:
+        hand_eye_set: what was found.
+        mount: by what the reader states where the camera is.
+        leave_out: how the reader leaves a photograph out.
+    """
     found = hand_eye_set.found
     turn, shift = found.robot_sigmas.tolist()
     next_best = found.next_scatter
@@ -86,7 +94,7 @@ def list_hand_eye_remarks(hand_eye_set: HandEyeSet) -> list[str]:
     if found.rivals:
         remarks.append(
             f"The poses fit as well as {'; or as '.join(found.rivals)}. Turn the hand about "
-            "more axes, or state where the camera is (--mount)."
+            f"more axes, or state where the camera is ({mount})."
         )
     if found.shift:
         before = "one line early" if found.shift > 0 else "one line late"
@@ -99,7 +107,8 @@ def list_hand_eye_remarks(hand_eye_set: HandEyeSet) -> list[str]:
         "between them, the file is wrong."
         for same in found.repeated
     ]
-    return remarks + _list_open(found) + _name_outliers(found) + _list_limits(hand_eye_set)
+    remarks += [*_list_open(found), *_name_outliers(found, leave_out)]
+    return remarks + _list_limits(hand_eye_set)
 
 
 def _list_open(found: HandEye) -> list[str]:
@@ -130,20 +139,26 @@ def _list_axes(axes: Array) -> str:
     )
 
 
-def _name_outliers(found: HandEye) -> list[str]:
-    """Name the poses that fit far worse than the others."""
-    errors = _measure_errors(found)
+def find_outliers(found: HandEye) -> list[int]:
+    """Find the poses that fit far worse than the others."""
+    errors = measure_errors(found)
     ratio = (errors / np.maximum(np.median(errors, axis=0), 1e-12)).max(axis=1)
+    return np.flatnonzero((ratio > _STANDS_OUT) & (errors[:, 1] > 0)).tolist()
+
+
+def _name_outliers(found: HandEye, leave_out: str) -> list[str]:
+    """Name the poses that fit far worse than the others."""
+    errors = measure_errors(found).tolist()
     named = [
-        f"{shorten_name(name)} ({_format_mm(shift)} mm, {np.degrees(turn):.2g} degrees)"
-        for name, (turn, shift), much in zip(found.names, errors, ratio, strict=True)
-        if much > _STANDS_OUT and shift > 0
+        f"{shorten_name(found.names[k])} ({_format_mm(errors[k][1])} mm, "
+        f"{np.degrees(errors[k][0]):.2g} degrees)"
+        for k in find_outliers(found)
     ]
     if not named:
         return []
     return [
         f"The robot's pose does not fit in {', '.join(named)}: another moment, or a mistake in the "
-        "file. Leave it out with --exclude."
+        f"file. Leave it out {leave_out}."
     ]
 
 

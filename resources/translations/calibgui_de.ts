@@ -881,6 +881,14 @@ Farben: quer zur Ebene; Rot ist von der Kamera weg.</translation>
         <translation>Wie sich eine Kamera mit Zoom, Fokus, Temperatur oder Datum ändert</translation>
     </message>
     <message>
+        <source>&amp;Hand and eye…</source>
+        <translation>&amp;Hand und Auge…</translation>
+    </message>
+    <message>
+        <source>Where the camera is in a robot&apos;s hand, or beside the robot</source>
+        <translation>Wo die Kamera in der Hand eines Roboters ist, oder neben dem Roboter</translation>
+    </message>
+    <message>
         <source>&amp;Print a board…</source>
         <translation>Brett &amp;drucken…</translation>
     </message>
@@ -1940,6 +1948,177 @@ nach der Drehung, die beide dort am nächsten zusammenbringt, wo Ecken (Punkte) 
     <message>
         <source>10 to 20 of one flat board: sharp, evenly lit, with the focus and zoom that the camera will have at work.</source>
         <translation>10 bis 20 von einem ebenen Brett: scharf, gleichmäßig hell, mit dem Fokus und Zoom, mit dem die Kamera arbeiten wird.</translation>
+    </message>
+</context>
+<context>
+    <name>HandEyeDialog</name>
+    <message>
+        <source>Hand and eye</source>
+        <translation>Hand und Auge</translation>
+    </message>
+    <message>
+        <source>Robot&apos;s &amp;poses…</source>
+        <translation>Roboter&amp;posen…</translation>
+    </message>
+    <message>
+        <source>CSV, JSON, text or MAT: a pose for each photograph, by its name or in their order, in any units and convention</source>
+        <translation>CSV, JSON, Text oder MAT: eine Pose für jedes Foto, nach seinem Namen oder in deren Reihenfolge, in beliebigen Einheiten und Konventionen</translation>
+    </message>
+    <message>
+        <source>Where the camera is</source>
+        <translation>Wo die Kamera ist</translation>
+    </message>
+    <message>
+        <source>as the poses tell</source>
+        <translation>wie es die Posen sagen</translation>
+    </message>
+    <message>
+        <source>in the hand</source>
+        <translation>in der Hand</translation>
+    </message>
+    <message>
+        <source>beside the robot</source>
+        <translation>neben dem Roboter</translation>
+    </message>
+    <message>
+        <source>The tool&apos;s point in the hand&apos;s frame</source>
+        <translation>Der Punkt des Werkzeugs im System der Hand</translation>
+    </message>
+    <message>
+        <source>X, Y, Z: the board</source>
+        <translation>X, Y, Z: das Brett</translation>
+    </message>
+    <message>
+        <source>Where ± is stated, as 0, 0, 120; if empty, it is where the board was</source>
+        <translation>Wo ± angegeben wird, etwa 0, 0, 120; wenn leer, dort, wo das Brett war</translation>
+    </message>
+    <message>
+        <source>&amp;Save…</source>
+        <translation>&amp;Speichern…</translation>
+    </message>
+    <message>
+        <source>Choose the file of the poses at which the robot stood for the photographs.</source>
+        <translation>Wählen Sie die Datei mit den Posen, in denen der Roboter für die Fotos stand.</translation>
+    </message>
+    <message>
+        <source>The side of a square is not known, and the robot&apos;s poses have lengths. Close this, and answer in the window how long the squares are.</source>
+        <translation>Die Seite eines Quadrats ist nicht bekannt, und die Posen des Roboters haben Längen. Schließen Sie dies und beantworten Sie im Fenster, wie lang die Quadrate sind.</translation>
+    </message>
+    <message>
+        <source>Camera</source>
+        <translation>Kamera</translation>
+    </message>
+    <message>
+        <source>Tool at</source>
+        <translation>Werkzeug bei</translation>
+    </message>
+    <message>
+        <source>mm</source>
+        <translation>mm</translation>
+    </message>
+    <message>
+        <source>Poses of the robot</source>
+        <translation>Posen des Roboters</translation>
+    </message>
+    <message>
+        <source>Poses (*.csv *.json *.txt *.mat);;All files (*)</source>
+        <translation>Posen (*.csv *.json *.txt *.mat);;Alle Dateien (*)</translation>
+    </message>
+    <message>
+        <source>{0} is no point X, Y, Z, such as 0, 0, 120.</source>
+        <translation>{0} ist kein Punkt X, Y, Z wie 0, 0, 120.</translation>
+    </message>
+    <message>
+        <source>working…</source>
+        <translation>rechnet…</translation>
+    </message>
+    <message>
+        <source>Finding hand and eye</source>
+        <translation>Hand und Auge werden bestimmt</translation>
+    </message>
+    <message>
+        <source>Camera in the hand</source>
+        <translation>Kamera in der Hand</translation>
+    </message>
+    <message>
+        <source>Board in the base</source>
+        <translation>Brett in der Basis</translation>
+    </message>
+    <message>
+        <source>Camera in the base</source>
+        <translation>Kamera in der Basis</translation>
+    </message>
+    <message>
+        <source>Board in the hand</source>
+        <translation>Brett in der Hand</translation>
+    </message>
+    <message>
+        <source>Pose</source>
+        <translation>Pose</translation>
+    </message>
+    <message>
+        <source>rotation vector, {0}</source>
+        <translation>Drehvektor, {0}</translation>
+    </message>
+    <message>
+        <source>Unit</source>
+        <translation>Einheit</translation>
+    </message>
+    <message>
+        <source>degrees</source>
+        <translation>Grad</translation>
+    </message>
+    <message>
+        <source>The most likely error of the robot&apos;s pose</source>
+        <translation>Der wahrscheinlichste Fehler der Pose des Roboters</translation>
+    </message>
+    <message>
+        <source>Photograph</source>
+        <translation>Foto</translation>
+    </message>
+    <message>
+        <source>Robot off by</source>
+        <translation>Roboter daneben um</translation>
+    </message>
+    <message>
+        <source>Turned by</source>
+        <translation>Verdreht um</translation>
+    </message>
+    <message>
+        <source>Used</source>
+        <translation>Benutzt</translation>
+    </message>
+    <message>
+        <source>left out</source>
+        <translation>weggelassen</translation>
+    </message>
+    <message>
+        <source>yes</source>
+        <translation>ja</translation>
+    </message>
+    <message>
+        <source>&amp;Use again</source>
+        <translation>Wieder &amp;verwenden</translation>
+    </message>
+    <message>
+        <source>&amp;Leave out</source>
+        <translation>&amp;Weglassen</translation>
+    </message>
+    <message>
+        <source>Save hand and eye</source>
+        <translation>Hand und Auge speichern</translation>
+    </message>
+    <message>
+        <source>Hand and eye (*.json);;ROS, easy_handeye2 (*.calib);;OpenCV (*.yaml *.yml)</source>
+        <translation>Hand und Auge (*.json);;ROS, easy_handeye2 (*.calib);;OpenCV (*.yaml *.yml)</translation>
+    </message>
+    <message>
+        <source>Writing {0}</source>
+        <translation>{0} schreiben</translation>
+    </message>
+    <message>
+        <source>Saved as {0}.</source>
+        <translation>Gespeichert als {0}.</translation>
     </message>
 </context>
 <context>

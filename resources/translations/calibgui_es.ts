@@ -881,6 +881,14 @@ Colores: fuera del plano; rojo se aleja de la cámara.</translation>
         <translation>Cómo varía una cámara con zoom, enfoque, temperatura o fecha</translation>
     </message>
     <message>
+        <source>&amp;Hand and eye…</source>
+        <translation>&amp;Mano y ojo…</translation>
+    </message>
+    <message>
+        <source>Where the camera is in a robot&apos;s hand, or beside the robot</source>
+        <translation>Dónde está la cámara en la mano de un robot, o junto al robot</translation>
+    </message>
+    <message>
         <source>&amp;Print a board…</source>
         <translation>Im&amp;primir un tablero…</translation>
     </message>
@@ -1940,6 +1948,177 @@ tras el giro que más las acerca donde se vieron esquinas (puntos).</translation
     <message>
         <source>10 to 20 of one flat board: sharp, evenly lit, with the focus and zoom that the camera will have at work.</source>
         <translation>De 10 a 20 de un tablero plano: nítidas, con luz uniforme, con el enfoque y el zoom con que trabajará la cámara.</translation>
+    </message>
+</context>
+<context>
+    <name>HandEyeDialog</name>
+    <message>
+        <source>Hand and eye</source>
+        <translation>Mano y ojo</translation>
+    </message>
+    <message>
+        <source>Robot&apos;s &amp;poses…</source>
+        <translation>&amp;Poses del robot…</translation>
+    </message>
+    <message>
+        <source>CSV, JSON, text or MAT: a pose for each photograph, by its name or in their order, in any units and convention</source>
+        <translation>CSV, JSON, texto o MAT: una pose por foto, por su nombre o en su orden, en cualquier unidad y convención</translation>
+    </message>
+    <message>
+        <source>Where the camera is</source>
+        <translation>Dónde está la cámara</translation>
+    </message>
+    <message>
+        <source>as the poses tell</source>
+        <translation>según las poses</translation>
+    </message>
+    <message>
+        <source>in the hand</source>
+        <translation>en la mano</translation>
+    </message>
+    <message>
+        <source>beside the robot</source>
+        <translation>junto al robot</translation>
+    </message>
+    <message>
+        <source>The tool&apos;s point in the hand&apos;s frame</source>
+        <translation>El punto de la herramienta en el sistema de la mano</translation>
+    </message>
+    <message>
+        <source>X, Y, Z: the board</source>
+        <translation>X, Y, Z: el tablero</translation>
+    </message>
+    <message>
+        <source>Where ± is stated, as 0, 0, 120; if empty, it is where the board was</source>
+        <translation>Dónde se indica ±, como 0, 0, 120; si está vacío, donde estaba el tablero</translation>
+    </message>
+    <message>
+        <source>&amp;Save…</source>
+        <translation>&amp;Guardar…</translation>
+    </message>
+    <message>
+        <source>Choose the file of the poses at which the robot stood for the photographs.</source>
+        <translation>Elija el archivo de las poses en que estaba el robot para las fotos.</translation>
+    </message>
+    <message>
+        <source>The side of a square is not known, and the robot&apos;s poses have lengths. Close this, and answer in the window how long the squares are.</source>
+        <translation>No se conoce el lado de un cuadro, y las poses del robot tienen longitudes. Cierre esto y responda en la ventana cuánto miden los cuadros.</translation>
+    </message>
+    <message>
+        <source>Camera</source>
+        <translation>Cámara</translation>
+    </message>
+    <message>
+        <source>Tool at</source>
+        <translation>Herramienta en</translation>
+    </message>
+    <message>
+        <source>mm</source>
+        <translation>mm</translation>
+    </message>
+    <message>
+        <source>Poses of the robot</source>
+        <translation>Poses del robot</translation>
+    </message>
+    <message>
+        <source>Poses (*.csv *.json *.txt *.mat);;All files (*)</source>
+        <translation>Poses (*.csv *.json *.txt *.mat);;Todos los archivos (*)</translation>
+    </message>
+    <message>
+        <source>{0} is no point X, Y, Z, such as 0, 0, 120.</source>
+        <translation>{0} no es un punto X, Y, Z, como 0, 0, 120.</translation>
+    </message>
+    <message>
+        <source>working…</source>
+        <translation>calculando…</translation>
+    </message>
+    <message>
+        <source>Finding hand and eye</source>
+        <translation>Buscando mano y ojo</translation>
+    </message>
+    <message>
+        <source>Camera in the hand</source>
+        <translation>Cámara en la mano</translation>
+    </message>
+    <message>
+        <source>Board in the base</source>
+        <translation>Tablero en la base</translation>
+    </message>
+    <message>
+        <source>Camera in the base</source>
+        <translation>Cámara en la base</translation>
+    </message>
+    <message>
+        <source>Board in the hand</source>
+        <translation>Tablero en la mano</translation>
+    </message>
+    <message>
+        <source>Pose</source>
+        <translation>Pose</translation>
+    </message>
+    <message>
+        <source>rotation vector, {0}</source>
+        <translation>vector de rotación, {0}</translation>
+    </message>
+    <message>
+        <source>Unit</source>
+        <translation>Unidad</translation>
+    </message>
+    <message>
+        <source>degrees</source>
+        <translation>grados</translation>
+    </message>
+    <message>
+        <source>The most likely error of the robot&apos;s pose</source>
+        <translation>El error más probable de la pose del robot</translation>
+    </message>
+    <message>
+        <source>Photograph</source>
+        <translation>Foto</translation>
+    </message>
+    <message>
+        <source>Robot off by</source>
+        <translation>Desvío del robot</translation>
+    </message>
+    <message>
+        <source>Turned by</source>
+        <translation>Girado en</translation>
+    </message>
+    <message>
+        <source>Used</source>
+        <translation>Usado</translation>
+    </message>
+    <message>
+        <source>left out</source>
+        <translation>omitido</translation>
+    </message>
+    <message>
+        <source>yes</source>
+        <translation>sí</translation>
+    </message>
+    <message>
+        <source>&amp;Use again</source>
+        <translation>&amp;Usar de nuevo</translation>
+    </message>
+    <message>
+        <source>&amp;Leave out</source>
+        <translation>&amp;Omitir</translation>
+    </message>
+    <message>
+        <source>Save hand and eye</source>
+        <translation>Guardar mano y ojo</translation>
+    </message>
+    <message>
+        <source>Hand and eye (*.json);;ROS, easy_handeye2 (*.calib);;OpenCV (*.yaml *.yml)</source>
+        <translation>Mano y ojo (*.json);;ROS, easy_handeye2 (*.calib);;OpenCV (*.yaml *.yml)</translation>
+    </message>
+    <message>
+        <source>Writing {0}</source>
+        <translation>Escribiendo {0}</translation>
+    </message>
+    <message>
+        <source>Saved as {0}.</source>
+        <translation>Guardado como {0}.</translation>
     </message>
 </context>
 <context>

@@ -881,6 +881,14 @@ Colours: out of the plane; red is away from the camera.</source>
         <translation>相机随变焦、对焦、温度或日期的变化</translation>
     </message>
     <message>
+        <source>&amp;Hand and eye…</source>
+        <translation>手眼标定(&amp;H)…</translation>
+    </message>
+    <message>
+        <source>Where the camera is in a robot&apos;s hand, or beside the robot</source>
+        <translation>相机在机器人手上或机器人旁的位置</translation>
+    </message>
+    <message>
         <source>&amp;Print a board…</source>
         <translation>打印标定板(&amp;P)…</translation>
     </message>
@@ -1940,6 +1948,177 @@ after the rotation that brings the two closest where corners (dots) were seen.</
     <message>
         <source>10 to 20 of one flat board: sharp, evenly lit, with the focus and zoom that the camera will have at work.</source>
         <translation>一块平整标定板的 10 到 20 张：清晰、光照均匀，对焦和变焦与相机工作时相同。</translation>
+    </message>
+</context>
+<context>
+    <name>HandEyeDialog</name>
+    <message>
+        <source>Hand and eye</source>
+        <translation>手眼标定</translation>
+    </message>
+    <message>
+        <source>Robot&apos;s &amp;poses…</source>
+        <translation>机器人位姿(&amp;P)…</translation>
+    </message>
+    <message>
+        <source>CSV, JSON, text or MAT: a pose for each photograph, by its name or in their order, in any units and convention</source>
+        <translation>CSV、JSON、文本或 MAT：每张照片一个位姿，按照片名或照片顺序，单位和约定不限</translation>
+    </message>
+    <message>
+        <source>Where the camera is</source>
+        <translation>相机的位置</translation>
+    </message>
+    <message>
+        <source>as the poses tell</source>
+        <translation>由位姿判断</translation>
+    </message>
+    <message>
+        <source>in the hand</source>
+        <translation>在手上</translation>
+    </message>
+    <message>
+        <source>beside the robot</source>
+        <translation>在机器人旁</translation>
+    </message>
+    <message>
+        <source>The tool&apos;s point in the hand&apos;s frame</source>
+        <translation>手坐标系中的工具点</translation>
+    </message>
+    <message>
+        <source>X, Y, Z: the board</source>
+        <translation>X, Y, Z：标定板</translation>
+    </message>
+    <message>
+        <source>Where ± is stated, as 0, 0, 120; if empty, it is where the board was</source>
+        <translation>给出 ± 的位置，例如 0, 0, 120；为空时取标定板所在处</translation>
+    </message>
+    <message>
+        <source>&amp;Save…</source>
+        <translation>保存(&amp;S)…</translation>
+    </message>
+    <message>
+        <source>Choose the file of the poses at which the robot stood for the photographs.</source>
+        <translation>请选择拍摄照片时机器人位姿的文件。</translation>
+    </message>
+    <message>
+        <source>The side of a square is not known, and the robot&apos;s poses have lengths. Close this, and answer in the window how long the squares are.</source>
+        <translation>方格边长未知，而机器人位姿含有长度。请关闭此对话框，并在窗口中回答方格边长。</translation>
+    </message>
+    <message>
+        <source>Camera</source>
+        <translation>相机</translation>
+    </message>
+    <message>
+        <source>Tool at</source>
+        <translation>工具位于</translation>
+    </message>
+    <message>
+        <source>mm</source>
+        <translation>mm</translation>
+    </message>
+    <message>
+        <source>Poses of the robot</source>
+        <translation>机器人位姿</translation>
+    </message>
+    <message>
+        <source>Poses (*.csv *.json *.txt *.mat);;All files (*)</source>
+        <translation>位姿 (*.csv *.json *.txt *.mat);;所有文件 (*)</translation>
+    </message>
+    <message>
+        <source>{0} is no point X, Y, Z, such as 0, 0, 120.</source>
+        <translation>{0} 不是形如 0, 0, 120 的点 X, Y, Z。</translation>
+    </message>
+    <message>
+        <source>working…</source>
+        <translation>正在计算…</translation>
+    </message>
+    <message>
+        <source>Finding hand and eye</source>
+        <translation>正在求手眼关系</translation>
+    </message>
+    <message>
+        <source>Camera in the hand</source>
+        <translation>相机在手坐标系</translation>
+    </message>
+    <message>
+        <source>Board in the base</source>
+        <translation>标定板在基座坐标系</translation>
+    </message>
+    <message>
+        <source>Camera in the base</source>
+        <translation>相机在基座坐标系</translation>
+    </message>
+    <message>
+        <source>Board in the hand</source>
+        <translation>标定板在手坐标系</translation>
+    </message>
+    <message>
+        <source>Pose</source>
+        <translation>位姿</translation>
+    </message>
+    <message>
+        <source>rotation vector, {0}</source>
+        <translation>旋转向量，{0}</translation>
+    </message>
+    <message>
+        <source>Unit</source>
+        <translation>单位</translation>
+    </message>
+    <message>
+        <source>degrees</source>
+        <translation>度</translation>
+    </message>
+    <message>
+        <source>The most likely error of the robot&apos;s pose</source>
+        <translation>机器人位姿最可能的误差</translation>
+    </message>
+    <message>
+        <source>Photograph</source>
+        <translation>照片</translation>
+    </message>
+    <message>
+        <source>Robot off by</source>
+        <translation>机器人偏移</translation>
+    </message>
+    <message>
+        <source>Turned by</source>
+        <translation>转角偏差</translation>
+    </message>
+    <message>
+        <source>Used</source>
+        <translation>已用</translation>
+    </message>
+    <message>
+        <source>left out</source>
+        <translation>已排除</translation>
+    </message>
+    <message>
+        <source>yes</source>
+        <translation>是</translation>
+    </message>
+    <message>
+        <source>&amp;Use again</source>
+        <translation>重新使用(&amp;U)</translation>
+    </message>
+    <message>
+        <source>&amp;Leave out</source>
+        <translation>不使用(&amp;L)</translation>
+    </message>
+    <message>
+        <source>Save hand and eye</source>
+        <translation>保存手眼标定</translation>
+    </message>
+    <message>
+        <source>Hand and eye (*.json);;ROS, easy_handeye2 (*.calib);;OpenCV (*.yaml *.yml)</source>
+        <translation>手眼标定 (*.json);;ROS, easy_handeye2 (*.calib);;OpenCV (*.yaml *.yml)</translation>
+    </message>
+    <message>
+        <source>Writing {0}</source>
+        <translation>正在写入 {0}</translation>
+    </message>
+    <message>
+        <source>Saved as {0}.</source>
+        <translation>已保存为 {0}。</translation>
     </message>
 </context>
 <context>

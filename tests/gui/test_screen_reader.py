@@ -14,6 +14,7 @@ from pytestqt.qtbot import QtBot
 from calibgui.gui.dialogs.bug_dialog import BugDialog
 from calibgui.gui.dialogs.export_dialog import ExportDialog
 from calibgui.gui.dialogs.fleet_dialog import FleetDialog
+from calibgui.gui.dialogs.hand_eye_dialog import HandEyeDialog
 from calibgui.gui.dialogs.manual_dialog import ManualDialog
 from calibgui.gui.dialogs.print_dialog import PrintDialog
 from calibgui.gui.dialogs.series_dialog import SeriesDialog
@@ -113,6 +114,7 @@ def test_the_dialogs(full: MainWindow, qtbot: QtBot) -> None:
         ManualDialog(full),
         ExportDialog(full.session.jobs, result, full),
         SeriesDialog(full.session.jobs, full),
+        HandEyeDialog(full.session.jobs, result, full),
         FleetDialog(Path("fleet.db"), make_overview([]), lambda *_: False, full),
         BugDialog(ValueError("by design"), full),
     )

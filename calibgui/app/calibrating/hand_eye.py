@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
+from dataclasses import replace
 from pathlib import PurePath
 
 import numpy as np
@@ -20,16 +21,17 @@ def find_hand_eye(
     table: RobotPoseTable,
     eye_in_hand: bool | None = None,
     tool: Array | None = None,
+    without: Collection[str] = (),
 ) -> HandEyeSet:
     """Find where the camera is in the robot's hand, or beside the robot.
 
     Args:
-        source: a calibration with its views; or a camera, the covariance of its parameters if that
-        is
-            known, and views of the same size.
+        source: a calibration with its views; or a camera, the covariance of its parameters if
+            that is known, and views of the same size.
         table: the robot's poses.
         eye_in_hand: whether the camera is in the hand; None to find out.
         tool: (3,) the tool's point in the hand's frame, mm; None for where the board is.
+        without: names of photographs that take no part.
 
     Raises:
         CalibrationError: if the poses do not go with the views or do not fit them, if nobody has
@@ -58,7 +60,8 @@ def find_hand_eye(
         )
     if covariance is not None and not np.isfinite(covariance).all():
         covariance = None
-    used, rows, left_out = pair_poses(views, table)
+    taken = [replace(view, enabled=False) if view.name in without else view for view in views]
+    used, rows, left_out = pair_poses(taken, table)
     found = calibrate_hand_eye(
         camera,
         [view.observation(board) for view in used],
@@ -70,6 +73,18 @@ def find_hand_eye(
         names=[view.name for view in used],
     )
     return HandEyeSet(found, left_out, has_covariance=covariance is not None)
+
+
+def parse_point(text: str) -> Array:
+    """Read a point such as "0,0,120", mm.
+
+    Raises:
+        ValueError: if it is none.
+    """
+    point = np.array([float(part) for part in text.split(",")])
+    if point.shape != (3,) or not np.isfinite(point).all():
+        raise ValueError(text)
+    return point
 
 
 def pair_poses(

@@ -149,7 +149,7 @@ def _check_lengths(choice: Choice, boards: Motions, points: Array) -> None:
     if scipy.stats.f.sf(ratio, 1, freedom) < _CHANCE:
         raise CalibrationError(
             f"By the robot's motions the board's squares are {scale:.3g} times as long as stated.",
-            "State the side of a square as it was printed, as --square 25 on the command line.",
+            "State the side of a square as it was printed.",
         )
 
 

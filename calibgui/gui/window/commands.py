@@ -299,6 +299,13 @@ class Commands(QObject):
                     tip=self.tr("How a camera varies with zoom, focus, temperature or date"),
                     run=self._many.show_series,
                 ),
+                Command(
+                    text=self.tr("&Hand and eye…"),
+                    tip=self.tr("Where the camera is in a robot's hand, or beside the robot"),
+                    run=self._show_hand_eye,
+                    is_enabled=lambda: session.result is not None,
+                    why_disabled=self.tr("Nothing is calibrated yet: press Calibrate first."),
+                ),
                 None,
                 Command(
                     text=self.tr("&Print a board…"),
@@ -307,6 +314,14 @@ class Commands(QObject):
                 ),
             ),
         )
+
+    def _show_hand_eye(self) -> None:
+        """Show the dialog of hand and eye, in which the user chooses the robot's poses."""
+        from calibgui.gui.dialogs.hand_eye_dialog import HandEyeDialog
+
+        result = self._session.result
+        assert result is not None
+        show_dialog(HandEyeDialog(self._session.jobs, result, self._parent))
 
     def _describe_view(
         self, leave_alone: Callable[[], object], list_pages: Callable[[], Sequence[Page]]

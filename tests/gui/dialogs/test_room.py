@@ -13,6 +13,7 @@ from pytestqt.qtbot import QtBot
 from calibgui.gui.dialogs.bug_dialog import BugDialog
 from calibgui.gui.dialogs.export_dialog import ExportDialog
 from calibgui.gui.dialogs.fleet_dialog import FleetDialog
+from calibgui.gui.dialogs.hand_eye_dialog import HandEyeDialog
 from calibgui.gui.dialogs.manual_dialog import ManualDialog
 from calibgui.gui.dialogs.print_dialog import PrintDialog
 from calibgui.gui.dialogs.series_dialog import SeriesDialog
@@ -29,17 +30,23 @@ def make_export(window: MainWindow) -> QDialog:
     return ExportDialog(window.session.jobs, window.session.result, window)
 
 
+def make_hand_eye(window: MainWindow) -> QDialog:
+    assert window.session.result is not None
+    return HandEyeDialog(window.session.jobs, window.session.result, window)
+
+
 @pytest.mark.parametrize(
     "make",
     [
         make_export,
         lambda window: PrintDialog(window.session.project.board, window),
         lambda window: SeriesDialog(window.session.jobs, window),
+        make_hand_eye,
         lambda window: FleetDialog(Path("f.db"), make_overview([]), lambda *_: False, window),
         lambda window: ManualDialog(window),
         lambda window: BugDialog(ValueError("by design"), window),
     ],
-    ids=["export", "print", "series", "fleet", "manual", "bug"],
+    ids=["export", "print", "series", "hand-eye", "fleet", "manual", "bug"],
 )
 def test_no_text_is_clipped(
     full: MainWindow, qtbot: QtBot, make: Callable[[MainWindow], QDialog]
