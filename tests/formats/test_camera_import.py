@@ -163,7 +163,7 @@ def test_our_own_files_without_a_camera_name_the_result(
 
 def test_all_of_our_own_files_are_read_or_named() -> None:
     without = {"lensfun", "lcp", "python", "opencv-python", "corners", "corners-csv", "corners-vnl"}
-    by_another_format = {"colmap-model", "openvins"}
+    by_another_format = {"colmap-model", "openvins", "metashape-cameras"}
     of_undistorted_images = {"map", "usd"}
     read = {"result", *_READ_BACK} | by_another_format
     assert read | without | of_undistorted_images == set(EXPORTERS)

@@ -31,7 +31,7 @@ from calibgui.engine import opencv
 from calibgui.engine.boards import BoardShape, BoardShapeModel
 from calibgui.engine.camera import Camera, pixels_from_rays
 from calibgui.engine.errors import CalibrationError
-from calibgui.engine.images import is_video, read_image, read_image_header
+from calibgui.engine.images import is_video, read_image, read_image_header, read_small_image
 from calibgui.formats import IMPORTERS, read_camera
 from calibgui.formats.board_poses_json import read_board_poses
 from calibgui.formats.board_shape_json import read_board_shape, write_board_shape
@@ -443,8 +443,8 @@ def _list_image_readers(folder: Path) -> list[Reader]:
                 f"photograph ({suffix[1:]})",
                 file.name,
                 file.read_bytes(),
-                lambda path: (read_image_header(path), read_image(path)),
-                ("read_image", "read_image_header"),
+                lambda path: (read_image_header(path), read_small_image(path, 1), read_image(path)),
+                ("read_image", "read_image_header", "read_small_image"),
             )
         )
     return readers
