@@ -1,4 +1,4 @@
-"""Where cameras are, as programs that reconstruct scenes are told it.
+"""The places of cameras in the axes and units of programs that reconstruct scenes.
 
 The world is the board. To nerfstudio its axes, and the camera's, are those of OpenGL and Blender: X
 right, Y up, Z out of the board and behind the camera. Those of the array frame are turned by half

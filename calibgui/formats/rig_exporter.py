@@ -20,13 +20,13 @@ class RigExporter:
     name: str
     """Name of the format on the command line."""
     title: str
-    """What is written, in words."""
+    """The words for what the format is, as in a menu."""
     suffixes: tuple[str, ...]
     """Suffixes of its files, the usual one first."""
     readers: str
     """The programs that read its files."""
     keeps: str
-    """What it holds of a rig, as a clause."""
+    """The clause that says what the format keeps of a rig."""
     write: Callable[[RigResult, Path, tuple[int, int]], str]
     """Function from a rig, a path and two cameras that writes the files and returns a sentence."""
     list_files: Callable[[RigResult, Path, tuple[int, int]], list[Path]] = (

@@ -48,8 +48,8 @@ class CalibratedRig:
 
     @property
     def offsets(self) -> dict[str, tuple[float, float]]:
-        """By how much each camera's clock is later than the first's, s, and the standard deviation
-        of that, by the names of the cameras; 0 where it was not estimated."""
+        """Delays of the cameras' clocks after the first one's, s, each with its standard deviation,
+        by the names of the cameras; 0 where it was not estimated."""
         rig = self.rig
         sigmas = map(rig.offset_sigma, range(len(rig.names)))
         return dict(zip(rig.names, zip(rig.offsets.tolist(), sigmas, strict=True), strict=True))

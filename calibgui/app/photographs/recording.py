@@ -112,7 +112,7 @@ class CaptureProgress:
     unseen_corners: int
     """Number of such corners."""
     readout: str
-    """How long the camera's rows take, where what moved told; "" if it did not."""
+    """The sentence on how long the camera takes for its rows; empty if nothing moved told."""
 
 
 def check_recording_folder(folder: Path) -> None:

@@ -60,7 +60,7 @@ class _Opened:
     """A source that closes itself at the end of a `with` statement."""
 
     remark = ""
-    """How it is set, and what is wrong with that, in sentences; "" if it has no settings."""
+    """Sentences on the source's settings and what is wrong with them; empty if it has none."""
 
     def close(self) -> None:
         """Release nothing."""

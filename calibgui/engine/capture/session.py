@@ -131,7 +131,7 @@ class CaptureSession:
         self.calibration: Calibration | None = None
         """The camera so far, which may be partial; None before the first picture."""
         self._checked: Calibration | None = None
-        """The same without the pictures that are put aside; None if there are none."""
+        """The camera from the pictures that are not put aside; None if none is put aside."""
         self.worst = np.inf
         """Uncertainty of the worst pixel's projection, px; infinite until the views determine the
         camera."""

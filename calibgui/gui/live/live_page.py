@@ -100,7 +100,7 @@ class LivePage(QWidget):
         self._frames: LatestFrames | None = None
         self._has_failed = False
         self._remark = ""
-        """How the camera is set."""
+        """The line that says how the camera is set."""
         self._shown: object = None
         """The image that is on the screen."""
         self.folder = Path()

@@ -1,4 +1,4 @@
-"""What is stated of a rig before it is calibrated."""
+"""The form that asks what is known of a rig before it is calibrated."""
 
 from __future__ import annotations
 
