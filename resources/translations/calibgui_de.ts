@@ -2381,8 +2381,8 @@ Links abgelegt kommen sie ins Projekt.</translation>
         <translation>Bekannte Kamera</translation>
     </message>
     <message>
-        <source>The camera of {0} ({1}) is held: Calibrate locates the board in each photograph with it. Set-up gives it up again.</source>
-        <translation>Die Kamera aus {0} ({1}) wird festgehalten: Kalibrieren verortet mit ihr das Brett in jedem Foto. Die Einrichtung gibt sie wieder auf.</translation>
+        <source>The camera of {0} ({1}) stays as it is: Calibrate only finds where the board was. To calibrate another, take it away in the Set-up.</source>
+        <translation>Die Kamera aus {0} ({1}) bleibt, wie sie ist: Kalibrieren findet nur, wo das Brett war. Um eine andere zu kalibrieren, sie in der Einrichtung entfernen.</translation>
     </message>
     <message>
         <source>Of {0} camera files it is the first.</source>
@@ -4033,8 +4033,8 @@ Der Kreis: wie die Bretter geneigt waren; die Mitte ist zur Kamera hin, der Rand
         <translation>Pa&amp;pier</translation>
     </message>
     <message>
-        <source>What stands here is kept with the project. PDF needs the extra “report”.</source>
-        <translation>Was hier steht, wird mit dem Projekt gespeichert. PDF braucht das Extra „report“.</translation>
+        <source>What stands here is kept with the project. For PDF: pip install &apos;calibgui[report]&apos;.</source>
+        <translation>Was hier steht, wird im Projekt behalten. Für PDF: pip install &apos;calibgui[report]&apos;.</translation>
     </message>
     <message>
         <source>&amp;Save…</source>

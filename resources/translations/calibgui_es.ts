@@ -2381,8 +2381,8 @@ Soltadas a la izquierda entran en el proyecto.</translation>
         <translation>Cámara conocida</translation>
     </message>
     <message>
-        <source>The camera of {0} ({1}) is held: Calibrate locates the board in each photograph with it. Set-up gives it up again.</source>
-        <translation>Se fija la cámara de {0} ({1}): Calibrar ubica con ella el tablero en cada foto. Los Ajustes la sueltan.</translation>
+        <source>The camera of {0} ({1}) stays as it is: Calibrate only finds where the board was. To calibrate another, take it away in the Set-up.</source>
+        <translation>La cámara de {0} ({1}) queda como está: Calibrar solo busca dónde estaba el tablero. Para calibrar otra, quítela en Ajustes.</translation>
     </message>
     <message>
         <source>Of {0} camera files it is the first.</source>
@@ -4033,8 +4033,8 @@ El círculo: cómo se inclinaron los tableros; el centro es de frente, el borde 
         <translation>&amp;Papel</translation>
     </message>
     <message>
-        <source>What stands here is kept with the project. PDF needs the extra “report”.</source>
-        <translation>Lo que figura aquí se guarda con el proyecto. PDF necesita el extra «report».</translation>
+        <source>What stands here is kept with the project. For PDF: pip install &apos;calibgui[report]&apos;.</source>
+        <translation>Lo que figura aquí se guarda con el proyecto. Para PDF: pip install &apos;calibgui[report]&apos;.</translation>
     </message>
     <message>
         <source>&amp;Save…</source>

@@ -2381,8 +2381,8 @@ Dropped on the left they join the project.</source>
         <translation>已知相机</translation>
     </message>
     <message>
-        <source>The camera of {0} ({1}) is held: Calibrate locates the board in each photograph with it. Set-up gives it up again.</source>
-        <translation>已固定 {0} ({1}) 的相机：“标定”用它在每张照片中定位标定板。可在设置中取消。</translation>
+        <source>The camera of {0} ({1}) stays as it is: Calibrate only finds where the board was. To calibrate another, take it away in the Set-up.</source>
+        <translation>来自 {0}（{1}）的相机保持不变：标定只确定标定板的位置。若要标定其他相机，请在设置中将其移除。</translation>
     </message>
     <message>
         <source>Of {0} camera files it is the first.</source>
@@ -4033,8 +4033,8 @@ The circle: how the boards were tilted; the middle is facing the camera, the rim
         <translation>纸张(&amp;P)</translation>
     </message>
     <message>
-        <source>What stands here is kept with the project. PDF needs the extra “report”.</source>
-        <translation>此处的内容随项目保存。PDF 需要附加组件“report”。</translation>
+        <source>What stands here is kept with the project. For PDF: pip install &apos;calibgui[report]&apos;.</source>
+        <translation>此处内容随项目保存。要输出 PDF：pip install &apos;calibgui[report]&apos;。</translation>
     </message>
     <message>
         <source>&amp;Save…</source>

@@ -81,7 +81,10 @@ class ReportDialog(QDialog):
         columns = make_row(*((form, 1) for form in forms))
         self.words = WrappedLabel(
             age
-            or self.tr("What stands here is kept with the project. PDF needs the extra “report”.")
+            or self.tr(
+                "What stands here is kept with the project. For PDF: "
+                "pip install 'calibgui[report]'."
+            )
         )
         self.save = Button(self.tr("&Save…"), Kind.MAIN)
         buttons = make_buttons(self, self.save)
