@@ -175,8 +175,13 @@ class _Model(QStandardItemModel):
         be felt.
         """
         rows = range(self._filled, min(self._filled + MEASURED_ROWS, self.rowCount()))
+        blocked = self.blockSignals(True)  # told cell by cell, the order would be asked each time
         for place, column in enumerate(self.columns):
             self._fill_cells(place, column, rows[: max(len(column.values) - rows.start, 0)])
+        self.blockSignals(blocked)
+        if rows:
+            last = self.index(rows[-1], self.columnCount() - 1)
+            self.dataChanged.emit(self.index(rows[0], 0), last)
         self._filled = rows.stop
         return rows.stop < self.rowCount()
 
