@@ -4727,10 +4727,6 @@ Die Farben: wo die eigene Unsicherheit der Kalibrierung klein (dunkel) und groß
         <translation>Eine Ansicht bestimmt keine Kamera: {0} bleibt unbekannt.</translation>
     </message>
     <message>
-        <source>Add at least two more views with the board tilted by {0} to {1} degrees in different directions.</source>
-        <translation>Mindestens zwei weitere Ansichten hinzufügen, das Brett um {0} bis {1} Grad in verschiedene Richtungen geneigt.</translation>
-    </message>
-    <message>
         <source>The focal length differs between the views.</source>
         <translation>Die Brennweite ist in den Ansichten verschieden.</translation>
     </message>

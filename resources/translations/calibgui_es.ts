@@ -4727,10 +4727,6 @@ Los colores: dónde es pequeña (oscuro) y grande la incertidumbre de la propia 
         <translation>Una vista no determina una cámara: {0} queda sin conocer.</translation>
     </message>
     <message>
-        <source>Add at least two more views with the board tilted by {0} to {1} degrees in different directions.</source>
-        <translation>Añada al menos dos vistas más con el tablero inclinado de {0} a {1} grados en direcciones distintas.</translation>
-    </message>
-    <message>
         <source>The focal length differs between the views.</source>
         <translation>La distancia focal difiere entre las vistas.</translation>
     </message>

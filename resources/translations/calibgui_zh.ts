@@ -4727,10 +4727,6 @@ The colours: where the calibration&apos;s own uncertainty is small (dark) and la
         <translation>一张照片不足以确定相机：{0} 未知。</translation>
     </message>
     <message>
-        <source>Add at least two more views with the board tilted by {0} to {1} degrees in different directions.</source>
-        <translation>请至少再添加两张照片，标定板向不同方向倾斜 {0} 至 {1} 度。</translation>
-    </message>
-    <message>
         <source>The focal length differs between the views.</source>
         <translation>各视图的焦距不同。</translation>
     </message>

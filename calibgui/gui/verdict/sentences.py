@@ -70,11 +70,6 @@ LISTED = (
     QT_TRANSLATE_NOOP(
         "Sentences", "One view does not determine a camera, which leaves {0} unknown."
     ),
-    QT_TRANSLATE_NOOP(
-        "Sentences",
-        "Add at least two more views with the board tilted by {0} to {1} degrees in different "
-        "directions.",
-    ),
     QT_TRANSLATE_NOOP("Sentences", "The focal length differs between the views."),
     QT_TRANSLATE_NOOP(
         "Sentences",

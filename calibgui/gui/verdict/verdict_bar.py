@@ -51,7 +51,7 @@ _LINES_OF_QUESTION = 2
 LOW = 600
 """Height of an inspector that is low: above it the reason has more lines, below it the picture
 of the sensor is lower, device-independent px."""
-_HEIGHT, _HEIGHT_IF_LOW = 196, 120
+_HEIGHT, _HEIGHT_IF_LOW = 180, 120
 """Heights of the picture, device-independent px."""
 _NAME_LENGTH = 16
 """Letters of a name that have room on a button in the least width."""
