@@ -44,15 +44,15 @@ from calibgui.report.verdict import describe_reason
 
 _PLACES = "CoveragePanel"
 """The panel that shows where to hold the board."""
-_LINES_IF_LOW, _LINES = 2, 3
+_LINES, _LINES_IF_ROOMY = 2, 3
 """Lines that are reserved for the reason, so that another verdict moves nothing below."""
 _LINES_OF_QUESTION = 2
 """Lines that are reserved for the question how long the squares are."""
-LOW = 600
-"""Height of an inspector that is low: above it the reason has more lines, below it the picture
-of the sensor is lower, device-independent px."""
-_HEIGHT, _HEIGHT_IF_LOW = 180, 120
-"""Heights of the picture, device-independent px."""
+ROOMY = 690
+"""Height of the inspector above which the reason has another line, device-independent px."""
+_LEAST_HEIGHT, _HEIGHT, _REST = 120, 180, 494
+"""Least and usual height of the picture, and the height of all else in an inspector without remedies,
+device-independent px."""
 _NAME_LENGTH = 16
 """Letters of a name that have room on a button in the least width."""
 
@@ -113,7 +113,7 @@ class VerdictBar(QWidget):
         self.unfold.toggled.connect(self.findings.setVisible)
         self.comparison: QWidget | None = None
         self._lay_out()
-        self.fit_height(LOW)
+        self.fit_height(ROOMY)
         self.remedy_runner.began.connect(self._show_buttons)
         self.remedy_runner.ended.connect(self._show_buttons)
         self.remedy_runner.done.connect(self._compare)
@@ -147,8 +147,10 @@ class VerdictBar(QWidget):
 
     def fit_height(self, of_inspector: int) -> None:
         """Leave room to what is below in an inspector that is not high."""
-        self.reason.reserve(_LINES if of_inspector > LOW else _LINES_IF_LOW)
-        self.figures.setFixedHeight(_HEIGHT_IF_LOW if of_inspector < LOW else _HEIGHT)
+        self.reason.reserve(_LINES_IF_ROOMY if of_inspector > ROOMY else _LINES)
+        self.figures.setFixedHeight(min(max(of_inspector - _REST, _LEAST_HEIGHT), _HEIGHT))
+        if (layout := self.layout()) is not None:
+            layout.activate()  # whoever is being resized asks at once how high all is by now
 
     def _judge(self, result: Result | None) -> None:
         """Find out what the shown result is worth, beside the window, once nothing better comes.

@@ -19,7 +19,7 @@ from calibgui.gui.canvas.image_page import ImagePage
 from calibgui.gui.session.session import Session
 from calibgui.gui.verdict.camera_values import CameraValues
 from calibgui.gui.verdict.done_list import DoneList
-from calibgui.gui.verdict.verdict_bar import LOW, VerdictBar
+from calibgui.gui.verdict.verdict_bar import ROOMY, VerdictBar
 from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.layouts import make_column, make_row
 from calibgui.gui.widgets.scrolling import make_scrollable
@@ -89,7 +89,7 @@ class Inspector(QWidget):
             return
         self._is_row = is_row
         if is_row:
-            self._verdict.fit_height(LOW)
+            self._verdict.fit_height(ROOMY)
         direction = QBoxLayout.Direction
         self._lists.setDirection(direction.LeftToRight if is_row else direction.TopToBottom)
         self._lists.setStretch(0, int(is_row))
