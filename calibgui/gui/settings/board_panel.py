@@ -31,6 +31,7 @@ from calibgui.engine.boards import AprilGrid, ListedCircles, Pattern
 from calibgui.engine.images import Field
 from calibgui.gui.session.session import Session
 from calibgui.gui.settings.pattern_choice import PatternChoice
+from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.layouts import INDENTED, make_row
 from calibgui.gui.widgets.narrow_combo import NarrowCombo
 from calibgui.gui.widgets.number_box import NumberBox
@@ -130,6 +131,7 @@ class BoardPanel(QWidget):
         corners = make_row((self.rows, 1), QLabel("×"), (self.cols, 1))
         side = make_row((self.square, 1), QLabel("±"), (self.square_sigma, 1), self.unit)
         form = self._form = QFormLayout(self)
+        form.setSpacing(theme.SPACING)
         form.setContentsMargins(*INDENTED)
         form.addRow(self.pattern)
         form.addRow(self.counted, corners)

@@ -13,6 +13,7 @@ from PySide6.QtWidgets import (
 from calibgui.engine.boards import BoardShape, BoardShapeModel, BoardShapePrior
 from calibgui.engine.errors import CalibrationError
 from calibgui.formats.board_shape_json import read_board_shape
+from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.layouts import make_row
 from calibgui.gui.widgets.narrow_combo import NarrowCombo
 from calibgui.gui.widgets.number_box import NumberBox
@@ -89,6 +90,7 @@ class BoardShapeChoice(QWidget):
         )
         row = make_row((self.in_plane, 1), (self.out_of_plane, 1))
         form = QFormLayout(self)
+        form.setSpacing(theme.SPACING)
         form.setContentsMargins(0, 0, 0, 0)
         form.addRow(self.tr("Boar&d is"), self.model)
         form.addRow(self.known, row)

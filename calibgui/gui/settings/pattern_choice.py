@@ -30,6 +30,7 @@ from calibgui.engine.boards import (
 )
 from calibgui.engine.errors import CalibrationError
 from calibgui.formats.circle_list import read_circle_list
+from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.buttons import Button
 from calibgui.gui.widgets.layouts import make_row
 from calibgui.gui.widgets.number_box import NumberBox
@@ -132,6 +133,7 @@ class PatternChoice(QWidget):
         )
         make_row((self.first_row, 1), QLabel("×"), (self.first_col, 1), of=self.origin)
         self.form = QFormLayout(self)
+        self.form.setSpacing(theme.SPACING)
         self.form.setContentsMargins(0, 0, 0, 0)
         self.label = QLabel(self.tr("Pattern"))
         """The first label; the fields begin where the widest one of any pattern ends."""

@@ -51,7 +51,7 @@ _LINES_OF_QUESTION = 2
 ROOMY = 690
 """Height of the inspector above which the reason has another line, device-independent px."""
 _LEAST_HEIGHT, _HEIGHT, _REST = 120, 180, 494
-"""Least and usual height of the picture, and the height of all else in an inspector without remedies,
+"""Least and usual height of the picture, and that of all else in an inspector without remedies,
 device-independent px."""
 _NAME_LENGTH = 16
 """Letters of a name that have room on a button in the least width."""
