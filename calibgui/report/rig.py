@@ -151,6 +151,12 @@ def describe_mistake(result: RigResult, mistake: RigMistake) -> str:
                 f"{name} stands {value:.2g} mm otherwise beside {other} from {first} on. "
                 "Calibrate the photographs before and after it by themselves."
             )
+        case Mistake.BOARDS_MOVED:
+            first = _name_photograph(result, mistake.camera, mistake.instants[0])
+            return (
+                f"The boards stand {value:.2g} mm otherwise to each other from {first} on. Fasten "
+                "them, or calibrate the photographs before and after it by themselves."
+            )
         case Mistake.REFOCUSED:
             first = _name_photograph(result, mistake.camera, mistake.instants[0])
             return (
