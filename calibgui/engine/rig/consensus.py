@@ -284,7 +284,7 @@ def _move_relation(
 def find_tree(shared: IntArray) -> list[tuple[int, int]]:
     """Find pairs (known, new) that join cameras to the first one, those that share most first.
 
-    Cameras that no chain of pairs joins to the first are in none.
+    Cameras that no chain of pairs joins to the first are joined to the first of their own.
 
     Args:
         shared: (C, C) numbers of instants at which two cameras both see the board.
@@ -297,8 +297,9 @@ def find_tree(shared: IntArray) -> list[tuple[int, int]]:
             key=lambda pair: (shared[pair], -pair[0], -pair[1]),
         )
         if shared[a, b] == 0:
-            break
-        tree.append((a, b))
+            b = others[0]
+        else:
+            tree.append((a, b))
         joined.append(b)
         others.remove(b)
     return tree

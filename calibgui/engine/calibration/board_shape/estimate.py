@@ -214,7 +214,8 @@ def _average_squares(total: float, sums: list[float], counts: list[int], size: i
     and of all."""
     others = max(size - 7 - sum(counts), 1)
     found = [each / max(count, 1) for each, count in zip(sums, counts, strict=True)]
-    smallest = np.finfo(float).tiny ** 0.25
+    # The sum of the others is a difference, and no smaller than rounding leaves it.
+    smallest = max(np.finfo(float).tiny ** 0.25, np.finfo(float).eps * total / size)
     return np.maximum([*found, (total - sum(sums)) / others], smallest)
 
 
