@@ -12,6 +12,7 @@ from calibgui.dataset import RigPairing, RigResult, relate_cameras
 from calibgui.engine.arrays import Array
 from calibgui.engine.camera import find_model
 from calibgui.engine.errors import CalibrationError
+from calibgui.engine.geometry import Pose
 from calibgui.engine.rig import (
     Mistake,
     PointUncertainty,
@@ -74,6 +75,7 @@ def format_rig(result: RigResult) -> str:
         "\n".join(map(format_bullet, remarks)),
         tabulate_cameras(result.rig),
         tabulate_poses(result),
+        tabulate_boards(result),
         tabulate_points(result.rig),
     ]
     return "\n\n".join(filter(None, parts))
@@ -208,15 +210,55 @@ def tabulate_poses(result: RigResult) -> str:
     rows = [["camera", "", "X", "Y", "Z", "length"]]
     for c in range(1, len(rig.cameras)):
         pose, sigma = rig.poses[c], rig.pose_sigma(c)
-        place = map(format_with_sigma, pose.tvec.tolist(), sigma[3:].tolist())
-        turn = map(
-            format_with_sigma, np.degrees(pose.rvec).tolist(), np.degrees(sigma[:3]).tolist()
-        )
+        place, turn = _format_pose(pose, sigma)
         rows.append([rig.names[c], "mm", *place, format_with_sigma(*measure_distance(rig, c))])
         rows.append(["", "deg", *turn, format_with_sigma(*measure_turn(rig, c))])
     condition = f", {result.condition}" if result.condition else ""
     title = f"Translation and rotation vector from {rig.names[0]}{condition}"
     return f"{title}\n{align_columns(rows, left=(0, 1))}"
+
+
+def _format_pose(pose: Pose, sigma: Array) -> tuple[list[str], list[str]]:
+    """Format translation, mm, and rotation vector, degrees, with standard deviations (6,)."""
+    place = map(format_with_sigma, pose.tvec.tolist(), sigma[3:].tolist())
+    turn = map(format_with_sigma, np.degrees(pose.rvec).tolist(), np.degrees(sigma[:3]).tolist())
+    return list(place), list(turn)
+
+
+def tabulate_boards(result: RigResult) -> str:
+    """Tabulate how several boards stand to each other, and how far those of unknown shape are from
+    their drawings."""
+    rig, boards = result.rig, result.rig.placed_boards
+    parts = []
+    if len(boards) > 1:
+        rows = [["board", "beside", "", "X", "Y", "Z"]]
+        for b, board in enumerate(boards):
+            if board.reference == b:
+                continue
+            place, turn = _format_pose(board.pose, rig.board_sigma(b))
+            rows.append([board.name, boards[board.reference].name, "mm", *place])
+            rows.append(["", "", "deg", *turn])
+        title = "Translation and rotation vector of boards"
+        if len(rows) > 1:
+            parts.append(f"{title}\n{align_columns(rows, left=(0, 1, 2))}")
+    apart = [board.name for b, board in enumerate(boards) if b and board.reference == b]
+    if apart:
+        parts.append(
+            fill_lines(
+                f"Where {list_names(apart)} stands beside {boards[0].name} is open: no two cameras "
+                "saw them at one instant. Nothing else depends on it.",
+                "",
+                "  ",
+            )
+        )
+    parts += [
+        f"{board.name[:1].upper()}{board.name[1:]} deviates from its drawing by "
+        f"{board.shape.rms:.2g} mm rms, at most "
+        f"{np.linalg.norm(board.shape.deviation, axis=1).max():.2g} mm."
+        for board in boards
+        if board.shape is not None
+    ]
+    return "\n".join(parts)
 
 
 def measure_distance(rig: Rig, c: int) -> tuple[float, float]:
@@ -303,11 +345,11 @@ def measure_row_error(result: RigResult, first: int, second: int) -> float:
     """
     pair = rectify_pair(*relate_cameras(result.rig, first, second))
     errors = []
-    kept = {(view.camera, view.instant) for view in result.rig.views if not view.turned}
-    for instant in result.rig.instants:
-        if not {(first, instant), (second, instant)} <= kept:
+    kept = {(view.camera, view.board, view.instant) for view in result.rig.views if not view.turned}
+    for camera, board, instant in sorted(kept):
+        if camera != first or (second, board, instant) not in kept:
             continue
-        a, b = (result.observations[c, instant] for c in (first, second))
+        a, b = (result.observations[c, board, instant] for c in (first, second))
         place = {tuple(xy): k for k, xy in enumerate(b.xy.round(6).tolist())}
         shared = [
             (k, place[tuple(xy)])

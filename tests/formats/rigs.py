@@ -18,12 +18,12 @@ def make_result(*lenses: Camera, count: int = 3) -> RigResult:
     scene = make_rig(count, instants=6 * count, lenses=lenses or LENSES)
     cameras = scene.noisy(0.1, np.random.default_rng(1))
     rig = calibrate_rig(cameras)
-    seen = {(c, k): view for c, camera in enumerate(cameras) for k, view in camera.views.items()}
+    seen = {(c, 0, k): view for c, camera in enumerate(cameras) for k, view in camera.views.items()}
     return RigResult(
         rig,
         {instant: f"{instant:04d}" for instant in rig.instants},
-        {(c, k): f"cam{c}/{k:04d}.png" for c, k in seen},
+        {(c, k): f"cam{c}/{k:04d}.png" for c, _, k in seen},
         seen,
-        BOARD,
+        (BOARD,),
         remarks=("A remark.",),
     )

@@ -2,8 +2,9 @@
 
 `calibrate_rig` takes cameras that are known alone, each with its views by instants, and returns a
 `Rig`: how the cameras stand to each other, and boards if there are several, and all their
-parameters, solved together, with the covariance that the disagreement of the instants tells. `triangulate_points` finds points in space
-from their pixels, `rectify_pair` images in whose rows the same points lie.
+parameters, solved together, with the covariance that the disagreement of the instants tells.
+`triangulate_points` finds points in space from their pixels, `rectify_pair` images in whose rows
+the same points lie.
 """
 
 from __future__ import annotations

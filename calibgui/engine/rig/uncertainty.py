@@ -144,7 +144,7 @@ def _describe_shapes(
 
 
 def _check_shapes(problem: RigProblem, solution: Solution) -> None:
-    """Refuse shapes of boards that the prior determines, which views themselves state, not these."""
+    """Refuse shapes of boards that views determine by the prior alone that they state."""
     U = solution.normal.U.copy()
     for board, place in zip(problem.boards, problem.find_columns().deviations, strict=True):
         if board.deviations is not None:

@@ -53,7 +53,10 @@ class BoardsScene:
             take_views(
                 camera,
                 [
-                    {k: v._replace(uv=v.uv + rng.normal(0, sigma, v.uv.shape)) for k, v in each.items()}
+                    {
+                        k: v._replace(uv=v.uv + rng.normal(0, sigma, v.uv.shape))
+                        for k, v in each.items()
+                    }
                     for each in camera.views_by_board
                 ],
             )
