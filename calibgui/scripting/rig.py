@@ -18,6 +18,7 @@ from calibgui.app.rig.pairing import pair_photographs
 from calibgui.dataset import RigResult, relate_cameras
 from calibgui.engine.arrays import GridSize
 from calibgui.engine.boards import Board, BoardShapeModel, Pattern
+from calibgui.engine.errors import CalibrationError
 from calibgui.engine.geometry import Pose
 from calibgui.engine.rig import (
     PlacedBoard,
@@ -194,9 +195,19 @@ def calibrate_rig(
             hold,
             offsets,
             tell=lambda name: tell(f"calibrating {name}", 0, 0),
-            boards=name_boards(stated, BoardShapeModel(board_shape)),
+            boards=name_boards(stated, _read_shape(board_shape)),
         )
     )
+
+
+def _read_shape(name: str) -> BoardShapeModel:
+    """Return a model of the boards' shape by its name."""
+    if name not in list(BoardShapeModel):
+        raise CalibrationError(
+            f"There is no board shape {name!r} of rigs.",
+            f"Choose from {', '.join(BoardShapeModel)}.",
+        )
+    return BoardShapeModel(name)
 
 
 def load_rig(path: File) -> CalibratedRig:
