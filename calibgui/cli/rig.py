@@ -17,7 +17,12 @@ from pathlib import Path
 from calibgui.app.calibrating.settings import Settings
 from calibgui.app.outputs.output_files import check_outputs, check_suffix
 from calibgui.app.photographs.detection import Detection
-from calibgui.app.rig.boards import StatedBoard, name_boards, search_boards
+from calibgui.app.rig.boards import (
+    StatedBoard,
+    list_boardless_views,
+    name_boards,
+    search_boards,
+)
 from calibgui.app.rig.calibrating import calibrate_photographs, require_times
 from calibgui.app.rig.frames import find_videos, read_frame_times, write_frames
 from calibgui.app.rig.pairing import find_cameras, pair_files, state_times
@@ -159,11 +164,11 @@ def run(options: argparse.Namespace, console: Console) -> None:
         read = [file for camera in pairing.cameras for file in camera.files.values()]
         check_outputs([(output, RIG)], read, options.overwrite)
     boards = read_stated_boards(options)
-    is_one = len(boards) == 1
-    corner_sets = search_boards(pairing, boards, partial(_search, options, console, is_one))
-    for name, corner_set in corner_sets[0].items() if is_one else ():
-        if unused := list_unused_views(corner_set.views):
-            console.print_text(f"{name}: {unused}\n", otherwise=f"{name}: {unused}")
+    is_only = len(boards) == 1
+    corner_sets = search_boards(pairing, boards, partial(_search, options, console, is_only))
+    for camera in pairing.cameras:
+        if unused := list_unused_views(list_boardless_views(corner_sets, camera.name)):
+            console.print_text(f"{camera.name}: {unused}\n", otherwise=f"{camera.name}: {unused}")
     settings = Settings(model=options.model, robust=options.robust)
     with console.show_progress("calibrating", "camera") as advance:
         done = iter(range(len(pairing.cameras) + 1))

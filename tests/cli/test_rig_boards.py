@@ -103,9 +103,7 @@ def test_a_place_that_is_stated_is_held(folder: Path, tmp_path: Path) -> None:
 
 
 def test_in_python(folder: Path) -> None:
-    rig = calibgui.calibrate_rig(
-        folder, boards=[FIRST, SECOND], model="pinhole", board_shape="bow"
-    )
+    rig = calibgui.calibrate_rig(folder, boards=[FIRST, SECOND], model="pinhole", board_shape="bow")
     first, second = rig.boards
     assert np.linalg.norm(second.pose.tvec - PLACE.tvec) < 1.0
     assert first.shape is not None and first.shape.rms < 0.5

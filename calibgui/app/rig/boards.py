@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 from calibgui.app.photographs.detection import Detection
 from calibgui.app.rig.calibrating import CornerSets, search_cameras
-from calibgui.dataset import DEFAULT_SQUARE, RigPairing
+from calibgui.dataset import DEFAULT_SQUARE, RigPairing, View
 from calibgui.engine.arrays import GridSize
 from calibgui.engine.boards import (
     AprilGrid,
@@ -65,6 +65,12 @@ def search_boards(
         return search_cameras(pairing, search_camera, board.square)
 
     return [find(board) for board in boards]
+
+
+def list_boardless_views(corner_sets: Sequence[CornerSets], camera: str) -> list[View]:
+    """List a camera's photographs of which no board's view can be used."""
+    shown = {view.image for each in corner_sets for view in each[camera].views if view.usable}
+    return [view for view in corner_sets[0][camera].views if view.image not in shown]
 
 
 def name_boards(

@@ -19,7 +19,6 @@ from calibgui.engine.rig.consensus import (
     Relation,
     apply_turns,
     choose_turns,
-    find_tree,
     measure_scatter,
 )
 from calibgui.engine.rig.records import RigPair
@@ -139,10 +138,11 @@ def describe_pairs(
     relations: Sequence[Relation],
     turns: Sequence[Array],
     agreement: Agreement,
+    tree: Sequence[tuple[int, int]],
 ) -> tuple[RigPair, ...]:
     """Describe how far apart single instants have the cameras of the pairs that join the rig."""
     pairs = []
-    for a, b in find_tree(count_shared(alone)):
+    for a, b in tree:
         kept = [
             part.poses.select(np.flatnonzero(agreement.kept[c]))
             for c, part in ((a, alone[a]), (b, alone[b]))

@@ -27,9 +27,9 @@ from calibgui.engine.errors import CalibrationError
 from calibgui.engine.geometry.pose import Pose
 from calibgui.engine.geometry.rotations import vector_from_rotation
 from calibgui.engine.rig.agreement import Agreement, describe_pairs, find_agreement, list_turns
-from calibgui.engine.rig.alone import CameraAlone, see_alone
+from calibgui.engine.rig.alone import CameraAlone, locate_views, see_alone
 from calibgui.engine.rig.board_shapes import solve_shapes
-from calibgui.engine.rig.joining import Joined, Sight, join_rig, list_sights
+from calibgui.engine.rig.joining import Joined, Sight, join_rig, list_sights, pair_sights
 from calibgui.engine.rig.joint_solve import place_corners, solve_jointly
 from calibgui.engine.rig.mistakes import find_mistakes
 from calibgui.engine.rig.problem import BoardProblem, CameraProblem, RigProblem, SightProblem
@@ -109,10 +109,19 @@ def calibrate_rig(
         solution = solve_jointly(problem, start, report)
         offsets = solution.state.params[[*map(problem.layout.offset, range(len(cameras)))]]
     problem, solution = solve_shapes(problem, solution, [board.shape for board in boards], report)
-    pairs = describe_pairs(still, relations, turns, agreement)
-    rig = _assemble(cameras, boards, joined, instants, alone, turns, agreement, problem, solution)
+    tree = pair_sights(sights, still)
+    pairs = describe_pairs(still, relations, turns, agreement, tree)
+    rms = [
+        _measure_alone(problem, solution.state, sight, camera, part.select(np.flatnonzero(kept)))
+        for sight, camera, part, kept in zip(
+            problem.sights, seen, alone, agreement.kept, strict=True
+        )
+    ]
+    rig = _assemble(
+        cameras, boards, joined, instants, alone, rms, turns, agreement, problem, solution
+    )
     mistakes = find_mistakes(
-        seen, still, relations, turns, agreement, instants, rig.disagreement > 0
+        seen, still, relations, turns, agreement, instants, rig.disagreement > 0, tree
     )
     return replace(
         rig, pairs=_pair_cameras(sights, pairs), mistakes=_blame_cameras(sights, mistakes)
@@ -236,12 +245,28 @@ def _find_start(
     return State(np.concatenate(params), R, T)
 
 
+def _measure_alone(
+    problem: RigProblem,
+    state: State,
+    sight: SightProblem,
+    camera: RigCamera,
+    alone: CameraAlone,
+) -> Array:
+    """Measure the root mean square residuals (K,), px, of the views of a sight with its camera
+    alone, on the board of the shape that was found."""
+    if problem.boards[sight.board].deviations is not None:
+        observations = place_corners(problem, state, sight)[1]
+        alone = locate_views(camera, observations, sight.instant)
+    return alone.compute_rms()
+
+
 def _assemble(
     cameras: Sequence[RigCamera],
     boards: Sequence[RigBoard],
     joined: Joined,
     instants: Sequence[int],
     alone: Sequence[CameraAlone],
+    rms: Sequence[Array],
     turns: Sequence[Array],
     agreement: Agreement,
     problem: RigProblem,
@@ -255,15 +280,14 @@ def _assemble(
     for s, (part, sight) in enumerate(zip(alone, problem.sights, strict=True)):
         own, there = place_corners(problem, state, sight)
         misses = compute_misses(own, there, problem.cameras[sight.camera].model, Cost.IMAGE)
-        rms, kept = part.compute_rms(), np.flatnonzero(agreement.kept[s])
-        for k, view in enumerate(kept.tolist()):
+        for k, view in enumerate(np.flatnonzero(agreement.kept[s]).tolist()):
             turn = turns[agreement.turn[s][view]]
             views.append(
                 RigView(
                     sight.camera,
                     instants[part.poses.instant[view]],
                     misses[k, there.corners_of(k)],
-                    float(rms[view]),
+                    float(rms[s][k]),
                     float(np.sqrt(agreement.cost[s][view] / 6)),
                     float(np.degrees(np.arctan2(turn[1, 0], turn[0, 0]))) % 360,
                     sight.board,
@@ -324,7 +348,10 @@ def _pair_cameras(sights: Sequence[Sight], pairs: Sequence[RigPair]) -> tuple[Ri
 def _blame_cameras(
     sights: Sequence[Sight], mistakes: Sequence[RigMistake]
 ) -> tuple[RigMistake, ...]:
-    """Return mistakes in sights as mistakes in cameras, those of one kind together."""
+    """Return mistakes in sights as mistakes in cameras, those of one kind together.
+
+    Boards that moved against each other explain all views that agree less than others.
+    """
     found: dict[tuple[Mistake, int, int, float], RigMistake] = {}
     for mistake in mistakes:
         kind, camera, other = (
@@ -339,4 +366,7 @@ def _blame_cameras(
         found[kind, camera, other, ratio] = RigMistake(
             kind, camera, other, tuple(sorted(numbers)), mistake.value
         )
-    return tuple(found.values())
+    kinds = {kind for kind, *_ in found}
+    unexplained = {Mistake.OTHER_INSTANT, Mistake.LESS_AGREEMENT}
+    dropped = unexplained if Mistake.BOARDS_MOVED in kinds else set()
+    return tuple(mistake for mistake in found.values() if mistake.kind not in dropped)

@@ -30,7 +30,7 @@ from calibgui.engine.errors import CalibrationError
 from calibgui.engine.geometry.rotations import rotation_from_vector
 from calibgui.engine.rig.agreement import count_shared
 from calibgui.engine.rig.alone import CameraAlone
-from calibgui.engine.rig.consensus import Relation, ViewPoses, find_relation
+from calibgui.engine.rig.consensus import Relation, ViewPoses, find_relation, find_tree
 from calibgui.engine.rig.records import RigBoard, RigCamera
 
 _NOWHERE = Relation(np.eye(3), np.zeros(3))
@@ -206,6 +206,18 @@ def _gather_views(
     return ViewPoses.concatenate(first), [
         ViewPoses.concatenate(turned) for turned in zip(*second, strict=True)
     ]
+
+
+def pair_sights(sights: Sequence[Sight], alone: Sequence[CameraAlone]) -> list[tuple[int, int]]:
+    """Find pairs of sights that join all of them, those that share most instants first.
+
+    Only where nothing else joins them are two of different cameras and different boards in one:
+    what has moved between these may be a camera or a board.
+    """
+    shared = count_shared(alone)
+    cameras, boards = np.array(sights).T
+    is_alike = np.equal.outer(cameras, cameras) | np.equal.outer(boards, boards)
+    return find_tree(np.where(shared > 0, shared + is_alike * shared.max(), 0))
 
 
 def _express_on(part: CameraAlone, relation: Relation) -> CameraAlone:

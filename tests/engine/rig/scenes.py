@@ -156,3 +156,11 @@ def measure_pose_error(found: Sequence[Pose], true: Sequence[Pose]) -> tuple[flo
     ]
     moves = [np.linalg.norm(f.tvec - t.tvec) for f, t in zip(found, true, strict=True)]
     return float(max(turns)), float(max(moves))
+
+
+def check_honest(found: Array, reported: Array, draws: int) -> None:
+    """Check that reported standard deviations (draws, n) are the scatter (n) of what is found."""
+    ratio = np.median(reported, axis=0) / found.std(axis=0, ddof=1)
+    margin = 4 / np.sqrt(2 * draws)
+    assert (np.abs(ratio - 1) < margin).all(), ratio
+    assert abs(ratio.mean() - 1) < 0.1, ratio
