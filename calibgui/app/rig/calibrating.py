@@ -10,7 +10,7 @@ import numpy as np
 from calibgui.app.calibrating.calibration import calibrate_views
 from calibgui.app.calibrating.settings import Settings
 from calibgui.app.photographs.detection import Detection
-from calibgui.dataset import CornerSet, RigPairing, RigResult, View
+from calibgui.dataset import CornerSet, Result, RigPairing, RigResult, View
 from calibgui.engine.boards import Board, BoardShapeModel
 from calibgui.engine.calibration import Observation
 from calibgui.engine.errors import CalibrationError
@@ -142,15 +142,12 @@ def _calibrate_alone(
     numbers: Mapping[str, int],
     settings: Settings,
 ) -> RigCamera:
-    """Calibrate a camera from its own photographs.
-
-    The shape of a single board is estimated as it is in the rig.
-    """
+    """Calibrate a camera from its own photographs."""
     remedy = f"Take more of {name}, or name its camera's file: --known {name}=FILE."
     corner_set, origins = _gather_views(seen, numbers)
     shape = boards[0].shape if len(boards) == 1 else BoardShapeModel.NOMINAL
     try:
-        result = calibrate_views(corner_set, replace(settings, board_shape=shape))
+        result = _calibrate_on_shape(corner_set, settings, shape)
     except CalibrationError as error:
         raise CalibrationError(
             f"{name} alone: {error.message}", f"{error.hint} {remedy}"
@@ -172,6 +169,19 @@ def _calibrate_alone(
         model_error=calibration.model_error,
         others=views[1:],
     )
+
+
+def _calibrate_on_shape(
+    corner_set: CornerSet, settings: Settings, shape: BoardShapeModel
+) -> Result:
+    """Calibrate a camera on a board of a shape that is estimated with it, or on the board as drawn
+    where the camera's own views do not carry that shape: those of the whole rig may."""
+    try:
+        return calibrate_views(corner_set, replace(settings, board_shape=shape))
+    except CalibrationError:
+        if shape is BoardShapeModel.NOMINAL:
+            raise
+        return calibrate_views(corner_set, replace(settings, board_shape=BoardShapeModel.NOMINAL))
 
 
 def _gather_views(
