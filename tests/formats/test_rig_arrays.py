@@ -130,7 +130,7 @@ def test_frames_of_nerfstudio_see_the_board_where_we_do(tmp_path: Path, lens: Ca
     names = ("k1", "k2", "k3", "k4") if lens is FISHEYE else ("k1", "k2", "p1", "p2", "k3")
     flip = np.diag([1.0, -1.0, -1.0, 1.0])
     for frame, view in zip(content["frames"], result.rig.views, strict=True):
-        observation = result.observations[view.camera, view.instant]
+        observation = result.observations[view.camera, view.board, view.instant]
         assert frame["file_path"] == result.images[view.camera, view.instant]
         camera_from_board = flip @ np.linalg.inv(frame["transform_matrix"]) @ flip
         board = np.pad(observation.xy / 1000, ((0, 0), (0, 1)))

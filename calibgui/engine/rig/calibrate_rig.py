@@ -13,12 +13,12 @@ Steps 1 and 2 take what a camera sees of a board for a camera of its own: a sigh
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
 
-from calibgui.engine.arrays import Array, IntArray
+from calibgui.engine.arrays import Array, BoolArray, IntArray
 from calibgui.engine.calibration.observations import Observations
 from calibgui.engine.calibration.refinement.levenberg_marquardt import Solution
 from calibgui.engine.calibration.refinement.residuals import State, compute_misses
@@ -104,27 +104,29 @@ def calibrate_rig(
         relations = [joined.cameras[sight.camera] for sight in sights]
         agreement = find_agreement(still, relations, turns, len(instants))
         views = _take_views(sights, alone, agreement, turns, motions)
-        problem = _state_problem(cameras, boards, joined, views, agreement, len(instants), motions)
+        problem = _state_problem(
+            cameras, boards, joined, tuple(views.values()), agreement, len(instants), motions
+        )
         start = _find_start(cameras, joined, sights, still, agreement, offsets)
         solution = solve_jointly(problem, start, report)
         offsets = solution.state.params[[*map(problem.layout.offset, range(len(cameras)))]]
     problem, solution = solve_shapes(problem, solution, [board.shape for board in boards], report)
     tree = pair_sights(sights, still)
     pairs = describe_pairs(still, relations, turns, agreement, tree)
-    rms = [
-        _measure_alone(problem, solution.state, sight, camera, part.select(np.flatnonzero(kept)))
-        for sight, camera, part, kept in zip(
-            problem.sights, seen, alone, agreement.kept, strict=True
-        )
-    ]
-    rig = _assemble(
-        cameras, boards, joined, instants, alone, rms, turns, agreement, problem, solution
-    )
+    rms = {
+        s: _measure_alone(problem, solution.state, sight, seen[s], alone[s], agreement.kept[s])
+        for s, sight in zip(views, problem.sights, strict=True)
+    }
+    rig = _assemble(cameras, boards, joined, instants, turns, agreement, rms, problem, solution)
+    left_out = _list_left_out(sights, alone, agreement, instants)
     mistakes = find_mistakes(
         seen, still, relations, turns, agreement, instants, rig.disagreement > 0, tree
     )
     return replace(
-        rig, pairs=_pair_cameras(sights, pairs), mistakes=_blame_cameras(sights, mistakes)
+        rig,
+        pairs=_pair_cameras(sights, pairs),
+        left_out=left_out,
+        mistakes=_blame_cameras(sights, mistakes),
     )
 
 
@@ -134,21 +136,20 @@ def _take_views(
     agreement: Agreement,
     turns: Sequence[Array],
     motions: Sequence[Motion],
-) -> tuple[SightProblem, ...]:
-    """Take the views that go together."""
-    taken = []
+) -> dict[int, SightProblem]:
+    """Take the views that go together, by the numbers of the sights that have any."""
+    taken = {}
     for s, (sight, part) in enumerate(zip(sights, alone, strict=True)):
         kept, turned = agreement.kept[s], agreement.turn[s]
-        taken.append(
-            SightProblem(
+        if kept.any():
+            taken[s] = SightProblem(
                 *sight,
                 _turn_views(part.observations, turned, turns).select_views(kept),
                 part.poses.instant[kept],
                 motions[s].velocity[kept],
                 motions[s].lag[kept],
             )
-        )
-    return tuple(taken)
+    return taken
 
 
 def _state_problem(
@@ -251,9 +252,11 @@ def _measure_alone(
     sight: SightProblem,
     camera: RigCamera,
     alone: CameraAlone,
+    kept: BoolArray,
 ) -> Array:
-    """Measure the root mean square residuals (K,), px, of the views of a sight with its camera
-    alone, on the board of the shape that was found."""
+    """Measure the root mean square residuals, px, of the views that are kept of a sight with its
+    camera alone, on the board of the shape that was found."""
+    alone = alone.select(np.flatnonzero(kept))
     if problem.boards[sight.board].deviations is not None:
         observations = place_corners(problem, state, sight)[1]
         alone = locate_views(camera, observations, sight.instant)
@@ -265,19 +268,18 @@ def _assemble(
     boards: Sequence[RigBoard],
     joined: Joined,
     instants: Sequence[int],
-    alone: Sequence[CameraAlone],
-    rms: Sequence[Array],
     turns: Sequence[Array],
     agreement: Agreement,
+    rms: Mapping[int, Array],
     problem: RigProblem,
     solution: Solution,
 ) -> Rig:
-    """Assemble the rig that was found."""
+    """Assemble the rig that was found; `rms` has the residuals of each sight's camera alone, px."""
     names = tuple(camera.name for camera in cameras)
     found = estimate_rig_covariance(problem, solution, names, [board.name for board in boards])
     state, layout = solution.state, problem.layout
-    views, left_out = [], []
-    for s, (part, sight) in enumerate(zip(alone, problem.sights, strict=True)):
+    views = []
+    for s, sight in zip(rms, problem.sights, strict=True):
         own, there = place_corners(problem, state, sight)
         misses = compute_misses(own, there, problem.cameras[sight.camera].model, Cost.IMAGE)
         for k, view in enumerate(np.flatnonzero(agreement.kept[s]).tolist()):
@@ -285,7 +287,7 @@ def _assemble(
             views.append(
                 RigView(
                     sight.camera,
-                    instants[part.poses.instant[view]],
+                    instants[sight.instant[k]],
                     misses[k, there.corners_of(k)],
                     float(rms[s][k]),
                     float(np.sqrt(agreement.cost[s][view] / 6)),
@@ -293,11 +295,6 @@ def _assemble(
                     sight.board,
                 )
             )
-        for view in np.flatnonzero(~agreement.kept[s]).tolist():
-            at = part.poses.instant[view]
-            both = part.observations.mask[view].sum() + _count_corners(alone, agreement, at)
-            error = float(np.sqrt(agreement.cost[s][view] / both))
-            left_out.append(LeftOutView(sight.camera, instants[at], error, sight.board))
     return Rig(
         names=names,
         cameras=tuple(
@@ -315,7 +312,6 @@ def _assemble(
         disagreement=found.disagreement,
         status=solution.status,
         pairs=(),
-        left_out=tuple(left_out),
         placed_boards=tuple(
             PlacedBoard(
                 board.name,
@@ -326,6 +322,23 @@ def _assemble(
             for b, board in enumerate(boards)
         ),
     )
+
+
+def _list_left_out(
+    sights: Sequence[Sight],
+    alone: Sequence[CameraAlone],
+    agreement: Agreement,
+    instants: Sequence[int],
+) -> tuple[LeftOutView, ...]:
+    """List the views that contradict the others."""
+    left_out = []
+    for s, (sight, part) in enumerate(zip(sights, alone, strict=True)):
+        for view in np.flatnonzero(~agreement.kept[s]).tolist():
+            at = part.poses.instant[view]
+            both = part.observations.mask[view].sum() + _count_corners(alone, agreement, at)
+            error = float(np.sqrt(agreement.cost[s][view] / both))
+            left_out.append(LeftOutView(sight.camera, instants[at], error, sight.board))
+    return tuple(left_out)
 
 
 def _count_corners(alone: Sequence[CameraAlone], agreement: Agreement, at: int) -> float:

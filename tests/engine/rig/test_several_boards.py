@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
+from calibgui.engine.boards.shape import BoardShapeModel
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.geometry.pose import Pose
 from calibgui.engine.rig import Mistake, Rig, RigBoard, RigCamera, calibrate_rig
@@ -187,3 +189,17 @@ def test_a_photograph_of_another_instant_is_left_out_with_all_its_boards() -> No
     [mistake] = rig.mistakes
     assert mistake.kind is Mistake.OTHER_INSTANT
     assert mistake.instants == (4, 9)
+
+
+def test_a_board_that_one_camera_has_wrong_throughout_is_left_out_there() -> None:
+    scene = make_boards_rig(3, 2, 20)
+    cameras = scene.noisy(0.1, np.random.default_rng(4))
+    first, second = cameras[1].views_by_board
+    others = list(second.values())[8:11]
+    cameras[1] = take_views(cameras[1], [dict(first), dict(enumerate(others))])
+    shaped = [replace(board, shape=BoardShapeModel.BOW) for board in scene.boards]
+    for boards in (scene.boards, shaped):
+        rig = calibrate_rig(cameras, boards=boards)
+        assert {(view.camera, view.board) for view in rig.left_out} == {(1, 1)}
+        assert len(rig.left_out) == 3
+        assert rig.rms == pytest.approx(0.1 * np.sqrt(2), rel=0.05)
