@@ -52,8 +52,8 @@ class CalibratedRig:
 
     @property
     def boards(self) -> tuple[PlacedBoard, ...]:
-        """The boards with their places and the shapes that were estimated; ``rig.board_sigma`` has
-        the standard deviations of the places."""
+        """The boards with their places and the shapes that were estimated; the standard deviations
+        of the places are those of ``Rig.board_sigma``."""
         return self.rig.placed_boards
 
     @property
