@@ -71,8 +71,8 @@ def add_board_options(
         "--first-marker",
         type=int,
         metavar="NUMBER",
-        help="number of the first marker of a ChArUco board: 0 on most; with --board, markers of "
-        "other numbers are passed over",
+        help="number of the first marker of a ChArUco board: 0 on most; markers before it are "
+        "passed over, and with --board those after the board's last",
     )
     group.add_argument(
         "--diameter",

@@ -46,7 +46,7 @@ class MarkerLayout:
         of numbers before the first far off."""
         places = numbers - self.first
         rows = 2 * (int(places.max(initial=0)) // max(self.cols - 1, 1)) + 3
-        squares = _list_marked_squares(rows, self.cols, self.first_dark)[places]
+        squares = _list_marked_squares(rows, self.cols, self.first_dark)[np.maximum(places, 0)]
         if self.first:
             squares[places < 0] = _FAR_OFF
         return squares

@@ -20,6 +20,7 @@ from calibgui.engine.images.rendering import Appearance, render_view
 
 CAMERA = Camera((960, 720), [800, 800, 480, 360], "pinhole")
 POSES = (Pose([0.1, -0.2, 0.05], [-230, -80, 600.0]), Pose([0.1, 0.3, 0.1], [40, -90, 590.0]))
+PAPER = 220.0
 PAIRS = {
     "ChArUco boards of one dictionary": [
         Board(5, 7, 28.0, Charuco("DICT_4X4_50", 0.7, False, first)) for first in (0, 24)
@@ -34,7 +35,7 @@ PAIRS = {
 
 
 def draw(board: Board, pose: Pose) -> np.ndarray:
-    look = Appearance(background=220.0)  # as paper, so that one board leaves room for the other
+    look = Appearance(background=PAPER)  # as paper, so that one board leaves room for the other
     return render_view(CAMERA, pose, board, blur=0.7, appearance=look)
 
 
@@ -60,3 +61,27 @@ def test_each_board_is_found_by_its_own_marks(name: str) -> None:
         assert not corners.remark
         with pytest.raises(NoBoardError):
             find_corners(other, board.grid_size, pattern=pattern)
+
+
+@pytest.mark.parametrize("name", ["ChArUco boards of one dictionary", "AprilGrids of one family"])
+def test_the_board_of_which_less_is_seen_is_found(name: str) -> None:
+    boards = PAIRS[name]
+    first, second = (draw(board, pose) for board, pose in zip(boards, POSES, strict=True))
+    middle = project_points(boards[0].points(), CAMERA, POSES[0]).mean(axis=0)
+    first[:, : int(middle[0])] = PAPER
+    corners = find_corners(
+        np.minimum(first, second), boards[0].grid_size, pattern=state(boards[0].pattern)
+    )
+    assert 0.3 < len(corners.uv) / (boards[0].rows * boards[0].cols) < 0.7
+    truth = project_points(boards[0].points(corners.grid), CAMERA, POSES[0])
+    assert np.abs(corners.uv - truth).max() < 0.1
+
+
+def test_a_first_marker_counts_without_a_size() -> None:
+    board = PAIRS["ChArUco boards of one dictionary"][1]
+    image, pattern = draw(board, POSES[1]), state(board.pattern)
+    corners = find_corners(image, pattern=pattern)
+    assert corners.shape == board.grid_size
+    assert corners.pattern.first_marker == 24
+    with pytest.raises(NoBoardError):
+        find_corners(image, pattern=replace(pattern, first_marker=48))

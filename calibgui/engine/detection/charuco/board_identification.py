@@ -8,6 +8,7 @@ takes as long once more: only after all else has failed.
 
 from __future__ import annotations
 
+import sys
 from dataclasses import replace
 
 import numpy as np
@@ -35,10 +36,12 @@ def open_readers(
 ) -> list[MarkerReader]:
     """Return readers of the markers in an image and in its negative, which remember them.
 
-    Of a board whose first marker and size are stated they read no others.
+    Of a board whose first marker is stated they read no others.
     """
-    is_stated = pattern.first_marker is not None and grid_size is not None
-    numbers = pattern.number_markers(grid_size) if is_stated and grid_size else None
+    numbers = None
+    if pattern.first_marker is not None:
+        last = sys.maxsize if grid_size is None else pattern.number_markers(grid_size).stop
+        numbers = range(pattern.first_marker, last)
     image = convert_for_reading(grey)
     positive = MarkerReader(image, outline, numbers=numbers)
     return [positive, MarkerReader(invert_levels(image), outline, positive, numbers)]

@@ -82,7 +82,7 @@ class MarkerReader:
             image: (h, w) 8-bit grey levels.
             outline: (4, 2) px, the region of interest; None for the whole image.
             positive: the reader of the image that `image` is the negative of, if it is one.
-            numbers: those of the markers to read; None for all.
+            numbers: those of the markers to read, in steps of 1; None for all.
         """
         self._levels = [image]
         while max(self._levels[-1].shape) > MAX_COARSE_SIDE:
@@ -269,7 +269,7 @@ class MarkerReader:
                 inside = are_inside(self._outline, corners.mean(axis=1))
                 numbers, corners = numbers[inside], corners[inside]
             if self._numbers is not None:
-                wanted = np.isin(numbers, self._numbers)
+                wanted = (numbers >= self._numbers.start) & (numbers < self._numbers.stop)
                 numbers, corners = numbers[wanted], corners[wanted]
             self._read[depth, name] = numbers, corners
         return self._read[depth, name]
