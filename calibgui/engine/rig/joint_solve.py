@@ -310,14 +310,14 @@ def compute_instant_products(
     """
     columns, n = problem.find_columns(), problem.placed
     products = np.zeros((len(instants), n + 7, n + 7))
-    for sight in problem.sights:
-        chosen = np.flatnonzero(np.isin(sight.instant, instants))
+    for whole_sight in problem.sights:
+        chosen = np.flatnonzero(np.isin(whole_sight.instant, instants))
         if not chosen.size:
             continue
+        sight = whole_sight.select_views(chosen)
         camera = problem.cameras[sight.camera]
         own, views = place_corners(problem, state, sight)
-        own, views = own.select_views(chosen), views.select_views(chosen)
-        E, G = (part[chosen] for part in differentiate_view_poses(problem, state, sight))
+        E, G = differentiate_view_poses(problem, state, sight)
         inner, p = len(camera.free), len(camera.free) + E.shape[2]
         chain = np.zeros((len(chosen), inner + 7, p + 7))
         chain[:, :inner, :inner] = np.eye(inner)
@@ -325,7 +325,7 @@ def compute_instant_products(
         chain[:, inner:-1, p:-1] = G
         chain[:, -1, -1] = 1.0
         to = np.r_[columns.cameras[sight.camera], columns.list_outer(sight), n : n + 7]
-        at = np.searchsorted(instants, sight.instant[chosen])
+        at = np.searchsorted(instants, sight.instant)
         motion = following[sight.board] if following else None
         if motion is None or sight.corner is None:
             among = compute_view_products(own, views, camera.model, camera.free)
@@ -338,7 +338,7 @@ def compute_instant_products(
         whole = np.zeros((*rows.shape[:-1], n + 7))
         whole[..., to] = rows @ chain[:, None]
         by_corner = by_pose[..., 3:] @ own.R[:, None]
-        whole[..., :n] += by_corner @ motion[sight.corner[chosen]]
+        whole[..., :n] += by_corner @ motion[sight.corner]
         whole = whole.reshape(len(chosen), -1, n + 7)
         products[at] += np.swapaxes(whole, 1, 2) @ whole
     return products

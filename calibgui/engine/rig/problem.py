@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import NamedTuple
 
 import numpy as np
@@ -62,6 +62,17 @@ class SightProblem:
     """(K,) time by which each view is known to be later than its instant, s."""
     corner: IntArray | None = None
     """(K, N) number of the board's corner that each observation is, if deviations are estimated."""
+
+    def select_views(self, views: IntArray) -> SightProblem:
+        """Return the part of some of the views."""
+        return replace(
+            self,
+            observations=self.observations.select_views(views),
+            instant=self.instant[views],
+            velocity=self.velocity[views],
+            lag=self.lag[views],
+            corner=None if self.corner is None else self.corner[views],
+        )
 
 
 @dataclass(frozen=True, eq=False, slots=True)
