@@ -11,7 +11,6 @@ import numpy as np
 from calibgui.dataset import RigPairing, RigResult, relate_cameras
 from calibgui.engine.arrays import Array
 from calibgui.engine.camera import find_model
-from calibgui.engine.errors import CalibrationError
 from calibgui.engine.geometry import Pose
 from calibgui.engine.rig import (
     Mistake,
@@ -322,13 +321,15 @@ def tabulate_space_points(
     )
 
 
-def describe_stereo(pair: StereoPair, error: float, depths: Sequence[float] | None = None) -> str:
+def describe_stereo(
+    pair: StereoPair, error: float | None, depths: Sequence[float] | None = None
+) -> str:
     """Describe a rectified pair: how well rows agree, and how far its points move."""
     what = "columns" if pair.is_upright else "rows"
-    text = (
-        f"The {what} of the same corners differ by {error:.2g} px rms; the cameras are "
-        f"{pair.baseline:.4g} mm apart."
-    )
+    agreement = "They never see a corner together"
+    if error is not None:
+        agreement = f"The {what} of the same corners differ by {error:.2g} px rms"
+    text = f"{agreement}; the cameras are {pair.baseline:.4g} mm apart."
     if depths is None or pair.ideal[0].is_angular:
         return text
     near, far = sorted(depths)
@@ -337,11 +338,12 @@ def describe_stereo(pair: StereoPair, error: float, depths: Sequence[float] | No
     return f"{text} {where} have disparities of {least:.1f} to {most:.1f} px."
 
 
-def measure_row_error(result: RigResult, first: int, second: int) -> float:
-    """Measure the rms difference, px, of the rows of the same corners in rectified images.
+def measure_row_error(result: RigResult, first: int, second: int) -> float | None:
+    """Measure the rms difference, px, of the rows of the same corners in rectified images; None if
+    the cameras never see a corner together.
 
     Raises:
-        CalibrationError: if the pair cannot be rectified, or never sees a corner together.
+        CalibrationError: if the pair cannot be rectified.
     """
     pair = rectify_pair(*relate_cameras(result.rig, first, second))
     errors = []
@@ -360,8 +362,5 @@ def measure_row_error(result: RigResult, first: int, second: int) -> float:
             in_a, in_b = np.array(shared).T
             errors.append(pair.measure_row_errors(a.uv[in_a], b.uv[in_b]))
     if not errors:
-        raise CalibrationError(
-            f"{result.rig.names[first]} and {result.rig.names[second]} see no corner together.",
-            "Name another pair.",
-        )
+        return None
     return float(np.sqrt(np.nanmean(np.concatenate(errors) ** 2)))

@@ -89,6 +89,8 @@ def test_cameras_that_never_see_one_board_are_joined_by_two(
         assert (0 < sigma).all() and (sigma[3:] < 5).all()
     assert {(view.camera, view.board) for view in rig.views} == {(0, 0), (0, 1), (1, 1)}
     assert len(json.loads(file.read_text())["boards"]) == 2
+    assert main(["stereo", str(file), "-o", str(tmp_path / "stereo")]) == 0
+    assert "They never see a corner together; the cameras are 70" in capsys.readouterr().out
 
 
 def test_a_place_that_is_stated_is_held(folder: Path, tmp_path: Path) -> None:
