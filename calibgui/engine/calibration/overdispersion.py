@@ -70,7 +70,7 @@ from calibgui.engine.arrays import Array, IntArray
 from calibgui.engine.boards.shape import BoardShape
 from calibgui.engine.calibration.observations import slice_views
 from calibgui.engine.calibration.refinement.covariances import Estimate
-from calibgui.engine.calibration.refinement.residuals import BoardMotion, compute_view_products
+from calibgui.engine.calibration.refinement.residuals import compute_view_products
 from calibgui.engine.calibration.refinement.schur import invert_pose_roots, invert_roots
 
 _SIGNIFICANCE = 0.01
@@ -119,10 +119,13 @@ def add_overdispersion(
     leverage = estimate.shape_unknowns / (2 * corners - 6 * K)
     left = 2 * corners - 6 * K - P - estimate.shape_unknowns
     added, ratio = measure_disagreement(R, h, estimate.noise_covariance, sigma2, left, leverage)
+    shape, following = estimate.board_shape, estimate.board_motion
+    if shape is not None and following is not None:
+        shape = widen_board_shape(shape, following.motion, added)
     return estimate._replace(
         camera_covariance=estimate.camera_covariance + added,
         pose_covariances=estimate.pose_covariances + G @ added @ np.swapaxes(G, 1, 2),
-        board_shape=_widen_board_shape(estimate.board_shape, estimate.board_motion, added),
+        board_shape=shape,
         overdispersion=ratio,
     )
 
@@ -211,14 +214,16 @@ def reduce_products(A: Array, P: int) -> tuple[Array, Array, Array]:
     return left[..., :-1], left[..., -1], np.swapaxes(roots, 1, 2) @ Y[..., :-1]
 
 
-def _widen_board_shape(
-    board_shape: BoardShape | None, board_motion: BoardMotion | None, added: Array
-) -> BoardShape | None:
-    """Widen an estimated board shape by the uncertainty that it takes over from the camera."""
-    if board_shape is None or board_motion is None:
-        return board_shape
+def widen_board_shape(board_shape: BoardShape, motion: Array, added: Array) -> BoardShape:
+    """Widen an estimated board shape by the uncertainty that it takes over from the camera.
+
+    Args:
+        board_shape: the shape.
+        motion: (n, 3, P) motion of its corners with the camera's parameters, mm per unit.
+        added: (P, P) what is added to the covariance of these.
+    """
     values, axes = np.linalg.eigh(added)
-    return board_shape.add_errors(board_motion.motion @ (axes * np.sqrt(np.maximum(values, 0.0))))
+    return board_shape.add_errors(motion @ (axes * np.sqrt(np.maximum(values, 0.0))))
 
 
 def _compute_excess(covariance: Array, root: Array) -> Array:

@@ -25,7 +25,8 @@ McClure), each instant counting with its information.
 A board whose pattern a turn leaves unchanged may be counted from another end in one camera. Every
 instant then has as many relations as there are turns, and the one that costs least is taken.
 
-Cameras are joined in the order of how many instants they share (a spanning tree of most instants).
+Cameras are joined in the order of how many instants they share (a spanning tree of most instants),
+and boards that stand fast to each other likewise (``joining.py``).
 """
 
 from __future__ import annotations
@@ -71,6 +72,12 @@ class ViewPoses:
         """Return some of the views."""
         return ViewPoses(self.R[views], self.T[views], self.covariance[views], self.instant[views])
 
+    @staticmethod
+    def concatenate(parts: Sequence[ViewPoses]) -> ViewPoses:
+        """Return the views of several parts in one."""
+        fields = ((part.R, part.T, part.covariance, part.instant) for part in parts)
+        return ViewPoses(*map(np.concatenate, zip(*fields, strict=True)))
+
     def turn(self, motion: Array) -> ViewPoses:
         """Return the poses of a board that is counted from another end.
 
@@ -78,12 +85,56 @@ class ViewPoses:
             motion: (3, 3) motion of the board's plane that leaves its pattern unchanged, from the
                 points as they are to be counted to those as they were.
         """
-        turn, arm = np.eye(3), self.R[..., :2] @ motion[:2, 2]
+        turn = np.eye(3)
         turn[:2, :2] = motion[:2, :2]
-        carry = np.tile(np.eye(6), (len(arm), 1, 1))  # tau' = tau + w x arm
-        carry[:, 3:, :3] = -make_cross_matrix(arm)
+        return self.express_on(Relation(turn, np.append(motion[:2, 2], 0.0)))
+
+    def express_on(self, relation: Relation) -> ViewPoses:
+        """Return the poses of another body that stands fast to the board.
+
+        Args:
+            relation: board_from_body.
+        """
+        carry = self.carry_to(relation)
         covariance = carry @ self.covariance @ np.swapaxes(carry, 1, 2)
-        return ViewPoses(self.R @ turn, self.T + arm, covariance, self.instant)
+        return ViewPoses(
+            self.R @ relation.R, self.T + self.R @ relation.T, covariance, self.instant
+        )
+
+    def carry_to(self, relation: Relation) -> Array:
+        """Return (K, 6, 6) how the local (w, tau) of these poses move those of `express_on`: by
+        (w, tau + w x arm)."""
+        carry = np.tile(np.eye(6), (len(self.T), 1, 1))
+        carry[:, 3:, :3] = -make_cross_matrix(self.R @ relation.T)
+        return carry
+
+    def see_from(self, relation: Relation) -> ViewPoses:
+        """Return the poses frame_from_board in another frame.
+
+        Args:
+            relation: frame_from_cam.
+        """
+        G = np.kron(np.eye(2), relation.R)
+        return ViewPoses(
+            relation.R @ self.R,
+            self.T @ relation.R.T + relation.T,
+            G @ self.covariance @ G.T,
+            self.instant,
+        )
+
+    def invert(self) -> ViewPoses:
+        """Return the poses board_from_cam, as if the board saw the camera: (w, tau) becomes
+        (-R^T w, -R^T (tau + [T]x w))."""
+        back = np.swapaxes(self.R, 1, 2)
+        G = np.zeros((len(back), 6, 6))
+        G[:, :3, :3] = G[:, 3:, 3:] = -back
+        G[:, 3:, :3] = -back @ make_cross_matrix(self.T)
+        return ViewPoses(
+            back,
+            -(back @ self.T[..., None])[..., 0],
+            G @ self.covariance @ np.swapaxes(G, 1, 2),
+            self.instant,
+        )
 
 
 class Relation(NamedTuple):
@@ -233,7 +284,7 @@ def _move_relation(
 def find_tree(shared: IntArray) -> list[tuple[int, int]]:
     """Find pairs (known, new) that join cameras to the first one, those that share most first.
 
-    Cameras that no chain of pairs joins to the first are in none.
+    Cameras that no chain of pairs joins to the first are joined to the first of their own.
 
     Args:
         shared: (C, C) numbers of instants at which two cameras both see the board.
@@ -246,8 +297,9 @@ def find_tree(shared: IntArray) -> list[tuple[int, int]]:
             key=lambda pair: (shared[pair], -pair[0], -pair[1]),
         )
         if shared[a, b] == 0:
-            break
-        tree.append((a, b))
+            b = others[0]
+        else:
+            tree.append((a, b))
         joined.append(b)
         others.remove(b)
     return tree

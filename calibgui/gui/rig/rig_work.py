@@ -79,7 +79,7 @@ def search_and_calibrate(
     found = {name: _state_square(each, square) for name, each in found.items()}
     result = calibrate_photographs(
         pairing,
-        _keep_paired(found, pairing),
+        [_keep_paired(found, pairing)],
         settings,
         estimate_offsets=estimate_offsets,
         tell=lambda name: job.rename(translate("RigPage", "Calibrating {0}").format(name)),
