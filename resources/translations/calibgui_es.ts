@@ -1539,6 +1539,10 @@ tras el giro que más las acerca donde se vieron esquinas (puntos).</translation
         <translation>No añadido, pues allí no se puede leer ninguna imagen: {0}.</translation>
     </message>
     <message>
+        <source>By their names these are photographs of several cameras: {0}. File › Several cameras calibrates each, and how they stand to each other.</source>
+        <translation>Por sus nombres, estas son fotografías de varias cámaras: {0}. Archivo › Varias cámaras calibra cada una y cómo están entre sí.</translation>
+    </message>
+    <message>
         <source>Folder of images</source>
         <translation>Carpeta de imágenes</translation>
     </message>
