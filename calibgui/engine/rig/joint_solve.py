@@ -26,7 +26,7 @@ it is the square of the noise times the inverse of that covariance.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 
 import numpy as np
@@ -77,6 +77,16 @@ class CameraProblem:
     """Indices of the unknowns among q, S and t: 0 to 5 unless it is the reference, and 6."""
     prior: tuple[Array, Array] | None = None
     """Values (P,) of the parameters, and the stiffness (P, P) with which they are held there."""
+
+    def select_views(self, views: IntArray) -> CameraProblem:
+        """Return the part of some of the views."""
+        return replace(
+            self,
+            observations=self.observations.select_views(views),
+            instant=self.instant[views],
+            velocity=self.velocity[views],
+            lag=self.lag[views],
+        )
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -277,24 +287,28 @@ def compute_instant_products(problem: RigProblem, state: State, instants: IntArr
     """
     n = len(problem.free)
     products = np.zeros((len(instants), n + 7, n + 7))
+    chosen = [np.flatnonzero(np.isin(camera.instant, instants)) for camera in problem.cameras]
+    problem = replace(
+        problem,
+        cameras=tuple(
+            camera.select_views(views)
+            for camera, views in zip(problem.cameras, chosen, strict=True)
+        ),
+    )
     for c, (camera, place) in enumerate(zip(problem.cameras, problem.list_columns(), strict=True)):
-        chosen = np.flatnonzero(np.isin(camera.instant, instants))
-        if not chosen.size:
+        if not camera.instant.size:
             continue
         own = compute_view_products(
-            place_views(problem, state, c).select_views(chosen),
-            camera.observations.select_views(chosen),
-            camera.model,
-            camera.free,
+            place_views(problem, state, c), camera.observations, camera.model, camera.free
         )
-        C, G = (part[chosen] for part in differentiate_view_poses(problem, state, c))
+        C, G = differentiate_view_poses(problem, state, c)
         intrinsics, p = len(camera.free), len(camera.free) + len(camera.unknown)
-        chain = np.zeros((len(chosen), intrinsics + 7, p + 7))
+        chain = np.zeros((len(camera.instant), intrinsics + 7, p + 7))
         chain[:, :intrinsics, :intrinsics] = np.eye(intrinsics)
         chain[:, intrinsics:-1, intrinsics:p] = C[..., camera.unknown]
         chain[:, intrinsics:-1, p:-1] = G
         chain[:, -1, -1] = 1.0
-        at = np.searchsorted(instants, camera.instant[chosen])
+        at = np.searchsorted(instants, camera.instant)
         to = np.r_[place, n : n + 7]
         products[at[:, None, None], to[:, None], to] += np.swapaxes(chain, 1, 2) @ own @ chain
     return products
