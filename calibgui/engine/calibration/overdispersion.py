@@ -183,7 +183,7 @@ def _compare_with_others(R: Array) -> tuple[Array, Array, Array]:
     norm = np.sqrt(np.sum(R**2, axis=(1, 2)))  # no eigenvalue is more
     is_usual = (norm < 1 - _MIN_SHARE_OF_OTHERS)[:, None, None]
     unit = np.eye(R.shape[1])
-    alone = np.linalg.inv(unit - np.where(is_usual, R, 0.0))
+    alone = np.asarray(np.linalg.inv(unit - np.where(is_usual, R, 0.0)), np.float64)
     D = alone - unit - R
     if is_usual.all():
         return R, alone, D
