@@ -4360,8 +4360,8 @@ Der Kreis: wie die Bretter geneigt waren; die Mitte ist zur Kamera hin, der Rand
         <translation> ms</translation>
     </message>
     <message>
-        <source>by names</source>
-        <translation>nach Namen</translation>
+        <source>automatic</source>
+        <translation type="unfinished">automatisch</translation>
     </message>
     <message>
         <source>Photographs that were taken at most so far apart are of one instant: by their names (seconds or nanoseconds since 1970, as of ROS) or by EXIF</source>

@@ -4360,8 +4360,8 @@ El círculo: cómo se inclinaron los tableros; el centro es de frente, el borde 
         <translation> ms</translation>
     </message>
     <message>
-        <source>by names</source>
-        <translation>por los nombres</translation>
+        <source>automatic</source>
+        <translation type="unfinished">automático</translation>
     </message>
     <message>
         <source>Photographs that were taken at most so far apart are of one instant: by their names (seconds or nanoseconds since 1970, as of ROS) or by EXIF</source>

@@ -4360,8 +4360,8 @@ The circle: how the boards were tilted; the middle is facing the camera, the rim
         <translation> ms</translation>
     </message>
     <message>
-        <source>by names</source>
-        <translation>按名称</translation>
+        <source>automatic</source>
+        <translation type="unfinished">自动</translation>
     </message>
     <message>
         <source>Photographs that were taken at most so far apart are of one instant: by their names (seconds or nanoseconds since 1970, as of ROS) or by EXIF</source>

@@ -264,6 +264,19 @@ def test_a_folder_that_mixes_stamped_photographs(
     assert "several cameras" not in capsys.readouterr().out
 
 
+def test_another_board_before_a_camera_is_named(
+    folder: Path, tmp_path: Path, capsys: Capture
+) -> None:
+    other = Board(rows=4, cols=6, square=30.0)
+    for k in range(1, 4):
+        shutil.copy(folder / f"left{k}.png", tmp_path / f"left{k}.png")
+        pose = Pose([0.1 * k, -0.2, 0.02 * k], [-80.0, -50.0, 400.0])
+        write_image(tmp_path / f"right{k}.png", render_view(RIGHT, pose, other, blur=0.7))
+    assert main(["rig", str(tmp_path), "--square", "30"]) == 1
+    said = " ".join(capsys.readouterr().err.split())
+    assert "right shows no board of 5x8 in any photograph, and left does" in said
+
+
 def test_offsets_in_python(folder: Path, tmp_path: Path) -> None:
     for side in ("left", "right"):
         (tmp_path / side).mkdir()
