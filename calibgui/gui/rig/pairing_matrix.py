@@ -12,6 +12,7 @@ from PySide6.QtGui import QColor
 from PySide6.QtWidgets import QAbstractItemView, QHeaderView, QTableWidget, QTableWidgetItem
 
 from calibgui.dataset import CornerSet, RigPairing, RigResult, ViewStatus
+from calibgui.engine.numbers import format_two_digits
 from calibgui.gui.widgets import theme
 
 _WIDTH = 88
@@ -93,7 +94,7 @@ class PairingMatrix(QTableWidget):
                     excess = (fit.rms / usual - 1) / 2 if usual else 0.0
                     strength = round(_STRONG * min(max(excess, 0.0), 1.0))
                     self._mark(item, theme.current().warning, strength)
-                    item.setText(self.tr("{0} px").format(f"{fit.rms:.2f}"))
+                    item.setText(self.tr("{0} px").format(format_two_digits(fit.rms)))
                     item.setToolTip(
                         self.tr("{0}: {1} corners, {2} px rms; alone {3} px").format(
                             file, len(fit.residuals), f"{fit.rms:.3f}", f"{fit.alone:.3f}"
@@ -120,7 +121,7 @@ class PairingMatrix(QTableWidget):
                 squares[view.instant] += np.sum(view.residuals**2, axis=1).tolist()
             for instant, own in squares.items():
                 if own:
-                    fit = self.tr("{0} px").format(f"{math.sqrt(fmean(own)):.2f}")
+                    fit = self.tr("{0} px").format(format_two_digits(math.sqrt(fmean(own))))
                     labels[instant] += f"  {fit}"
         return list(labels.values())
 
