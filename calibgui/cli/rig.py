@@ -1,10 +1,10 @@
 """Calibrate a rig of several cameras from photographs of a board that they take together.
 
 Each CAM is the folder, quoted pattern or video of one camera; one folder may hold a folder for each
-camera, or the photographs of all, as left01, right01. Which photographs belong together is printed
-before anything is searched. Each camera is calibrated alone, then all together; what contradicts
-the others is left out and named. Several boards that stand fast to each other are stated one by
-one (--another); how they stand is found with the rig.
+camera, or the photographs of all, as left01, right01 or cam0_1403636579763555584. Which photographs
+belong together is printed before anything is searched. Each camera is calibrated alone, then all
+together; what contradicts the others is left out and named. Several boards that stand fast to each
+other are stated one by one (--another); how they stand is found with the rig.
 """
 
 from __future__ import annotations
@@ -216,7 +216,8 @@ def _pair(options: argparse.Namespace, console: Console, output: Path | None) ->
         times = read_times(options.times, groups)
     if options.within is not None:
         return pair_by_times(groups, times or read_file_times(groups), options.within)
-    return state_times(pair_files(groups), times)
+    pairing = pair_files(groups)
+    return state_times(pairing, times) if times else pairing
 
 
 def _search(

@@ -1539,6 +1539,10 @@ nach der Drehung, die beide dort am nächsten zusammenbringt, wo Ecken (Punkte) 
         <translation>Nicht hinzugefügt, da dort kein Bild zu lesen ist: {0}.</translation>
     </message>
     <message>
+        <source>By their names these are photographs of several cameras: {0}. File › Several cameras calibrates each, and how they stand to each other.</source>
+        <translation>Ihren Namen nach sind dies Fotos mehrerer Kameras: {0}. Datei › Mehrere Kameras kalibriert jede, und wie sie zueinander stehen.</translation>
+    </message>
+    <message>
         <source>Folder of images</source>
         <translation>Ordner mit Bildern</translation>
     </message>
@@ -4356,8 +4360,8 @@ Der Kreis: wie die Bretter geneigt waren; die Mitte ist zur Kamera hin, der Rand
         <translation> ms</translation>
     </message>
     <message>
-        <source>by names</source>
-        <translation>nach Namen</translation>
+        <source>automatic</source>
+        <translation type="unfinished">automatisch</translation>
     </message>
     <message>
         <source>Photographs that were taken at most so far apart are of one instant: by their names (seconds or nanoseconds since 1970, as of ROS) or by EXIF</source>

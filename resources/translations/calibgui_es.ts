@@ -1539,6 +1539,10 @@ tras el giro que más las acerca donde se vieron esquinas (puntos).</translation
         <translation>No añadido, pues allí no se puede leer ninguna imagen: {0}.</translation>
     </message>
     <message>
+        <source>By their names these are photographs of several cameras: {0}. File › Several cameras calibrates each, and how they stand to each other.</source>
+        <translation>Por sus nombres, estas son fotografías de varias cámaras: {0}. Archivo › Varias cámaras calibra cada una y cómo están entre sí.</translation>
+    </message>
+    <message>
         <source>Folder of images</source>
         <translation>Carpeta de imágenes</translation>
     </message>
@@ -4356,8 +4360,8 @@ El círculo: cómo se inclinaron los tableros; el centro es de frente, el borde 
         <translation> ms</translation>
     </message>
     <message>
-        <source>by names</source>
-        <translation>por los nombres</translation>
+        <source>automatic</source>
+        <translation type="unfinished">automático</translation>
     </message>
     <message>
         <source>Photographs that were taken at most so far apart are of one instant: by their names (seconds or nanoseconds since 1970, as of ROS) or by EXIF</source>

@@ -1539,6 +1539,10 @@ after the rotation that brings the two closest where corners (dots) were seen.</
         <translation>未添加，因为其中没有可读的图像：{0}。</translation>
     </message>
     <message>
+        <source>By their names these are photographs of several cameras: {0}. File › Several cameras calibrates each, and how they stand to each other.</source>
+        <translation>从文件名看，这些照片来自多台相机：{0}。“文件 › 多台相机”可标定每台相机及其相互位置。</translation>
+    </message>
+    <message>
         <source>Folder of images</source>
         <translation>图像文件夹</translation>
     </message>
@@ -4356,8 +4360,8 @@ The circle: how the boards were tilted; the middle is facing the camera, the rim
         <translation> ms</translation>
     </message>
     <message>
-        <source>by names</source>
-        <translation>按名称</translation>
+        <source>automatic</source>
+        <translation type="unfinished">自动</translation>
     </message>
     <message>
         <source>Photographs that were taken at most so far apart are of one instant: by their names (seconds or nanoseconds since 1970, as of ROS) or by EXIF</source>

@@ -82,6 +82,7 @@ def count_images_below(folder: Path) -> dict[Path, int]:
     no more are looked at.
     """
     counts: dict[Path, int] = {}
+    suffixes = FORMATS + list_suffixes()
     waiting = [folder]
     for _ in range(_MAX_FOLDERS):
         if not waiting:
@@ -98,7 +99,7 @@ def count_images_below(folder: Path) -> dict[Path, int]:
             if not entry.name.startswith(".") and entry.is_dir(follow_symlinks=False)
         ]
         waiting += sorted(below, key=make_natural_key)
-        count = sum(_is_image(entry, FORMATS + list_suffixes()) for entry in listed)
+        count = sum(_is_image(entry, suffixes) for entry in listed)
         if count and place != folder:
             counts[place] = count
     return dict(sorted(counts.items(), key=lambda one: make_natural_key(one[0])))
@@ -194,7 +195,8 @@ def _list_files(name: str) -> list[Path]:
         with os.scandir(path) as entries:
             listed = list(entries)
         images = [path / entry.name for entry in listed if _is_image(entry)]
-        others = [path / entry.name for entry in listed if _is_image(entry, list_suffixes())]
+        suffixes = list_suffixes()
+        others = [path / entry.name for entry in listed if _is_image(entry, suffixes)]
         stems = {image.stem.casefold() for image in images}  # a camera writes both
         images += [other for other in others if other.stem.casefold() not in stems]
         if not images:

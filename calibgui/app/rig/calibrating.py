@@ -36,15 +36,32 @@ def search_cameras(
         square: side of a square, mm; None if it is not stated.
 
     Raises:
-        CalibrationError: from `search`.
+        CalibrationError: from `search`, or if a camera never shows the first one's board.
     """
     found: dict[str, CornerSet] = {}
     board: Board | None = None
     for camera in pairing.cameras:
-        detection = search([str(file) for file in camera.files.values()], board)
+        try:
+            detection = search([str(file) for file in camera.files.values()], board)
+        except CalibrationError as error:
+            if board is None:
+                raise
+            raise _explain_other_board(camera.name, next(iter(found)), board) from error
         found[camera.name] = corner_set = detection.corner_set(square)
+        if board is not None and not any(view.usable for view in corner_set.views):
+            raise _explain_other_board(camera.name, next(iter(found)), board)
         board = board or corner_set.board  # the first camera tells it for the others
     return found
+
+
+def _explain_other_board(name: str, first: str, board: Board) -> CalibrationError:
+    """Say that a camera never shows the board of the first one."""
+    rows, cols = board.grid_size
+    return CalibrationError(
+        f"{name} shows no board of {rows}x{cols} in any photograph, and {first} does.",
+        "A rig takes one board before all cameras: photograph the same one, or leave out the "
+        "camera that saw another.",
+    )
 
 
 def require_times(pairing: RigPairing) -> None:

@@ -47,8 +47,6 @@ from calibgui.engine.geometry.rotations import (
 _MAX_STARTS = 12
 """Number of instants whose relations are tried as a start: with half of all instants wrong, one of
 so many is right but once in 4,000."""
-_MAX_INSTANTS = 100
-"""Number of instants that a start is found from: the joint solve takes all."""
 _MAX_STEPS = 20
 """Number of weighted means, at most."""
 _MIN_SAVING = 1e-6
@@ -155,24 +153,25 @@ class Relation(NamedTuple):
 
 
 def compare_views(relation: Relation, a: ViewPoses, b: ViewPoses) -> Array:
-    """Compute the costs c (K,), px^2, of a relation at the instants of two cameras' views.
+    """Compute the costs c (..., K), px^2, of relations at the instants of two cameras' views.
 
     Args:
-        relation: b_from_a.
+        relation: b_from_a, or several, (..., 1, 3, 3) and (..., 1, 3).
         a, b: the views of both cameras at the same instants.
     """
     e, covariance = measure_differences(relation, a, b)
-    return np.asarray(np.sum(e * np.linalg.solve(covariance, e[..., None])[..., 0], axis=1))
+    return np.asarray(np.sum(e * np.linalg.solve(covariance, e[..., None])[..., 0], axis=-1))
 
 
 def measure_differences(relation: Relation, a: ViewPoses, b: ViewPoses) -> tuple[Array, Array]:
-    """Return e (K, 6) and its covariance (K, 6, 6) for residuals of 1 px."""
+    """Return e (..., K, 6) and its covariance (..., K, 6, 6) for residuals of 1 px."""
     Q, S = relation
-    w = vector_from_rotation(b.R @ np.swapaxes(Q @ a.R, 1, 2))
-    tau = b.T - (a.T @ Q.T + S)
-    G = np.zeros((6, 6))
-    G[:3, :3] = G[3:, 3:] = Q
-    return np.concatenate([w, tau], axis=1), b.covariance + G @ a.covariance @ G.T
+    w = vector_from_rotation(b.R @ np.swapaxes(Q @ a.R, -1, -2))
+    tau = b.T - ((Q @ a.T[..., None])[..., 0] + S)
+    G = np.zeros((*Q.shape[:-2], 6, 6))
+    G[..., :3, :3] = G[..., 3:, 3:] = Q
+    covariance = b.covariance + G @ a.covariance @ np.swapaxes(G, -1, -2)
+    return np.concatenate([w, tau], axis=-1), covariance
 
 
 def differentiate_differences(relation: Relation, a: ViewPoses) -> Array:
@@ -203,10 +202,10 @@ def measure_scatter(relation: Relation, a: ViewPoses, b: ViewPoses) -> tuple[flo
 def choose_turns(
     relation: Relation, a: ViewPoses, turned: Sequence[ViewPoses]
 ) -> tuple[IntArray, Array]:
-    """Choose the turn of each view of b that costs least; return its number (K,) and cost (K,).
+    """Choose the turn of each view of b that costs least; return its number and cost (..., K).
 
     Args:
-        relation: b_from_a.
+        relation: b_from_a, or several, as of `compare_views`.
         a: the views of camera a.
         turned: the views of camera b at the same instants, with the board counted from each end.
     """
@@ -222,9 +221,8 @@ def find_relation(a: ViewPoses, turned: Sequence[ViewPoses]) -> Relation:
         a: the views of camera a, at the instants at which both see the board.
         turned: those of camera b, with the board counted from each end that it may have.
     """
-    if len(a.instant) > _MAX_INSTANTS:
-        some = _spread_evenly(len(a.instant), _MAX_INSTANTS)
-        a, turned = a.select(some), [b.select(some) for b in turned]
+    some = _spread_evenly(len(a.instant), 8 * _MAX_STARTS)  # the joint solve takes all
+    a, turned = a.select(some), [b.select(some) for b in turned]
     relation = _find_start(a, turned)
     for _ in range(_MAX_STEPS):
         chosen, costs = choose_turns(relation, a, turned)
@@ -244,13 +242,12 @@ def _find_start(a: ViewPoses, turned: Sequence[ViewPoses]) -> Relation:
     some = _spread_evenly(len(a.instant), 2 * _MAX_STARTS)
     a, turned = a.select(some), [b.select(some) for b in turned]
     tried = _spread_evenly(len(a.instant), _MAX_STARTS)
-    starts = []
-    for k in tried.tolist():
-        for b in turned:
-            Q = b.R[k] @ a.R[k].T
-            relation = Relation(Q, b.T[k] - Q @ a.T[k])
-            starts.append((relation, float(np.median(choose_turns(relation, a, turned)[1]))))
-    return min(starts, key=lambda start: start[1])[0]
+    Q = np.concatenate([b.R[tried] @ np.swapaxes(a.R[tried], 1, 2) for b in turned])
+    T = np.concatenate([b.T[tried] for b in turned])
+    T -= (Q @ np.tile(a.T[tried], (len(turned), 1))[..., None])[..., 0]
+    costs = choose_turns(Relation(Q[:, None], T[:, None]), a, turned)[1]
+    best = int(np.argmin(np.median(costs, axis=1)))
+    return Relation(Q[best], T[best])
 
 
 def _spread_evenly(count: int, most: int) -> IntArray:

@@ -9,7 +9,9 @@ from typing import TYPE_CHECKING
 from PySide6.QtCore import QObject, Signal
 from PySide6.QtWidgets import QStackedWidget
 
+from calibgui.app.rig.camera_names import find_named_cameras
 from calibgui.app.rig.frames import find_videos
+from calibgui.engine.errors import CalibrationError
 from calibgui.formats.origin import RIG, is_own
 from calibgui.gui.jobs.jobs import Jobs
 from calibgui.gui.widgets import questions
@@ -71,6 +73,8 @@ class OwnPages(QObject):
             return True
         if len(names) == 1 and Path(names[0]).is_file() and is_own(names[0], RIG):
             return True
+        if _are_named_after_cameras(names):
+            return True
         are_folders = all(Path(name).is_dir() for name in names)
         if len(names) < 2 or not (are_folders or find_videos(names)):
             return False
@@ -93,3 +97,14 @@ class OwnPages(QObject):
     def _show(self, page: LivePage | RigPage) -> None:
         self.shown.emit()
         self._desk.setCurrentWidget(page)
+
+
+def _are_named_after_cameras(names: Sequence[str]) -> bool:
+    """Return whether names are of one folder, or of files, whose names tell several cameras."""
+    are_files = all(Path(name).is_file() for name in names)
+    if not are_files and len(names) > 1:
+        return False
+    try:
+        return bool(find_named_cameras(names))
+    except CalibrationError:  # whoever reads them says what is wrong
+        return False
