@@ -28,6 +28,7 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QTabWidget
 
 from calibgui.app.calibrating.series import Scalar
+from calibgui.app.photographs import recording
 from calibgui.app.system.resources import find_resource
 from calibgui.cli.main import main as calibgui
 from calibgui.engine.boards import Board, BoardShapeModel
@@ -39,7 +40,6 @@ from calibgui.engine.images import render_view, write_image
 from calibgui.gui.dialogs.manual_dialog import ManualDialog
 from calibgui.gui.dialogs.many_cameras import ManyCameras
 from calibgui.gui.dialogs.series_dialog import SeriesDialog
-from calibgui.gui.live import live_page
 from calibgui.gui.panels.analysis import PANELS
 from calibgui.gui.panels.answer.undistort import RECTIFIED, UndistortPanel
 from calibgui.gui.panels.evidence.board_shape import BoardShapePanel
@@ -105,10 +105,11 @@ class Hand:
                 pause_in_thread()
             page = self._window.own_pages.live
             session = None if page is None else page.session
-            if session is not None and session.goal is not None:
-                corners = session.goal.reshape(-1, 2), _BOARD.points()
+            camera = None if session is None else session.cameras[0]
+            if camera is not None and camera.goal is not None:
+                corners = camera.goal.reshape(-1, 2), _BOARD.points()
                 pose = locate_board(_LIVE, corners).pose
-                if len(session.pictures) == _PICTURES:  # on the way to the next place
+                if len(camera.pictures) == _PICTURES:  # on the way to the next place
                     pose = Pose(np.array(pose.rvec) * 0.7, pose.tvec + np.array([18, -12, 40]))
 
 
@@ -335,7 +336,7 @@ class Photographer:
     def live(self) -> None:
         """Photograph a rendered board live, up to a place where it is wanted."""
         window = self.window
-        with mock.patch.object(live_page, "open_source", lambda *_: Hand(window)):
+        with mock.patch.object(recording, "open_source", lambda *_: Hand(window)):
             window.own_pages.photograph_live()
             page = window.own_pages.live
             assert page is not None

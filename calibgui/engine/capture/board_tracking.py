@@ -64,3 +64,14 @@ def track_corners(before: GreyImage, after: GreyImage, corners: Corners) -> Corn
         others=(),
         remark="",
     )
+
+
+def measure_motion(before: Corners, after: Corners) -> float:
+    """Measure the rms distance, px, between the corners that both have; NaN if there are none."""
+    places = {tuple(cell): uv for cell, uv in zip(before.grid.tolist(), before.uv, strict=True)}
+    moved = [
+        uv - places[tuple(cell)]
+        for cell, uv in zip(after.grid.tolist(), after.uv, strict=True)
+        if tuple(cell) in places
+    ]
+    return float(np.sqrt(np.mean(np.sum(np.array(moved) ** 2, axis=1)))) if moved else np.nan

@@ -11,13 +11,13 @@ import pytest
 from PySide6.QtCore import Qt
 from pytestqt.qtbot import QtBot
 
+from calibgui.app.photographs import recording
 from calibgui.dataset import ViewStatus
 from calibgui.engine.boards import Board
 from calibgui.engine.camera.camera import Camera
 from calibgui.engine.capture import CameraSettings, Frame, FrameSource
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.geometry.pose import Pose
-from calibgui.gui.live import live_page
 from calibgui.gui.live.live_page import LivePage
 from calibgui.gui.window.main_window import MainWindow
 from tests.scenes.hand import Film, follow, shake
@@ -59,8 +59,9 @@ class Hand:
             for _ in range(STILL):
                 yield pose
             session = None if self.page is None else self.page.session
-            if session is not None and session.goal is not None:
-                pose = shake(follow(session.goal, CAMERA, BOARD), BOARD, self._rng, 10, 3)
+            goal = None if session is None else session.cameras[0].goal
+            if goal is not None:
+                pose = shake(follow(goal, CAMERA, BOARD), BOARD, self._rng, 10, 3)
 
 
 class Page:
@@ -86,7 +87,7 @@ def live(window: MainWindow, qtbot: QtBot, tmp_path: Path, monkeypatch: pytest.M
         hand.is_open, hand.wanted = True, wanted
         return hand
 
-    monkeypatch.setattr(live_page, "open_source", open_hand)
+    monkeypatch.setattr(recording, "open_source", open_hand)
     qtbot.mouseClick(window.welcome.buttons[1], LEFT)
     assert window.own_pages.live is not None
     assert window.pages.currentWidget() is window.own_pages.live
@@ -145,12 +146,12 @@ def test_a_picture_taken_back_no_longer_counts(live: Page, qtbot: QtBot) -> None
     live.click("start")
     live.wait(lambda: page.strip.list.count() >= 2)
     assert page.session is not None
-    first = page.session.pictures[0]
+    first = page.session.cameras[0].pictures[0]
     page.strip.list.setCurrentRow(page.strip.list.count() - 1)
     qtbot.mouseClick(page.strip.toggle, LEFT)
-    live.wait(lambda: page.session is not None and first not in page.session.pictures)
+    live.wait(lambda: page.session is not None and first not in page.session.cameras[0].pictures)
     qtbot.mouseClick(page.strip.toggle, LEFT)
-    live.wait(lambda: page.session is not None and first in page.session.pictures)
+    live.wait(lambda: page.session is not None and first in page.session.cameras[0].pictures)
 
 
 def test_a_camera_that_dies_costs_nothing_that_was_taken(live: Page) -> None:
@@ -178,7 +179,7 @@ def test_a_camera_that_is_not_there_is_said(window: MainWindow, qtbot: QtBot) ->
     window.own_pages.photograph_live()
     page = window.own_pages.live
     assert page is not None
-    page.source.setEditText("97")
+    page.sources.boxes[0].setEditText("97")
     qtbot.mouseClick(page.start, LEFT)
     qtbot.waitUntil(lambda: not page.is_running, timeout=30_000)
     assert "camera 97 cannot be opened. Check" in page.view.accessibleDescription()
