@@ -31,8 +31,6 @@ from calibgui.engine.rig.records import RigCamera
 _STEP = np.cbrt(np.finfo(np.float64).eps)
 """Step of the central differences by the pose, rad, and over the distance: with it rounding and
 curvature err alike."""
-_LEAST_SHARED = 3
-"""Number of instants from which two outvote one that is wrong."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,11 +47,14 @@ class Link:
     it is not known."""
 
     def count_missing(self, limit: float) -> int:
-        """Count the instants that are missing, about, for an uncertainty of `limit` px."""
+        """Count the instants that are missing, about, for an uncertainty of `limit` px.
+
+        They are three at least, so that two outvote one that is wrong.
+        """
         if not np.isfinite(self.worst):
-            return max(1, _LEAST_SHARED - self.shared)
+            return max(1, 3 - self.shared)
         needed = int(np.ceil(self.shared * (self.worst / limit) ** 2))
-        return max(0, _LEAST_SHARED - self.shared, needed - self.shared)
+        return max(0, max(3, needed) - self.shared)
 
 
 def measure_link(

@@ -131,9 +131,9 @@ def _correlate_speeds(a: Array, b: Array) -> float | None:
         return None
     step = min(float(np.median(np.diff(each[:, 0]))) for each in (a, b)) / 2
     times = np.arange(a[0, 0], a[-1, 0], step)
-    speeds = np.interp(times, *a.T)
+    speeds = np.interp(times, a[:, 0], a[:, 1])
     offsets = np.arange(a[0, 0] - b[-1, 0], a[-1, 0] - b[0, 0], step)
-    products = [speeds @ np.interp(times - o, *b.T, left=0.0, right=0.0) for o in offsets]
+    products = [speeds @ np.interp(times - o, b[:, 0], b[:, 1], 0.0, 0.0) for o in offsets]
     return float(offsets[np.argmax(products)]) if products else None
 
 

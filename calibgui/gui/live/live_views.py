@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from PySide6.QtGui import QColor, QPainter, QPaintEvent
 from PySide6.QtWidgets import QGridLayout, QSizePolicy, QWidget
 
 from calibgui.engine.capture import Frame, JointState
 from calibgui.gui.live.live_view import LiveView
+from calibgui.gui.widgets import theme
 
 
 class LiveViews(QWidget):
@@ -33,6 +35,9 @@ class LiveViews(QWidget):
         self._shown = [None] * len(names)
         for k, view in enumerate(self.views):
             self._grid.addWidget(view, *divmod(k, 2))
+
+    def paintEvent(self, event: QPaintEvent) -> None:  # noqa: N802, ARG002 - Qt's name
+        QPainter(self).fillRect(self.rect(), QColor(theme.current().canvas))
 
     def show_frames(self, frames: Sequence[Frame | None]) -> None:
         """Show the newest frames, of the cameras that have another one."""

@@ -20,7 +20,7 @@ from calibgui.engine.errors import CalibrationError
 from calibgui.engine.geometry.pose import Pose
 from calibgui.gui.live.live_page import LivePage
 from calibgui.gui.window.main_window import MainWindow
-from tests.scenes.hand import Film, follow, shake
+from tests.scenes.hand import Film, RenderedCamera, Walk, follow, shake, spread_places
 
 CAMERA = Camera((320, 240), [300, 300, 157, 122, -0.2, 0.05, 0, 0, 0], "brown-conrady")
 BOARD = Board(6, 8, 20.0)
@@ -184,3 +184,53 @@ def test_a_camera_that_is_not_there_is_said(window: MainWindow, qtbot: QtBot) ->
     qtbot.waitUntil(lambda: not page.is_running, timeout=30_000)
     assert "camera 97 cannot be opened. Check" in page.view.accessibleDescription()
     assert page.start.isVisible()
+
+
+def test_two_cameras_take_their_pictures_together_and_become_a_rig(
+    window: MainWindow, qtbot: QtBot, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    poses = {"0": Pose([0, 0, 0], [0, 0, 0]), "1": Pose([0.01, -0.12, 0.0], [-60.0, 1.0, 6.0])}
+    walk = Walk(spread_places(BOARD, 5, np.array([30.0, 0.0, 330.0])), hold=0.4, move=0.0)
+
+    def open_rendered(name: str, _: float, __: CameraSettings) -> FrameSource:
+        return RenderedCamera(CAMERA, poses[name], BOARD, walk)
+
+    monkeypatch.setattr(recording, "open_source", open_rendered)
+    window.own_pages.photograph_live()
+    page = window.own_pages.live
+    assert page is not None
+    page.folder = tmp_path / "live"
+    qtbot.mouseClick(page.sources.add, LEFT)
+    assert page.sources.list_names() == ["0", "1"]
+    qtbot.mouseClick(page.start, LEFT)
+    qtbot.waitUntil(lambda: page.strip.list.count() >= 3, timeout=60_000)
+    assert len(page.view.views) == 2
+    assert all(view.isVisible() and view._image is not None for view in page.view.views)
+    assert "cam0 and cam1: " in page.words.text()
+    qtbot.mouseClick(page.finish, LEFT)
+    qtbot.waitUntil(lambda: not page.is_running, timeout=30_000)
+    count = page.strip.list.count()
+    page.strip.list.setCurrentRow(0)
+    qtbot.mouseClick(page.strip.toggle, LEFT)
+    qtbot.mouseClick(page.calibrate, LEFT)
+    rig = window.own_pages.rig
+    assert rig is not None
+    assert window.pages.currentWidget() is rig
+    qtbot.waitUntil(lambda: rig.pairing is not None, timeout=30_000)
+    assert rig.pairing is not None
+    assert [camera.name for camera in rig.pairing.cameras] == ["cam0", "cam1"]
+    assert len(rig.pairing.shared) == count - 1
+
+
+def test_cameras_are_added_and_removed(window: MainWindow, qtbot: QtBot) -> None:
+    window.own_pages.photograph_live()
+    page = window.own_pages.live
+    assert page is not None
+    for _ in range(5):
+        qtbot.mouseClick(page.sources.add, LEFT)
+    assert len(page.sources.boxes) == 4
+    assert not page.sources.add.isEnabled()
+    for _ in range(3):
+        qtbot.mouseClick(page.sources.remove, LEFT)
+    assert len(page.sources.boxes) == 1
+    assert not page.sources.remove.isVisible()
