@@ -41,7 +41,7 @@ class LiveView(QWidget):
         self._flash.timeout.connect(self.update)
         self.setMinimumSize(240, 180)
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Expanding)
-        self.setAccessibleName(self.tr("Live image {0}").format(name).strip())
+        self.setAccessibleName(name or self.tr("Live image"))
 
     def show_image(self, image: GreyImage) -> None:
         """Show an image, grey (h, w) or RGB (h, w, 3), of 8 bits or more."""
