@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -17,6 +18,8 @@ from calibgui.engine.geometry.rotations import rotation_from_vector, vector_from
 from calibgui.engine.images.rendering import render_view
 
 FRAMES_PER_SECOND = 25.0
+_BAND = 12
+"""Rows of a rolling shutter that are rendered at one time."""
 
 
 def shake(pose: Pose, board: Board, rng: np.random.Generator, mm: float, degrees: float) -> Pose:
@@ -55,6 +58,23 @@ class Film:
         self._count += 1
         image = render_view(self._camera, pose, self._board, blur=blur, noise=8.0, seed=self._count)
         return Frame(image, self._count / FRAMES_PER_SECOND)
+
+    def roll(self, place: Callable[[float], Pose], time: float, readout: float) -> Frame:
+        """Return a frame at a time, s, whose rows are read one after the other within `readout` s.
+
+        It is put together of bands of rows, each as a camera sees it whose sensor is the band, at
+        the time of its middle row. A readout below 0 begins with the last row.
+        """
+        width, height = self._camera.size
+        bands = []
+        for first in range(0, height, _BAND):
+            self._count += 1
+            params = self._camera.params - first * (np.array(self._camera.names) == "cy")
+            sensor = replace(self._camera, size=(width, _BAND), params=params)
+            pose = place(time + readout * (first + (_BAND - 1) / 2) / height)
+            image = render_view(sensor, pose, self._board, blur=0.7, noise=8.0, seed=self._count)
+            bands.append(image)
+        return Frame(np.concatenate(bands), time)
 
 
 class Walk:

@@ -112,7 +112,11 @@ class PairedFrames:
         self._changed = Condition()
         self._patience = patience
         self.cameras = [LatestFrames(source, self._changed) for source in sources]
-        self.remark = "\n".join(source.remark for source in sources if source.remark)
+        self.remark = "\n".join(
+            f"{source.title}: {source.remark}" if len(sources) > 1 else source.remark
+            for source in sources
+            if source.remark
+        )
         """Lines on the sources' settings and what is wrong with them; empty if there are none."""
 
     @property

@@ -21,7 +21,8 @@ class LiveViews(QWidget):
         self._grid = QGridLayout(self)
         self._grid.setContentsMargins(0, 0, 0, 0)
         self._grid.setSpacing(2)
-        self._shown: list[Frame | None] = []
+        self.shown: list[Frame | None] = []
+        """The frames that are on the screen."""
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Expanding)
         self.setAccessibleName(self.tr("Live image"))
         self.begin([""])
@@ -32,7 +33,7 @@ class LiveViews(QWidget):
             self._grid.removeWidget(view)
             view.deleteLater()
         self.views = [LiveView(name if len(names) > 1 else "") for name in names]
-        self._shown = [None] * len(names)
+        self.shown = [None] * len(names)
         for k, view in enumerate(self.views):
             self._grid.addWidget(view, *divmod(k, 2))
 
@@ -42,8 +43,8 @@ class LiveViews(QWidget):
     def show_frames(self, frames: Sequence[Frame | None]) -> None:
         """Show the newest frames, of the cameras that have another one."""
         for k, frame in enumerate(frames):
-            if frame is not None and frame is not self._shown[k]:
-                self._shown[k] = frame
+            if frame is not None and frame is not self.shown[k]:
+                self.shown[k] = frame
                 self.views[k].show_image(frame.image)
 
     def show_state(self, state: JointState) -> None:
