@@ -40,7 +40,7 @@ from calibgui.engine.calibration.calibrate import calibrate
 from calibgui.engine.calibration.observations import Observation, make_observation
 from calibgui.engine.calibration.result import Calibration, DegenerateError
 from calibgui.engine.camera.distortion import project_points
-from calibgui.engine.capture.board_tracking import measure_motion, track_corners
+from calibgui.engine.capture.board_tracking import MAX_OFF_PX, measure_motion, track_corners
 from calibgui.engine.capture.exposure import judge_exposure
 from calibgui.engine.capture.frame_sources import LOOK_SECONDS, Frame
 from calibgui.engine.capture.guidance import guide_board
@@ -328,7 +328,9 @@ class CaptureSession:
         if corners is None or time - self._found_at >= LOOK_SECONDS:
             with suppress(NoBoardError):  # a blurred one can be followed where it cannot be found
                 found = self._find_board(grey)
-                self._found_at, self._pose = time, None
+                self._found_at = time
+                if corners is None or not measure_motion(corners, found) <= MAX_OFF_PX:
+                    self._pose = None  # it may be counted from another end
                 if corners is not None and self._corners is not None:
                     self._time_rows(found, self._corners, corners, seconds)
                 corners = found
