@@ -129,6 +129,8 @@ class CaptureSession:
         """The camera so far, which may be partial; None before the first picture."""
         self._checked: Calibration | None = None
         """The camera from the pictures that are not put aside; None if none is put aside."""
+        self._unseen_error: float | None = np.nan
+        """What `measure_unseen_error` returns; None if it is to be measured anew."""
         self.worst = np.inf
         """Uncertainty of the worst pixel's projection, px; infinite until the views determine the
         camera."""
@@ -257,8 +259,13 @@ class CaptureSession:
             return None
         is_aside = len(self.pictures) % _VALIDATION_EVERY == _VALIDATION_EVERY - 1
         picture = Picture(frame, corners, observation, is_aside)
+        was_known = self.calibration is not None
         self.pictures.append(picture)
         self._learn()
+        if was_known and self.calibration is None:  # nothing more would ever be learnt with it
+            self.remove(picture)
+            self._advice = "It contradicts the pictures taken before: take back one that is wrong."
+            return None
         return picture
 
     def remove(self, picture: Picture) -> None:
@@ -293,11 +300,14 @@ class CaptureSession:
         It is that of a camera that is calibrated without them; their boards' poses are estimated.
         NaN if none was put aside, or no camera is known without them.
         """
-        aside = [each.observation for each in self.pictures if each.for_validation]
-        if not aside or self._checked is None:
-            return float("nan")
-        missed = [locate_board(self._checked.camera, view).residuals for view in aside]
-        return float(np.sqrt(np.mean(np.sum(np.concatenate(missed) ** 2, axis=1))))
+        if self._unseen_error is None:
+            aside = [each.observation for each in self.pictures if each.for_validation]
+            self._unseen_error = np.nan
+            if aside and self._checked is not None:
+                missed = [locate_board(self._checked.camera, view).residuals for view in aside]
+                squares = np.sum(np.concatenate(missed) ** 2, axis=1)
+                self._unseen_error = float(np.sqrt(np.mean(squares)))
+        return self._unseen_error
 
     def _state(
         self, instruction: str, match: float = 0.0, taken: Picture | None = None
@@ -440,7 +450,7 @@ class CaptureSession:
         views = self.views
         self.calibration = _calibrate(views, self._size, MODELS) if views else None
         kept = [each.observation for each in self.pictures if not each.for_validation]
-        self._checked = None
+        self._checked, self._unseen_error = None, None
         if self.calibration is not None and len(kept) < len(views):
             self._checked = _calibrate(kept, self._size, (self.calibration.camera.model,))
         self.worst, self.wanted, self.goal = np.inf, None, None
