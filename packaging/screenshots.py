@@ -102,16 +102,16 @@ class Hand:
         """Release nothing."""
 
     def _hold(self) -> Iterator[Frame]:
-        pose, count = place_board(0), 0
+        pose, count, stays = place_board(0), 0, False
         while True:
             way = [pose] * _STILL
             page = self._window.own_pages.live
             camera = None if page is None or page.session is None else page.session.cameras[0]
-            if count and camera is not None and camera.goal is not None:
+            if count and not stays and camera is not None and camera.goal is not None:
                 goal = locate_board(_LIVE, (camera.goal.reshape(-1, 2), _BOARD.points())).pose
                 way = [_go(pose, goal, k / _STEPS) for k in range(1, _STEPS + 1)]
                 if len(camera.pictures) == self._pictures:  # on the way to the next place
-                    way = way[: _STEPS // 2]
+                    way, stays = way[: _STEPS // 2], True
                 pose = way[-1]
                 way += [pose] * _STILL
             for each in way:
