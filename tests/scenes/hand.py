@@ -95,7 +95,8 @@ class Walk:
         start, end = (self._places[(int(k) + step) % len(self._places)] for step in (0, 1))
         if since <= self._hold:
             return start
-        part = (1 - np.cos(np.pi * (since - self._hold) / self._move)) / 2
+        s = (since - self._hold) / self._move
+        part = s**3 * (10 - 15 * s + 6 * s**2)  # least jerk, as hands move (Flash and Hogan 1985)
         rvec = (1 - part) * np.array(start.rvec) + part * np.array(end.rvec)
         return Pose(rvec, (1 - part) * np.array(start.tvec) + part * np.array(end.tvec))
 

@@ -30,7 +30,7 @@ from calibgui.engine.features.corners import Corners
 from calibgui.engine.rig.consensus import find_tree
 
 _TRACK_FRAMES = 100
-"""Number of frames of a moving board that tell an offset in time, at most: two cameras take 0.15 s
+"""Number of frames of a moving board that tell an offset in time, at most: two cameras take 0.4 s
 for it."""
 
 

@@ -43,7 +43,7 @@ def _track(c: int, walk: Walk, late: float, phase: float, rng: np.random.Generat
 def test_the_offset_is_told_within_its_standard_deviation(late: float) -> None:
     rng = np.random.default_rng(1)
     pulls = []
-    for k in range(0, 4, 2):
+    for k in range(0, 8, 2):
         walk = Walk(PLACES[k : k + 2], hold=0.3, move=0.6)
         tracks = [_track(0, walk, 0.0, 0.0, rng), _track(1, walk, late, 0.013, rng)]
         found = estimate_clock_offset(*tracks, BOARD)
