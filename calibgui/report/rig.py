@@ -113,14 +113,17 @@ def describe_disagreement(result: RigResult) -> list[str]:
 
 def describe_offsets(rig: Rig) -> list[str]:
     """Say by how much each camera is late, where that was estimated."""
-    sentences = []
-    for c, late in enumerate(rig.offsets.tolist()):
-        sigma = rig.offset_sigma(c)
-        if sigma > 0:
-            amount = format_with_sigma(1000 * abs(late), 1000 * sigma)
-            word = "later" if late > 0 else "earlier"
-            sentences.append(f"{rig.names[c]} is {amount} ms {word} than {rig.names[0]}.")
-    return sentences
+    return [
+        describe_offset(rig.names[c], rig.names[0], late, rig.offset_sigma(c))
+        for c, late in enumerate(rig.offsets.tolist())
+        if rig.offset_sigma(c) > 0
+    ]
+
+
+def describe_offset(name: str, other: str, late: float, sigma: float) -> str:
+    """Say by how many s a camera is later than another one, with the standard deviation."""
+    amount = format_with_sigma(1000 * abs(late), 1000 * sigma)
+    return f"{name} is {amount} ms {'later' if late > 0 else 'earlier'} than {other}."
 
 
 def describe_mistake(result: RigResult, mistake: RigMistake) -> str:

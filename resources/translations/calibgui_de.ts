@@ -2709,20 +2709,8 @@ nur ihre Lagen angepasst</translation>
 <context>
     <name>LivePage</name>
     <message>
-        <source>camera {0}</source>
-        <translation>Kamera {0}</translation>
-    </message>
-    <message>
         <source>Choose a camera, and press Start.</source>
         <translation>Eine Kamera wählen und auf Start drücken.</translation>
-    </message>
-    <message>
-        <source>Camera</source>
-        <translation>Kamera</translation>
-    </message>
-    <message>
-        <source>A camera at this computer, or the address of one in the network (rtsp://…, http://…), or the folder that a camera&apos;s program fills</source>
-        <translation>Eine Kamera an diesem Rechner, die Adresse einer im Netz (rtsp://…, http://…) oder der Ordner, den das Programm einer Kamera füllt</translation>
     </message>
     <message>
         <source>as the camera has it</source>
@@ -2837,8 +2825,8 @@ nur ihre Lagen angepasst</translation>
         <translation>Nichts wurde aufgenommen.</translation>
     </message>
     <message>
-        <source>Done: the camera is known well enough.</source>
-        <translation>Fertig: die Kamera ist gut genug bekannt.</translation>
+        <source>Done: known well enough.</source>
+        <translation>Fertig: gut genug bekannt.</translation>
     </message>
     <message>
         <source>Stopped. More pictures would help.</source>
@@ -2854,6 +2842,13 @@ nur ihre Lagen angepasst</translation>
     <message>
         <source>Live image</source>
         <translation>Live-Bild</translation>
+    </message>
+</context>
+<context>
+    <name>LiveViews</name>
+    <message>
+        <source>Live image</source>
+        <translation type="unfinished">Live-Bild</translation>
     </message>
 </context>
 <context>
@@ -5058,6 +5053,33 @@ Die Farben: wo die eigene Unsicherheit der Kalibrierung klein (dunkel) und groß
     <message>
         <source>How to calibrate</source>
         <translation>Wie kalibriert wird</translation>
+    </message>
+</context>
+<context>
+    <name>SourceList</name>
+    <message>
+        <source>&amp;Another camera</source>
+        <translation>&amp;Noch eine Kamera</translation>
+    </message>
+    <message>
+        <source>&amp;Remove</source>
+        <translation>&amp;Entfernen</translation>
+    </message>
+    <message>
+        <source>Several cameras that stand fast to each other take each picture together</source>
+        <translation>Mehrere Kameras, die fest zueinander stehen, nehmen jedes Bild gemeinsam auf</translation>
+    </message>
+    <message>
+        <source>Camera {0}</source>
+        <translation>Kamera {0}</translation>
+    </message>
+    <message>
+        <source>A camera at this computer, or the address of one in the network (rtsp://…, http://…), or the folder that a camera&apos;s program fills</source>
+        <translation type="unfinished">Eine Kamera an diesem Rechner, die Adresse einer im Netz (rtsp://…, http://…) oder der Ordner, den das Programm einer Kamera füllt</translation>
+    </message>
+    <message>
+        <source>camera {0}</source>
+        <translation type="unfinished">Kamera {0}</translation>
     </message>
 </context>
 <context>

@@ -2709,20 +2709,8 @@ ajustando solo sus poses</translation>
 <context>
     <name>LivePage</name>
     <message>
-        <source>camera {0}</source>
-        <translation>cámara {0}</translation>
-    </message>
-    <message>
         <source>Choose a camera, and press Start.</source>
         <translation>Elija una cámara y pulse Iniciar.</translation>
-    </message>
-    <message>
-        <source>Camera</source>
-        <translation>Cámara</translation>
-    </message>
-    <message>
-        <source>A camera at this computer, or the address of one in the network (rtsp://…, http://…), or the folder that a camera&apos;s program fills</source>
-        <translation>Una cámara de este ordenador, la dirección de una en la red (rtsp://…, http://…), o la carpeta que llena el programa de una cámara</translation>
     </message>
     <message>
         <source>as the camera has it</source>
@@ -2837,8 +2825,8 @@ ajustando solo sus poses</translation>
         <translation>No se tomó nada.</translation>
     </message>
     <message>
-        <source>Done: the camera is known well enough.</source>
-        <translation>Hecho: la cámara se conoce lo bastante bien.</translation>
+        <source>Done: known well enough.</source>
+        <translation>Listo: se conoce lo bastante bien.</translation>
     </message>
     <message>
         <source>Stopped. More pictures would help.</source>
@@ -2854,6 +2842,13 @@ ajustando solo sus poses</translation>
     <message>
         <source>Live image</source>
         <translation>Imagen en vivo</translation>
+    </message>
+</context>
+<context>
+    <name>LiveViews</name>
+    <message>
+        <source>Live image</source>
+        <translation type="unfinished">Imagen en vivo</translation>
     </message>
 </context>
 <context>
@@ -5058,6 +5053,33 @@ Los colores: dónde es pequeña (oscuro) y grande la incertidumbre de la propia 
     <message>
         <source>How to calibrate</source>
         <translation>Cómo calibrar</translation>
+    </message>
+</context>
+<context>
+    <name>SourceList</name>
+    <message>
+        <source>&amp;Another camera</source>
+        <translation>&amp;Otra cámara</translation>
+    </message>
+    <message>
+        <source>&amp;Remove</source>
+        <translation>&amp;Quitar</translation>
+    </message>
+    <message>
+        <source>Several cameras that stand fast to each other take each picture together</source>
+        <translation>Varias cámaras fijas entre sí toman cada imagen a la vez</translation>
+    </message>
+    <message>
+        <source>Camera {0}</source>
+        <translation>Cámara {0}</translation>
+    </message>
+    <message>
+        <source>A camera at this computer, or the address of one in the network (rtsp://…, http://…), or the folder that a camera&apos;s program fills</source>
+        <translation type="unfinished">Una cámara de este ordenador, la dirección de una en la red (rtsp://…, http://…), o la carpeta que llena el programa de una cámara</translation>
+    </message>
+    <message>
+        <source>camera {0}</source>
+        <translation type="unfinished">cámara {0}</translation>
     </message>
 </context>
 <context>

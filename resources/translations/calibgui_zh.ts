@@ -2709,20 +2709,8 @@ with only their poses fitted</source>
 <context>
     <name>LivePage</name>
     <message>
-        <source>camera {0}</source>
-        <translation>相机 {0}</translation>
-    </message>
-    <message>
         <source>Choose a camera, and press Start.</source>
         <translation>选择相机，然后按“开始”。</translation>
-    </message>
-    <message>
-        <source>Camera</source>
-        <translation>相机</translation>
-    </message>
-    <message>
-        <source>A camera at this computer, or the address of one in the network (rtsp://…, http://…), or the folder that a camera&apos;s program fills</source>
-        <translation>本机的相机，网络相机的地址 (rtsp://…, http://…)，或相机程序写入的文件夹</translation>
     </message>
     <message>
         <source>as the camera has it</source>
@@ -2837,8 +2825,8 @@ with only their poses fitted</source>
         <translation>没有拍摄任何照片。</translation>
     </message>
     <message>
-        <source>Done: the camera is known well enough.</source>
-        <translation>完成：相机已足够精确。</translation>
+        <source>Done: known well enough.</source>
+        <translation>完成：已足够精确。</translation>
     </message>
     <message>
         <source>Stopped. More pictures would help.</source>
@@ -2854,6 +2842,13 @@ with only their poses fitted</source>
     <message>
         <source>Live image</source>
         <translation>实时图像</translation>
+    </message>
+</context>
+<context>
+    <name>LiveViews</name>
+    <message>
+        <source>Live image</source>
+        <translation type="unfinished">实时图像</translation>
     </message>
 </context>
 <context>
@@ -5058,6 +5053,33 @@ The colours: where the calibration&apos;s own uncertainty is small (dark) and la
     <message>
         <source>How to calibrate</source>
         <translation>如何标定</translation>
+    </message>
+</context>
+<context>
+    <name>SourceList</name>
+    <message>
+        <source>&amp;Another camera</source>
+        <translation>再加一台相机(&amp;A)</translation>
+    </message>
+    <message>
+        <source>&amp;Remove</source>
+        <translation>移除(&amp;R)</translation>
+    </message>
+    <message>
+        <source>Several cameras that stand fast to each other take each picture together</source>
+        <translation>相互固定的多台相机同时拍摄每一张照片</translation>
+    </message>
+    <message>
+        <source>Camera {0}</source>
+        <translation>相机 {0}</translation>
+    </message>
+    <message>
+        <source>A camera at this computer, or the address of one in the network (rtsp://…, http://…), or the folder that a camera&apos;s program fills</source>
+        <translation type="unfinished">本机的相机，网络相机的地址 (rtsp://…, http://…)，或相机程序写入的文件夹</translation>
+    </message>
+    <message>
+        <source>camera {0}</source>
+        <translation type="unfinished">相机 {0}</translation>
     </message>
 </context>
 <context>

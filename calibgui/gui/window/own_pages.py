@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -49,13 +49,15 @@ class OwnPages(QObject):
 
             self.live = LivePage(self._jobs)
             self.live.pictures_wanted.connect(self.pictures_taken)
+            self.live.rig_wanted.connect(lambda folder, without: self.show_rig([folder], without))
             self._add(self.live)
         if self._desk.currentWidget() is not self.live:
             self.live.offer()
         self._show(self.live)
 
-    def show_rig(self, names: Sequence[str] = ()) -> None:
-        """Show the page of several cameras, with these folders or this saved rig."""
+    def show_rig(self, names: Sequence[str] = (), without: Collection[str] = ()) -> None:
+        """Show the page of several cameras, with these folders, without photographs of some names,
+        or with this saved rig."""
         if self.rig is None:
             from calibgui.gui.rig.rig_page import RigPage
 
@@ -65,7 +67,7 @@ class OwnPages(QObject):
         if len(names) == 1 and Path(names[0]).is_file():
             self.rig.open_rig(Path(names[0]))
         elif names:
-            self.rig.open_folders(names)
+            self.rig.open_folders(names, without)
 
     def are_of_rig(self, names: Sequence[str]) -> bool:
         """Return whether what was dropped is of several cameras; ask if it may be."""
