@@ -34,7 +34,7 @@ from calibgui.gui.window.main_window import MainWindow
 Pixels = npt.NDArray[np.uint8]
 
 FILE = Path(__file__).resolve().parents[1] / "resources" / "images" / "window.webp"
-_SIZE = 1100, 680
+SIZE = 1100, 680
 """Width and height of the window, px."""
 _FRAME_MS = 120
 """Time between two frames."""
@@ -58,7 +58,7 @@ class Film:
 
     def __init__(self, window: MainWindow) -> None:
         self._window = window
-        self._cursor = QPointF(60, _SIZE[1] - 60)
+        self._cursor = QPointF(60, SIZE[1] - 60)
         self._frames: list[tuple[Pixels, int]] = []
 
     def shoot(self, duration: int = _FRAME_MS) -> None:
@@ -88,7 +88,7 @@ class Film:
         painter.setBrush(Qt.GlobalColor.black)
         painter.drawPolygon(QPolygonF([self._cursor + QPointF(*at) for at in _ARROW]))
         painter.end()
-        bgra = np.frombuffer(picture.constBits(), np.uint8).reshape(*_SIZE[::-1], 4)
+        bgra = np.frombuffer(picture.constBits(), np.uint8).reshape(*SIZE[::-1], 4)
         return bgra[..., 2::-1].copy()
 
     def move_to(self, widget: QWidget, at: QPoint | None = None) -> None:
@@ -108,7 +108,7 @@ class Film:
         self.shoot(300)
         QTest.mouseClick(widget, Qt.MouseButton.LeftButton)
 
-    def save(self, path: Path) -> None:
+    def save(self, path: Path, quality: int = _QUALITY) -> None:
         """Write the film, which begins anew at its end."""
         pictures = [Image.fromarray(frame) for frame, _ in self._frames]
         pictures[0].save(
@@ -117,7 +117,7 @@ class Film:
             append_images=pictures[1:],
             duration=[duration for _, duration in self._frames],
             loop=0,
-            quality=_QUALITY,
+            quality=quality,
             method=6,
         )
 
@@ -172,7 +172,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("file", nargs="?", type=Path, default=FILE)
     path = parser.parse_args().file
-    with TemporaryDirectory() as folder, open_window(*_SIZE, theme.Scheme.LIGHT) as window:
+    with TemporaryDirectory() as folder, open_window(*SIZE, theme.Scheme.LIGHT) as window:
         for number in range(1, len(VIEWS) + 1):
             photograph = draw_photograph(number, replace(LOOK, stretch=_STRETCH))
             write_image(Path(folder) / f"view{number:02d}.png", photograph)

@@ -28,6 +28,7 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QTabWidget
 
 from calibgui.app.calibrating.series import Scalar
+from calibgui.app.photographs import recording
 from calibgui.app.system.resources import find_resource
 from calibgui.cli.main import main as calibgui
 from calibgui.engine.boards import Board, BoardShapeModel
@@ -39,7 +40,6 @@ from calibgui.engine.images import render_view, write_image
 from calibgui.gui.dialogs.manual_dialog import ManualDialog
 from calibgui.gui.dialogs.many_cameras import ManyCameras
 from calibgui.gui.dialogs.series_dialog import SeriesDialog
-from calibgui.gui.live import live_page
 from calibgui.gui.panels.analysis import PANELS
 from calibgui.gui.panels.answer.undistort import RECTIFIED, UndistortPanel
 from calibgui.gui.panels.evidence.board_shape import BoardShapePanel
@@ -66,8 +66,9 @@ _LIVE = Camera((640, 480), [560, 560, 322, 236, -0.15, 0.03, 0, 0, 0], "brown-co
 _RIG = (Pose([0, 0, 0], [0, 0, 0]), Pose([0.01, -0.12, 0.0], [-90.0, 1.0, 6.0]))
 """Poses cam_from_rig of two such cameras."""
 _INSTANTS = 10
-_STILL, _PICTURES = 10, 4
-"""Frames for which a board is held still, and pictures that are taken live."""
+_STEPS, _STILL, _PICTURES = 8, 8, 4
+"""Frames in which a board is moved, and for which it is held still, and pictures that are taken
+live."""
 
 
 def place_board(k: int, distance: float = 430.0) -> Pose:
@@ -79,13 +80,18 @@ def place_board(k: int, distance: float = 430.0) -> Pose:
 
 
 class Hand:
-    """A camera before which a hand holds a board near where it is wanted."""
+    """A camera before which a hand brings a board to where it is wanted, and holds it there.
+
+    Args:
+        window: on whose page that is.
+        pictures: number of pictures after which it stays on the way.
+    """
 
     title, is_continuous, is_live = "a rendered camera", True, False
     remark = "The camera has 1280 x 720 px, exposure 156, focus 30."
 
-    def __init__(self, window: MainWindow) -> None:
-        self._window = window
+    def __init__(self, window: MainWindow, pictures: int) -> None:
+        self._window, self._pictures = window, pictures
         self._frames = self._hold()
 
     def read(self) -> Frame:
@@ -96,20 +102,32 @@ class Hand:
         """Release nothing."""
 
     def _hold(self) -> Iterator[Frame]:
-        pose, count = place_board(0), 0
+        pose, count, stays = place_board(0), 0, False
         while True:
-            for _ in range(_STILL):
+            way = [pose] * _STILL
+            page = self._window.own_pages.live
+            camera = None if page is None or page.session is None else page.session.cameras[0]
+            if count and not stays and camera is not None and camera.goal is not None:
+                goal = locate_board(_LIVE, (camera.goal.reshape(-1, 2), _BOARD.points())).pose
+                way = [_go(pose, goal, k / _STEPS) for k in range(1, _STEPS + 1)]
+                if len(camera.pictures) == self._pictures:  # on the way to the next place
+                    way, stays = way[: _STEPS // 2], True
+                pose = way[-1]
+                way += [pose] * _STILL
+            for each in way:
                 count += 1
-                image = render_view(_LIVE, pose, _BOARD, blur=0.7, noise=4.0, seed=count)
+                image = render_view(_LIVE, each, _BOARD, blur=0.7, noise=4.0, seed=count)
                 yield Frame(np.repeat(image[:, :, None], 3, axis=2), count / 25)
                 pause_in_thread()
-            page = self._window.own_pages.live
-            session = None if page is None else page.session
-            if session is not None and session.goal is not None:
-                corners = session.goal.reshape(-1, 2), _BOARD.points()
-                pose = locate_board(_LIVE, corners).pose
-                if len(session.pictures) == _PICTURES:  # on the way to the next place
-                    pose = Pose(np.array(pose.rvec) * 0.7, pose.tvec + np.array([18, -12, 40]))
+
+
+def _go(start: Pose, end: Pose, part: float) -> Pose:
+    """Return the pose on the way from one to another."""
+    rvec, tvec = (
+        (1 - part) * np.array(a) + part * np.array(b)
+        for a, b in ((start.rvec, end.rvec), (start.tvec, end.tvec))
+    )
+    return Pose(rvec, tvec)
 
 
 def pause_in_thread() -> None:
@@ -335,7 +353,7 @@ class Photographer:
     def live(self) -> None:
         """Photograph a rendered board live, up to a place where it is wanted."""
         window = self.window
-        with mock.patch.object(live_page, "open_source", lambda *_: Hand(window)):
+        with mock.patch.object(recording, "open_source", lambda *_: Hand(window, _PICTURES)):
             window.own_pages.photograph_live()
             page = window.own_pages.live
             assert page is not None

@@ -13,10 +13,11 @@ from calibgui.engine.boards import CHECKERBOARD, FAMILIES, KINDS, ListedCircles,
 from calibgui.engine.errors import CalibrationError
 from calibgui.formats.circle_list import read_circle_list
 
-_PATTERN_OPTIONS = {
+PATTERN_OPTIONS = {
     "dictionary": "charuco",
     "marker": "charuco",
     "legacy": "charuco",
+    "first_marker": "charuco",
     "diameter": "circles",
     "layout": "listed-circles",
     "family": "aprilgrid or tagged-checkerboard",
@@ -65,6 +66,13 @@ def add_board_options(
         default=None,
         help="the ChArUco board was made before OpenCV 4.6: with an even number of rows of "
         "squares its first square is white",
+    )
+    group.add_argument(
+        "--first-marker",
+        type=int,
+        metavar="NUMBER",
+        help="number of the first marker of a ChArUco board: 0 on most; markers before it are "
+        "passed over, and with --board those after the board's last",
     )
     group.add_argument(
         "--diameter",
@@ -159,13 +167,13 @@ def read_pattern_options(options: argparse.Namespace) -> Pattern:
     usual: Any = KINDS[target]
     stated = {
         name: getattr(options, name)
-        for name in _PATTERN_OPTIONS
+        for name in PATTERN_OPTIONS
         if getattr(options, name) is not None
     }
     for name in stated:
         if not hasattr(usual, name):
             options.usage_error(
-                f"--{name.replace('_', '-')} is for --target {_PATTERN_OPTIONS[name]}, "
+                f"--{name.replace('_', '-')} is for --target {PATTERN_OPTIONS[name]}, "
                 f"not for {target}"
             )
         if name in _LENGTH_OPTIONS:

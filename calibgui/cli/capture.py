@@ -1,22 +1,31 @@
-"""Take the pictures that a camera is calibrated from, live: what to do with the board is said.
+"""Take the pictures that cameras are calibrated from, live: what to do with the board is said.
 
 SOURCE is a camera (its number, 0 for the first, or its address, rtsp://...), a video, or a folder
 that another program fills. Hold the board where it is asked for: as soon as it is still, sharp and
 worth it, a picture is taken. Every fifth also tells how well a camera that is calibrated without
 it predicts what it has not seen. It ends when the camera is known well enough, or with Ctrl-C. The
 pictures and their corners, corners.json, are then in the folder; nothing that was taken is lost.
+
+Several sources are the cameras of a rig, which take each picture at the same instant, into the
+folders cam0, cam1, ... for 'calibgui rig'. It is said which two have too few common views and, from
+the moving board, how far apart their clocks are.
 """
 
 from __future__ import annotations
 
 import argparse
+from contextlib import closing
 from pathlib import Path
 
 from calibgui.app.photographs.recording import (
     BoardFinder,
-    RecordedFrame,
+    RecordedInstant,
     Recorder,
+    begin_session,
     check_recording_folder,
+    describe_pairs,
+    describe_readouts,
+    open_cameras,
 )
 from calibgui.cli.arguments import add_grid_size_option, add_square_option, parse_positive
 from calibgui.cli.boards import add_board_options, is_pattern_open, read_pattern_options
@@ -24,7 +33,11 @@ from calibgui.cli.camera import parse_size
 from calibgui.cli.console import Console
 from calibgui.dataset import DEFAULT_SQUARE, CornerSet
 from calibgui.engine.boards import Board
-from calibgui.engine.capture import CameraSettings, CaptureSession, open_source
+from calibgui.engine.capture import (
+    CameraSettings,
+    JointSession,
+    PairedFrames,
+)
 from calibgui.engine.errors import CalibrationError
 from calibgui.formats.corners_json import encode_corners, write_corners
 from calibgui.report.numbers import format_count
@@ -37,7 +50,12 @@ _PATIENCE = 60.0
 
 def configure(parser: argparse.ArgumentParser) -> None:
     """Describe the arguments."""
-    parser.add_argument("source", metavar="SOURCE", help="camera, video or folder")
+    parser.add_argument(
+        "sources",
+        nargs="+",
+        metavar="SOURCE",
+        help="camera, video or folder; several cameras or videos are those of a rig",
+    )
     parser.add_argument(
         "-o", "--output", type=Path, required=True, metavar="DIR", help="folder for the pictures"
     )
@@ -85,18 +103,15 @@ def run(options: argparse.Namespace, console: Console) -> None:
     check_recording_folder(options.output)
     pattern = None if is_pattern_open(options) else read_pattern_options(options)
     square = DEFAULT_SQUARE if options.square is None else options.square
-    session = CaptureSession(BoardFinder(pattern, options.board), square, options.until)
+    finder = BoardFinder(pattern, options.board)
+    session = begin_session(len(options.sources), finder, square, options.until)
     recorder, failure = Recorder(session, options.output), None
     wanted = CameraSettings(options.size, options.exposure, options.focus)
-    with open_source(options.source, options.patience, wanted) as source:
-        if source.remark:
-            console.print_text(source.remark)
+    with closing(open_cameras(options.sources, options.patience, wanted)) as frames:
+        if frames.remark:
+            console.print_text(frames.remark)
         try:
-            said = readout = ""
-            for recorded in recorder.record(source, lambda: False):
-                said = _tell(recorded, session, said, console)
-                if not readout and (readout := session.describe_readout()):
-                    console.print_text(f"  {readout}")
+            _watch(recorder, session, frames, console)
         except KeyboardInterrupt:
             console.print_text("Stopped.")
         except CalibrationError as error:
@@ -106,31 +121,53 @@ def run(options: argparse.Namespace, console: Console) -> None:
         raise failure
 
 
-def _tell(recorded: RecordedFrame, session: CaptureSession, said: str, console: Console) -> str:
-    """Print what is new, and return what was said last."""
-    state = recorded.state
-    if recorded.file is not None:
+def _watch(
+    recorder: Recorder, session: JointSession, frames: PairedFrames, console: Console
+) -> None:
+    """Look at frames to the end, and say what is new."""
+    said, absent, readouts = "", dict[int, str](), list[str]()
+    for recorded in recorder.record(frames, lambda: False):
+        if frames.list_absent() != absent:
+            absent = frames.list_absent()
+            for c, problem in absent.items():
+                console.print_text(f"{session.names[c]}: {problem}")
+        if recorded.files:
+            _tell_taken(recorded, session, console)
+        instruction = recorded.state.instruction
+        if instruction not in (said, "Taken.") and not session.is_complete:
+            console.print_text(f"  {instruction}")
+            said = instruction
+        if len(found := describe_readouts(session)) > len(readouts):
+            readouts = found
+            console.print_text("\n".join(f"  {sentence}" for sentence in found))
+
+
+def _tell_taken(recorded: RecordedInstant, session: JointSession, console: Console) -> None:
+    """Print what an instant has brought."""
+    state, name = recorded.state, recorded.files[0].name
+    for c, picture in enumerate(state.taken):
+        if picture is None:
+            continue
+        camera = session.cameras[c]
         known = (
-            f"worst pixel ±{session.worst:.2g} px"
-            if session.worst < float("inf")
+            f"worst pixel ±{camera.worst:.2g} px"
+            if camera.worst < float("inf")
             else "not determined yet"
         )
-        aside = ", put aside" if session.pictures[-1].for_validation else ""
-        console.print_text(f"{recorded.file.name}: {len(session.pictures)} taken{aside}, {known}.")
-        if session.is_complete:
-            return said
-        wanted = state.wanted
-        if wanted is not None:
-            console.print_text(f"  Next: {wanted.instruction}")
-    if state.instruction not in (said, "Taken."):
-        console.print_text(f"  {state.instruction}")
-        return state.instruction
-    return said
+        place = f"{session.names[c]}/{name}" if len(session.names) > 1 else name
+        aside = ", put aside" if picture.for_validation else ""
+        console.print_text(f"{place}: {len(camera.pictures)} taken{aside}, {known}.")
+    for sentence in describe_pairs(session):
+        console.print_text(f"  {sentence}")
+    leading = state.cameras[state.leading]
+    if leading is not None and leading.wanted is not None and not session.is_complete:
+        where = f"{session.names[state.leading]}: " if len(session.names) > 1 else ""
+        console.print_text(f"  Next: {where}{leading.wanted.instruction}")
 
 
 def _finish(
     recorder: Recorder,
-    session: CaptureSession,
+    session: JointSession,
     options: argparse.Namespace,
     square: float,
     console: Console,
@@ -140,30 +177,52 @@ def _finish(
     Raises:
         CalibrationError: if nothing was taken, or the corners cannot be written.
     """
-    if not session.pictures:
+    if not session.instants:
         raise CalibrationError(
-            f"{options.source} showed no board that was still and sharp.",
+            f"{' and '.join(options.sources)} showed no board that was still and sharp.",
             "Hold the whole board in the picture, in good light, and keep it still for a moment.",
         )
-    corners = session.pictures[0].corners
-    height, width = session.pictures[0].frame.image.shape[:2]
-    corner_set = CornerSet(
-        (width, height),
-        recorder.list_views(),
-        Board(*corners.shape, square, corners.pattern),
-        lengths_confirmed=options.square is not None,
-    )
-    file = options.output / "corners.json"
-    write_corners(corner_set, file)
-    console.print_json(encode_corners(corner_set))
-    taken = format_count(len(session.pictures), "picture")
-    state = "The camera is known well enough" if session.is_complete else "More would help"
+    written = {}
+    for c, name in enumerate(session.names):
+        if not session.cameras[c].pictures:
+            console.print_text(f"{name} took no picture of the board.")
+            continue
+        folder = options.output / name if len(session.names) > 1 else options.output
+        corner_set = _make_corner_set(recorder, session, c, square, options.square is not None)
+        write_corners(corner_set, folder / "corners.json")
+        written[name] = encode_corners(corner_set)
+    several = len(session.names) > 1
+    console.print_json(written if several else written[session.names[0]])
+    taken = format_count(len(session.instants), "picture")
+    state = "All is known well enough" if several else "The camera is known well enough"
+    if not session.is_complete:
+        state = "More would help"
     console.print_text(f"\n{state}: {taken}, worst pixel ±{session.worst:.2g} px.")
-    progress = recorder.measure_progress()
-    if progress.unseen_corners:
-        console.print_text(
-            f"Pictures that were put aside are predicted to {progress.unseen_error:.2g} px rms "
-            f"({progress.unseen_corners} corners)."
-        )
-    console.print_text(f"Wrote {file}. Now: calibgui calibrate {options.output}")
+    for sentence in describe_pairs(session):
+        console.print_text(sentence)
+    for c in range(len(session.names)):
+        progress = recorder.measure_progress(c)
+        if progress.unseen_corners:
+            whose = f" of {session.names[c]}" if several else ""
+            console.print_text(
+                f"Pictures{whose} that were put aside are predicted to "
+                f"{progress.unseen_error:.2g} px rms ({progress.unseen_corners} corners)."
+            )
+    command = "rig" if several else "calibrate"
+    where = "" if several else f"Wrote {options.output / 'corners.json'}. "
+    console.print_text(f"{where}Now: calibgui {command} {options.output}")
     console.print_line(f"{taken} in {options.output}.")
+
+
+def _make_corner_set(
+    recorder: Recorder, session: JointSession, c: int, square: float, is_measured: bool
+) -> CornerSet:
+    """Return the corners in a camera's pictures."""
+    picture = session.cameras[c].pictures[0]
+    height, width = picture.frame.image.shape[:2]
+    return CornerSet(
+        (width, height),
+        recorder.list_views(c),
+        Board(*picture.corners.shape, square, picture.corners.pattern),
+        lengths_confirmed=is_measured,
+    )

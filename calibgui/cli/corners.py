@@ -10,6 +10,7 @@ from pathlib import Path
 
 from calibgui.app.photographs.paths import describe_unread_folders, describe_unread_photographs
 from calibgui.app.photographs.videos import FrameChoice
+from calibgui.app.rig.camera_names import find_named_cameras, list_cameras
 from calibgui.cli.arguments import (
     add_image_paths,
     add_scale_option,
@@ -25,6 +26,7 @@ from calibgui.cli.console import Console
 from calibgui.dataset import CornerSet
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.features import METHODS
+from calibgui.engine.images import is_video
 from calibgui.formats.corner_import import read_corner_file
 from calibgui.report.boards import describe_recognised_board
 from calibgui.report.tables import fill_lines
@@ -124,8 +126,23 @@ def search_board(options: argparse.Namespace, console: Console) -> tuple[CornerS
         detection.remark,
         describe_unread_folders(options.paths),
         describe_unread_photographs(options.paths),
+        _describe_rig(options.paths),
     )
     return corner_set, [remark for remark in remarks if remark]
+
+
+def _describe_rig(paths: Sequence[str]) -> str:
+    """Say which cameras photographs are of, and how a rig is made of them; empty if of one."""
+    photographs = [path for path in paths if not (Path(path).is_file() and is_video(path))]
+    groups = find_named_cameras(photographs) if photographs else {}
+    if not groups:
+        return ""
+    named = paths[0] if len(paths) == 1 else "FOLDER"
+    return (
+        f"By their names the photographs are of several cameras: {list_cameras(groups)}. "
+        f"`calibgui rig {named} --square MM` calibrates each, and how they stand to each other; "
+        "here all are taken for photographs of one camera."
+    )
 
 
 def _choose_frames_folder(options: argparse.Namespace) -> Path:

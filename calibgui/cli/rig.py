@@ -1,9 +1,10 @@
 """Calibrate a rig of several cameras from photographs of a board that they take together.
 
 Each CAM is the folder, quoted pattern or video of one camera; one folder may hold a folder for each
-camera, or the photographs of all, as left01, right01. Which photographs belong together is printed
-before anything is searched. Each camera is calibrated alone, then all together; what contradicts
-the others is left out and named.
+camera, or the photographs of all, as left01, right01 or cam0_1403636579763555584. Which photographs
+belong together is printed before anything is searched. Each camera is calibrated alone, then all
+together; what contradicts the others is left out and named. Several boards that stand fast to each
+other are stated one by one (--another); how they stand is found with the rig.
 """
 
 from __future__ import annotations
@@ -16,7 +17,13 @@ from pathlib import Path
 from calibgui.app.calibrating.settings import Settings
 from calibgui.app.outputs.output_files import check_outputs, check_suffix
 from calibgui.app.photographs.detection import Detection
-from calibgui.app.rig.calibrating import calibrate_photographs, require_times, search_cameras
+from calibgui.app.rig.boards import (
+    StatedBoard,
+    list_boardless_views,
+    name_boards,
+    search_boards,
+)
+from calibgui.app.rig.calibrating import calibrate_photographs, require_times
 from calibgui.app.rig.frames import find_videos, read_frame_times, write_frames
 from calibgui.app.rig.pairing import find_cameras, pair_files, state_times
 from calibgui.app.rig.time_pairing import Times, pair_by_times, read_file_times
@@ -29,12 +36,13 @@ from calibgui.cli.arguments import (
     require_board,
     search_images,
 )
-from calibgui.cli.boards import add_board_options, read_pattern_options
+from calibgui.cli.boards import add_board_options
 from calibgui.cli.camera import read_camera_and_warn
 from calibgui.cli.console import Console
 from calibgui.cli.outputs import add_overwrite_option
+from calibgui.cli.rig_boards import add_another_option, read_stated_boards
 from calibgui.dataset import DEFAULT_SQUARE, RigPairing, RigResult
-from calibgui.engine.boards import Board
+from calibgui.engine.boards import BoardShapeModel
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.images import is_video
 from calibgui.engine.rig import Mistake
@@ -60,6 +68,16 @@ def configure(parser: argparse.ArgumentParser) -> None:
     add_board_options(parser)
     add_corner_method(parser)
     add_square_option(parser, f"all lengths depend on it ({DEFAULT_SQUARE:g} if left out)")
+    add_another_option(parser)
+    parser.add_argument(
+        "--board-shape",
+        type=BoardShapeModel,
+        choices=list(BoardShapeModel),
+        default=BoardShapeModel.NOMINAL,
+        metavar="SHAPE",
+        help="the shape of the boards: nominal (flat and as drawn, the default), affine, bow or "
+        "free, estimated with the rig and shared by all cameras",
+    )
     parser.add_argument(
         "--model",
         type=parse_model,
@@ -145,10 +163,12 @@ def run(options: argparse.Namespace, console: Console) -> None:
     if output:
         read = [file for camera in pairing.cameras for file in camera.files.values()]
         check_outputs([(output, RIG)], read, options.overwrite)
-    corner_sets = search_cameras(pairing, partial(_search, options, console), options.square)
-    for name, corner_set in corner_sets.items():
-        if unused := list_unused_views(corner_set.views):
-            console.print_text(f"{name}: {unused}\n", otherwise=f"{name}: {unused}")
+    boards = read_stated_boards(options)
+    is_only = len(boards) == 1
+    corner_sets = search_boards(pairing, boards, partial(_search, options, console, is_only))
+    for camera in pairing.cameras:
+        if unused := list_unused_views(list_boardless_views(corner_sets, camera.name)):
+            console.print_text(f"{camera.name}: {unused}\n", otherwise=f"{camera.name}: {unused}")
     settings = Settings(model=options.model, robust=options.robust)
     with console.show_progress("calibrating", "camera") as advance:
         done = iter(range(len(pairing.cameras) + 1))
@@ -160,6 +180,7 @@ def run(options: argparse.Namespace, console: Console) -> None:
             options.hold,
             options.offsets,
             tell=lambda _: advance(next(done), len(pairing.cameras)),
+            boards=name_boards(boards, options.board_shape),
         )
     if shifted := [m for m in result.rig.mistakes if m.kind is Mistake.SHIFTED]:
         console.print_text(format_rig(result) + "\n")
@@ -195,20 +216,21 @@ def _pair(options: argparse.Namespace, console: Console, output: Path | None) ->
         times = read_times(options.times, groups)
     if options.within is not None:
         return pair_by_times(groups, times or read_file_times(groups), options.within)
-    return state_times(pair_files(groups), times)
+    pairing = pair_files(groups)
+    return state_times(pairing, times) if times else pairing
 
 
 def _search(
-    options: argparse.Namespace, console: Console, files: Sequence[str], board: Board | None
+    options: argparse.Namespace,
+    console: Console,
+    is_only: bool,
+    files: Sequence[str],
+    board: StatedBoard,
 ) -> Detection:
-    """Search photographs of one camera for the board, which another one may have told."""
-    pattern = read_pattern_options(options) if board is None else board.pattern
-    grid_size = options.board if board is None else board.grid_size
-    is_open = options.target is None and board is None
-    detection = search_images(
-        console, files, grid_size, None, options.corners, None if is_open else pattern
-    )
-    require_board(detection, grid_size, console, is_open)
+    """Search photographs of one camera for a board; the only one has to be there."""
+    detection = search_images(console, files, board.grid_size, None, options.corners, board.pattern)
+    if is_only:
+        require_board(detection, board.grid_size, console, board.pattern is None)
     return detection
 
 

@@ -24,10 +24,11 @@ class RigResult:
     """Names of the instants by their numbers."""
     images: Mapping[tuple[int, int], str]
     """Paths of the photographs, by the numbers of camera and instant."""
-    observations: Mapping[tuple[int, int], Observation]
-    """Corners in these photographs as they were counted there, likewise."""
-    board: Board | None = None
-    """The board of known layout; None where the corners came with their board points."""
+    observations: Mapping[tuple[int, int, int], Observation]
+    """Corners in these photographs as they were counted there, by the numbers of camera, board and
+    instant."""
+    boards: tuple[Board, ...] = ()
+    """The boards of known layout; none where the corners came with their board points."""
     lengths_confirmed: bool = True
     """False if nobody has stated the side of a square: all lengths then hold if it is that."""
     remarks: tuple[str, ...] = ()
@@ -38,7 +39,11 @@ class RigResult:
     @property
     def condition(self) -> str:
         """Condition under which all lengths hold, as "if squares are 30 mm"; empty if they do."""
-        return "" if self.lengths_confirmed else describe_lengths(self.board)
+        return (
+            ""
+            if self.lengths_confirmed
+            else describe_lengths(self.boards[0] if self.boards else None)
+        )
 
     def find_camera(self, name: str) -> int:
         """Return the number of a camera.

@@ -24,6 +24,8 @@ VERSION: str = cv2.__version__
 cv2.utils.logging.setLogLevel(cv2.utils.logging.LOG_LEVEL_SILENT)
 
 
+_FLOW_WINDOW, _FLOW_LEVELS = 21, 3
+"""Side of the window, px, and levels above the image, with which OpenCV follows points."""
 _STREAM_TIMEOUT_MSEC = 5000
 """Time without an answer after which a camera in the network counts as gone, ms: a choice."""
 
@@ -321,8 +323,28 @@ def _take_8_bits(image: GreyImage) -> GreyImage:
 def _follow(before: GreyImage, after: GreyImage, uv: FloatImage) -> FloatImage:
     if not np.isfinite(uv).any():
         return uv
-    moved, status, _ = cv2.calcOpticalFlowPyrLK(before, after, np.nan_to_num(uv), None)
+    corner, part = _cut_out_reach(before.shape, uv)
+    moved, status, _ = cv2.calcOpticalFlowPyrLK(
+        before[part], after[part], np.nan_to_num(uv - corner), None
+    )
+    moved += corner
     return np.where((status.ravel() > 0)[:, None] & np.isfinite(uv), moved, np.nan)
+
+
+def _cut_out_reach(
+    shape: tuple[int, ...], uv: FloatImage
+) -> tuple[FloatImage, tuple[slice, slice]]:
+    """Cut out what the flow of points (n, 2) px reaches in an image; its pyramid is as that of all.
+
+    Returns:
+        The upper left corner (2,), px, and the rows and columns.
+    """
+    reach = _FLOW_WINDOW << _FLOW_LEVELS
+    first = np.maximum(0, np.nanmin(uv, axis=0) - reach).astype(np.int64)
+    first -= first % (1 << _FLOW_LEVELS)
+    last = np.nanmax(uv, axis=0).astype(np.int64) + reach
+    rows, cols = (slice(int(first[k]), min(int(last[k]), shape[1 - k])) for k in (1, 0))
+    return first.astype(np.float32), (rows, cols)
 
 
 def measure_sharpness(image: GreyImage) -> float:

@@ -3,7 +3,8 @@
 rows, cols      of inner corners, or of circles
 square_mm       side of a square or tag, distance of circles (of rows of an asymmetric grid)
 pattern         left out for a checkerboard; else its `kind` and its known properties:
-  charuco             dictionary (OpenCV's name), marker (over the square), legacy (layout)
+  charuco             dictionary (OpenCV's name), marker (over the square), legacy (layout),
+                      first_marker (its number)
   circles             diameter (over the distance)
   asymmetric-circles  diameter (over the distance of the rows)
   listed-circles      places of the circles (X, Y, over their least distance), diameter (likewise)
@@ -66,6 +67,7 @@ _FIELD_READERS: Mapping[str, Callable[[Node], Any]] = {
     "dictionary": Node.text,
     "marker": Node.number,
     "legacy": Node.flag,
+    "first_marker": Node.integer,
     "diameter": Node.number,
     "asymmetric": Node.flag,
     "family": Node.text,

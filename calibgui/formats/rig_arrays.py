@@ -87,7 +87,7 @@ def write_mrcal_models(result: RigResult, path: Path, pair: tuple[int, int]) -> 
     files = _list_mrcal_files(result, path, pair)
     poses = _scale_poses(rig.poses, M_PER_MM)
     for c, (camera, pose, file) in enumerate(zip(cameras, poses, files, strict=True)):
-        corners = np.concatenate([v.uv for (of, _), v in result.observations.items() if of == c])
+        corners = np.concatenate([v.uv for (of, _, _), v in result.observations.items() if of == c])
         region = corners[scipy.spatial.ConvexHull(corners).vertices]
         text = mrcal_model.format_camera_model(camera, region, comment, pose)
         write_atomically(file, text.encode())
@@ -129,15 +129,21 @@ def write_nerfstudio_frames(result: RigResult, path: Path, _pair: tuple[int, int
     exporter = nerfstudio_json.EXPORTER
     cameras, note = express_cameras(rig.cameras, exporter, path, of_one_family=True)
     boards = dict(zip(rig.instants, rig.boards, strict=True))
+    # One frame for each photograph of the scene, which is what stands fast to the first board.
+    seen = dict.fromkeys(
+        (view.camera, view.instant)
+        for view in rig.views
+        if rig.placed_boards[view.board].reference == 0
+    )
     frames = [
         {
-            "file_path": locate_from(path.parent, result.images[view.camera, view.instant]),
-            **nerfstudio_json.list_intrinsics(cameras[view.camera]),
+            "file_path": locate_from(path.parent, result.images[camera, instant]),
+            **nerfstudio_json.list_intrinsics(cameras[camera]),
             "transform_matrix": world_from_camera_upright(
-                _compose(rig.poses[view.camera], boards[view.instant])
+                _compose(rig.poses[camera], boards[instant])
             ).tolist(),
         }
-        for view in rig.views
+        for camera, instant in seen
     ]
     content = {
         "note": f"{make_mark('rig-nerfstudio')} {note}",

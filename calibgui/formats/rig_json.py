@@ -5,18 +5,22 @@
      "cameras": [{"name", "model", "size", "params": {...}, "sigma": {...}, "rvec", "tvec_mm",
                   "sigma_rvec", "sigma_tvec_mm", "offset_s", "sigma_offset_s"}, ...],
      "covariance", "covariance_by_noise": (n x n) of all parameters, camera by camera in the order
-                  params, rvec, tvec_mm, offset_s; 0 for what was held,
+                  params, rvec, tvec_mm, offset_s, then rvec, tvec_mm of the boards but the first; 0
+                  for what was held,
      "pairs": [{"cameras": [a, b], "instants", "scatter_mm", "scatter_by_noise_mm"}, ...],
      "instants": [{"number", "name", "rvec", "tvec_mm"}, ...],
-     "views": [{"camera", "instant", "image", "uv", "xy_mm", "residuals_px", "alone_px",
+     "boards": [{"name", "target", "reference", "rvec", "tvec_mm", "sigma_rvec", "sigma_tvec_mm",
+                 "shape": as in board-shape.json, or null}, ...],
+     "views": [{"camera", "board", "instant", "image", "uv", "xy_mm", "residuals_px", "alone_px",
                 "contradiction_px", "turned_deg"}, ...],
-     "left_out": [{"camera", "instant", "image", "error_px"}, ...],
+     "left_out": [{"camera", "board", "instant", "image", "error_px"}, ...],
      "mistakes": [{"kind", "cameras": [a, b], "instants", "value"}, ...], "remarks", "versions"}
 
 Reader: any JSON reader; `read_rig`. Cameras count from 0. A point X, mm, of the rig's frame, which
 is that of the first camera, is at R X + tvec_mm in a camera's frame (X right, Y down, Z ahead),
-R = exp(rvec), rad; the pose of an instant brings points of the board into the rig's frame. A camera
-is later than the first one by offset_s.
+R = exp(rvec), rad; the pose of an instant brings points of the first board into the rig's frame,
+that of a board its points into the frame of the board `reference`. A camera is later than the first
+one by offset_s. Files of versions with one board lack `boards` and the `board` of views.
 Cannot hold: covariances of corners, and how each camera alone was calibrated.
 """
 
@@ -28,10 +32,21 @@ from typing import Any
 import numpy as np
 
 from calibgui.dataset import RigResult
+from calibgui.engine.boards import Board
 from calibgui.engine.calibration import Observation, Status
 from calibgui.engine.camera import Camera, list_parameter_names
 from calibgui.engine.geometry import Pose
-from calibgui.engine.rig import LeftOutView, Mistake, Rig, RigMistake, RigPair, RigView
+from calibgui.engine.rig import (
+    Layout,
+    LeftOutView,
+    Mistake,
+    PlacedBoard,
+    Rig,
+    RigMistake,
+    RigPair,
+    RigView,
+)
+from calibgui.formats.board_shape_json import decode_board_shape, encode_board_shape
 from calibgui.formats.json_document import check_format, read_json, write_json
 from calibgui.formats.node import Node
 from calibgui.formats.pattern_json import decode_board, encode_board
@@ -57,7 +72,7 @@ def encode_rig(result: RigResult) -> dict[str, Any]:
         "format": FORMAT,
         "version": VERSION,
         "status": rig.status,
-        "target": None if result.board is None else encode_board(result.board),
+        "target": encode_board(result.boards[0]) if result.boards else None,
         "lengths_confirmed": result.lengths_confirmed,
         "rms_px": rig.rms,
         "rms_alone_px": rig.rms_alone,
@@ -84,10 +99,12 @@ def encode_rig(result: RigResult) -> dict[str, Any]:
             }
             for instant, board in zip(rig.instants, rig.boards, strict=True)
         ],
+        "boards": [_encode_placed_board(result, b) for b in range(len(rig.placed_boards))],
         "views": [_encode_view(result, view) for view in rig.views],
         "left_out": [
             {
                 "camera": view.camera,
+                "board": view.board,
                 "instant": view.instant,
                 "image": result.images[view.camera, view.instant],
                 "error_px": view.error,
@@ -125,10 +142,25 @@ def _encode_camera(rig: Rig, c: int) -> dict[str, Any]:
     }
 
 
+def _encode_placed_board(result: RigResult, b: int) -> dict[str, Any]:
+    board, sigma = result.rig.placed_boards[b], result.rig.board_sigma(b)
+    return {
+        "name": board.name,
+        "target": encode_board(result.boards[b]) if result.boards else None,
+        "reference": board.reference,
+        "rvec": board.pose.rvec,
+        "tvec_mm": board.pose.tvec,
+        "sigma_rvec": sigma[:3],
+        "sigma_tvec_mm": sigma[3:],
+        "shape": None if board.shape is None else encode_board_shape(board.shape),
+    }
+
+
 def _encode_view(result: RigResult, view: RigView) -> dict[str, Any]:
-    seen = result.observations[view.camera, view.instant]
+    seen = result.observations[view.camera, view.board, view.instant]
     return {
         "camera": view.camera,
+        "board": view.board,
         "instant": view.instant,
         "image": result.images[view.camera, view.instant],
         "uv": seen.uv,
@@ -155,39 +187,73 @@ def read_rig(path: str | os.PathLike[str]) -> RigResult:
     instants = {
         entry["number"].integer(): entry["name"].text() for entry in node["instants"].items()
     }
+    boards = _decode_boards(node)
     images: dict[tuple[int, int], str] = {}
-    observations: dict[tuple[int, int], Observation] = {}
+    observations: dict[tuple[int, int, int], Observation] = {}
     views = []
     for entry in node["views"].items():
-        view = _decode_view(entry, len(cameras), instants)
-        place = view.camera, view.instant
-        images[place] = entry["image"].file_name()
+        view = _decode_view(entry, len(cameras), len(boards), instants)
+        images[view.camera, view.instant] = entry["image"].file_name()
         uv = entry["uv"].numbers(None, 2)
-        observations[place] = Observation(uv, entry["xy_mm"].numbers(len(uv), 2))
+        seen = Observation(uv, entry["xy_mm"].numbers(len(uv), 2))
+        observations[view.camera, view.board, view.instant] = seen
         views.append(view)
     left_out = []
     for entry in node["left_out"].items():
-        place = _decode_place(entry, len(cameras), instants)
-        images[place] = entry["image"].file_name()
-        left_out.append(LeftOutView(*place, entry["error_px"].number()))
-    rig = _decode_rig(node, cameras, tuple(views), tuple(left_out))
+        camera, board, instant = _decode_place(entry, len(cameras), len(boards), instants)
+        images[camera, instant] = entry["image"].file_name()
+        left_out.append(LeftOutView(camera, instant, entry["error_px"].number(), board))
+    rig = _decode_rig(node, cameras, boards, tuple(views), tuple(left_out))
     return RigResult(
         rig,
         instants,
         images,
         observations,
-        decode_board(node.get("target")),
+        _decode_targets(node),
         node["lengths_confirmed"].flag(),
         tuple(entry.text() for entry in node["remarks"].items()),
         {name: version.text() for name, version in node["versions"].members().items()},
     )
 
 
+def _decode_targets(node: Node) -> tuple[Board, ...]:
+    """Return the boards of known layout."""
+    entries = node.get("boards")
+    nodes = [node] if entries is None else entries.items()
+    found = [decode_board(entry.get("target")) for entry in nodes]
+    return tuple(board for board in found if board is not None)
+
+
+def _decode_boards(node: Node) -> tuple[PlacedBoard, ...]:
+    """Return the places of the boards; that of the only one in files that hold none."""
+    entries = node.get("boards")
+    if entries is None:
+        return (PlacedBoard(),)
+    boards = []
+    for b, entry in enumerate(entries.items()):
+        shape = entry.get("shape")
+        boards.append(
+            PlacedBoard(
+                entry["name"].text(),
+                _decode_pose(entry),
+                _decode_index(entry["reference"], b + 1, "board"),
+                None if shape is None else decode_board_shape(shape),
+            )
+        )
+    if not boards:
+        entries.fail("a list of at least one board")
+    return tuple(boards)
+
+
 def _decode_rig(
-    node: Node, cameras: list[Node], views: tuple[RigView, ...], left_out: tuple[LeftOutView, ...]
+    node: Node,
+    cameras: list[Node],
+    boards: tuple[PlacedBoard, ...],
+    views: tuple[RigView, ...],
+    left_out: tuple[LeftOutView, ...],
 ) -> Rig:
     decoded = tuple(map(_decode_camera, cameras))
-    size = sum(len(camera.params) + 7 for camera in decoded)
+    size = Layout(tuple(len(camera.params) for camera in decoded), len(boards)).size
     return Rig(
         names=tuple(entry["name"].text() for entry in cameras),
         cameras=decoded,
@@ -204,6 +270,7 @@ def _decode_rig(
         pairs=tuple(_decode_pair(entry, len(cameras)) for entry in node["pairs"].items()),
         left_out=left_out,
         mistakes=tuple(_decode_mistake(entry, len(cameras)) for entry in node["mistakes"].items()),
+        placed_boards=boards,
     )
 
 
@@ -242,8 +309,8 @@ def _decode_pair(node: Node, cameras: int) -> RigPair:
     )
 
 
-def _decode_view(node: Node, cameras: int, instants: dict[int, str]) -> RigView:
-    camera, instant = _decode_place(node, cameras, instants)
+def _decode_view(node: Node, cameras: int, boards: int, instants: dict[int, str]) -> RigView:
+    camera, board, instant = _decode_place(node, cameras, boards, instants)
     return RigView(
         camera,
         instant,
@@ -251,18 +318,23 @@ def _decode_view(node: Node, cameras: int, instants: dict[int, str]) -> RigView:
         node["alone_px"].number(),
         node["contradiction_px"].number(),
         node["turned_deg"].number(),
+        board,
     )
 
 
-def _decode_place(node: Node, cameras: int, instants: dict[int, str]) -> tuple[int, int]:
-    """Return the numbers of a view's camera and instant."""
+def _decode_place(
+    node: Node, cameras: int, boards: int, instants: dict[int, str]
+) -> tuple[int, int, int]:
+    """Return the numbers of a view's camera, board and instant."""
     instant = node["instant"].integer()
     if instant not in instants:
         node["instant"].fail("the number of an instant")
-    return _decode_index(node["camera"], cameras), instant
+    of_board = node.get("board")
+    board = 0 if of_board is None else _decode_index(of_board, boards, "board")
+    return _decode_index(node["camera"], cameras), board, instant
 
 
-def _decode_index(node: Node, count: int) -> int:
+def _decode_index(node: Node, count: int, what: str = "camera") -> int:
     if not 0 <= node.integer() < count:
-        node.fail(f"the number of a camera, from 0 to {count - 1}")
+        node.fail(f"the number of a {what}, from 0 to {count - 1}")
     return node.integer()

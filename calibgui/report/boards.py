@@ -43,6 +43,8 @@ def describe_board(board: Board) -> str:
             text += f", {pattern.dictionary}"
         if pattern.marker is not None:
             text += f", markers {pattern.marker:.2f} of a square"
+        if pattern.first_marker:
+            text += f", first marker {pattern.first_marker}"
         legacy = not pattern.is_first_square_dark((rows, cols))
         return text + (", first square white (layout before OpenCV 4.6)" if legacy else "")
     if isinstance(pattern, Circles):

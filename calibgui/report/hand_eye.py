@@ -14,6 +14,8 @@ from calibgui.report.tables import align_columns
 
 _STANDS_OUT = 5.0
 """Error of a pose over the median one from which it is named: of 3,000 normal ones one has that."""
+_ROUNDING = 1e-9, 1e-6
+"""Errors of a robot's pose, rad and mm, below which they are rounding: no robot states so much."""
 
 
 def describe_tool(found: HandEye) -> str:
@@ -142,8 +144,8 @@ def _list_axes(axes: Array) -> str:
 def find_outliers(found: HandEye) -> list[int]:
     """Find the poses that fit far worse than the others."""
     errors = measure_errors(found)
-    ratio = (errors / np.maximum(np.median(errors, axis=0), 1e-12)).max(axis=1)
-    return np.flatnonzero((ratio > _STANDS_OUT) & (errors[:, 1] > 0)).tolist()
+    ratio = (errors / np.maximum(np.median(errors, axis=0), _ROUNDING)).max(axis=1)
+    return np.flatnonzero(ratio > _STANDS_OUT).tolist()
 
 
 def _name_outliers(found: HandEye, leave_out: str) -> list[str]:

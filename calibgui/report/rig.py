@@ -11,7 +11,7 @@ import numpy as np
 from calibgui.dataset import RigPairing, RigResult, relate_cameras
 from calibgui.engine.arrays import Array
 from calibgui.engine.camera import find_model
-from calibgui.engine.errors import CalibrationError
+from calibgui.engine.geometry import Pose
 from calibgui.engine.rig import (
     Mistake,
     PointUncertainty,
@@ -74,6 +74,7 @@ def format_rig(result: RigResult) -> str:
         "\n".join(map(format_bullet, remarks)),
         tabulate_cameras(result.rig),
         tabulate_poses(result),
+        tabulate_boards(result),
         tabulate_points(result.rig),
     ]
     return "\n\n".join(filter(None, parts))
@@ -112,14 +113,17 @@ def describe_disagreement(result: RigResult) -> list[str]:
 
 def describe_offsets(rig: Rig) -> list[str]:
     """Say by how much each camera is late, where that was estimated."""
-    sentences = []
-    for c, late in enumerate(rig.offsets.tolist()):
-        sigma = rig.offset_sigma(c)
-        if sigma > 0:
-            amount = format_with_sigma(1000 * abs(late), 1000 * sigma)
-            word = "later" if late > 0 else "earlier"
-            sentences.append(f"{rig.names[c]} is {amount} ms {word} than {rig.names[0]}.")
-    return sentences
+    return [
+        describe_offset(rig.names[c], rig.names[0], late, rig.offset_sigma(c))
+        for c, late in enumerate(rig.offsets.tolist())
+        if rig.offset_sigma(c) > 0
+    ]
+
+
+def describe_offset(name: str, other: str, late: float, sigma: float) -> str:
+    """Say by how many s a camera is later than another one, with the standard deviation."""
+    amount = format_with_sigma(1000 * abs(late), 1000 * sigma)
+    return f"{name} is {amount} ms {'later' if late > 0 else 'earlier'} than {other}."
 
 
 def describe_mistake(result: RigResult, mistake: RigMistake) -> str:
@@ -150,6 +154,12 @@ def describe_mistake(result: RigResult, mistake: RigMistake) -> str:
             return (
                 f"{name} stands {value:.2g} mm otherwise beside {other} from {first} on. "
                 "Calibrate the photographs before and after it by themselves."
+            )
+        case Mistake.BOARDS_MOVED:
+            first = _name_photograph(result, mistake.camera, mistake.instants[0])
+            return (
+                f"The boards stand {value:.2g} mm otherwise to each other from {first} on. Fasten "
+                "them, or calibrate the photographs before and after it by themselves."
             )
         case Mistake.REFOCUSED:
             first = _name_photograph(result, mistake.camera, mistake.instants[0])
@@ -202,15 +212,55 @@ def tabulate_poses(result: RigResult) -> str:
     rows = [["camera", "", "X", "Y", "Z", "length"]]
     for c in range(1, len(rig.cameras)):
         pose, sigma = rig.poses[c], rig.pose_sigma(c)
-        place = map(format_with_sigma, pose.tvec.tolist(), sigma[3:].tolist())
-        turn = map(
-            format_with_sigma, np.degrees(pose.rvec).tolist(), np.degrees(sigma[:3]).tolist()
-        )
+        place, turn = _format_pose(pose, sigma)
         rows.append([rig.names[c], "mm", *place, format_with_sigma(*measure_distance(rig, c))])
         rows.append(["", "deg", *turn, format_with_sigma(*measure_turn(rig, c))])
     condition = f", {result.condition}" if result.condition else ""
     title = f"Translation and rotation vector from {rig.names[0]}{condition}"
     return f"{title}\n{align_columns(rows, left=(0, 1))}"
+
+
+def _format_pose(pose: Pose, sigma: Array) -> tuple[list[str], list[str]]:
+    """Format translation, mm, and rotation vector, degrees, with standard deviations (6,)."""
+    place = map(format_with_sigma, pose.tvec.tolist(), sigma[3:].tolist())
+    turn = map(format_with_sigma, np.degrees(pose.rvec).tolist(), np.degrees(sigma[:3]).tolist())
+    return list(place), list(turn)
+
+
+def tabulate_boards(result: RigResult) -> str:
+    """Tabulate how several boards stand to each other, and how far those of unknown shape are from
+    their drawings."""
+    rig, boards = result.rig, result.rig.placed_boards
+    parts = []
+    if len(boards) > 1:
+        rows = [["board", "beside", "", "X", "Y", "Z"]]
+        for b, board in enumerate(boards):
+            if board.reference == b:
+                continue
+            place, turn = _format_pose(board.pose, rig.board_sigma(b))
+            rows.append([board.name, boards[board.reference].name, "mm", *place])
+            rows.append(["", "", "deg", *turn])
+        title = "Translation and rotation vector of boards"
+        if len(rows) > 1:
+            parts.append(f"{title}\n{align_columns(rows, left=(0, 1, 2))}")
+    apart = [board.name for b, board in enumerate(boards) if b and board.reference == b]
+    if apart:
+        parts.append(
+            fill_lines(
+                f"Where {list_names(apart)} stands beside {boards[0].name} is open: no two cameras "
+                "saw them at one instant. Nothing else depends on it.",
+                "",
+                "  ",
+            )
+        )
+    parts += [
+        f"{board.name[:1].upper()}{board.name[1:]} deviates from its drawing by "
+        f"{board.shape.rms:.2g} mm rms, at most "
+        f"{np.linalg.norm(board.shape.deviation, axis=1).max():.2g} mm."
+        for board in boards
+        if board.shape is not None
+    ]
+    return "\n".join(parts)
 
 
 def measure_distance(rig: Rig, c: int) -> tuple[float, float]:
@@ -274,13 +324,15 @@ def tabulate_space_points(
     )
 
 
-def describe_stereo(pair: StereoPair, error: float, depths: Sequence[float] | None = None) -> str:
+def describe_stereo(
+    pair: StereoPair, error: float | None, depths: Sequence[float] | None = None
+) -> str:
     """Describe a rectified pair: how well rows agree, and how far its points move."""
     what = "columns" if pair.is_upright else "rows"
-    text = (
-        f"The {what} of the same corners differ by {error:.2g} px rms; the cameras are "
-        f"{pair.baseline:.4g} mm apart."
-    )
+    agreement = "They never see a corner together"
+    if error is not None:
+        agreement = f"The {what} of the same corners differ by {error:.2g} px rms"
+    text = f"{agreement}; the cameras are {pair.baseline:.4g} mm apart."
     if depths is None or pair.ideal[0].is_angular:
         return text
     near, far = sorted(depths)
@@ -289,19 +341,20 @@ def describe_stereo(pair: StereoPair, error: float, depths: Sequence[float] | No
     return f"{text} {where} have disparities of {least:.1f} to {most:.1f} px."
 
 
-def measure_row_error(result: RigResult, first: int, second: int) -> float:
-    """Measure the rms difference, px, of the rows of the same corners in rectified images.
+def measure_row_error(result: RigResult, first: int, second: int) -> float | None:
+    """Measure the rms difference, px, of the rows of the same corners in rectified images; None if
+    the cameras never see a corner together.
 
     Raises:
-        CalibrationError: if the pair cannot be rectified, or never sees a corner together.
+        CalibrationError: if the pair cannot be rectified.
     """
     pair = rectify_pair(*relate_cameras(result.rig, first, second))
     errors = []
-    kept = {(view.camera, view.instant) for view in result.rig.views if not view.turned}
-    for instant in result.rig.instants:
-        if not {(first, instant), (second, instant)} <= kept:
+    kept = {(view.camera, view.board, view.instant) for view in result.rig.views if not view.turned}
+    for camera, board, instant in sorted(kept):
+        if camera != first or (second, board, instant) not in kept:
             continue
-        a, b = (result.observations[c, instant] for c in (first, second))
+        a, b = (result.observations[c, board, instant] for c in (first, second))
         place = {tuple(xy): k for k, xy in enumerate(b.xy.round(6).tolist())}
         shared = [
             (k, place[tuple(xy)])
@@ -312,8 +365,5 @@ def measure_row_error(result: RigResult, first: int, second: int) -> float:
             in_a, in_b = np.array(shared).T
             errors.append(pair.measure_row_errors(a.uv[in_a], b.uv[in_b]))
     if not errors:
-        raise CalibrationError(
-            f"{result.rig.names[first]} and {result.rig.names[second]} see no corner together.",
-            "Name another pair.",
-        )
+        return None
     return float(np.sqrt(np.nanmean(np.concatenate(errors) ** 2)))

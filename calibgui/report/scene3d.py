@@ -93,16 +93,19 @@ def build_scene(result: Result, centre: SceneCentre) -> tuple[Polygon, ...]:
 def build_rig_scene(result: RigResult) -> tuple[Polygon, ...]:
     """Build the scene of a rig in the frame of its first camera.
 
-    The boards stand for views 0 to n - 1, in the order of the rig's instants, and the cameras for
-    those after them.
+    The boards at an instant stand for one of the views 0 to n - 1, in the order of the rig's
+    instants, and the cameras for those after them.
     """
     rig = result.rig
     T = np.array([pose.tvec for pose in rig.boards])
     size = _RELATIVE_CAMERA_LENGTH * float(np.linalg.norm(T, axis=1).mean())
-    outline = _make_rig_board(result)
+    outlines = [_outline_rig_board(result, b) for b in range(len(rig.placed_boards))]
+    seen = dict.fromkeys((view.instant, view.board) for view in rig.views)
     polygons = [
-        Polygon(outline @ rotation_from_vector(pose.rvec).T + pose.tvec, PolygonKind.BOARD, k)
-        for k, pose in enumerate(rig.boards)
+        Polygon(outlines[b] @ rotation_from_vector(pose.rvec).T + pose.tvec, PolygonKind.BOARD, k)
+        for k, (instant, pose) in enumerate(zip(rig.instants, rig.boards, strict=True))
+        for b in range(len(outlines))
+        if (instant, b) in seen
     ]
     for c, (camera, pose) in enumerate(zip(rig.cameras, rig.poses, strict=True)):
         R = rotation_from_vector(pose.rvec)
@@ -113,11 +116,16 @@ def build_rig_scene(result: RigResult) -> tuple[Polygon, ...]:
     return tuple(polygons)
 
 
-def _make_rig_board(result: RigResult) -> Array:
-    """Return corners (4, 3) of the rectangle around all points that were seen, mm."""
-    xy = np.concatenate([view.xy for view in result.observations.values()])
+def _outline_rig_board(result: RigResult, b: int) -> Array:
+    """Return corners (4, 3) of the rectangle around all points of board `b` that were seen, mm, in
+    the frame of the board that its place is beside."""
+    xy = np.concatenate(
+        [view.xy for (_, board, _), view in result.observations.items() if board == b]
+    )
     (x0, y0), (x1, y1) = xy.min(axis=0), xy.max(axis=0)
-    return np.array([[x0, y0, 0.0], [x1, y0, 0.0], [x1, y1, 0.0], [x0, y1, 0.0]])
+    corners = np.array([[x0, y0, 0.0], [x1, y0, 0.0], [x1, y1, 0.0], [x0, y1, 0.0]])
+    pose = result.rig.placed_boards[b].pose
+    return corners @ rotation_from_vector(pose.rvec).T + pose.tvec
 
 
 @dataclass(frozen=True, slots=True)

@@ -201,8 +201,9 @@ def search_board(
     choice: FrameChoice,
     tell: Progress,
     field: Field | None = None,
+    is_only: bool = True,
 ) -> Detection:
-    """Search photographs for the board. Raises CalibrationError if none shows it."""
+    """Search photographs for the board. Raises CalibrationError if none shows the only one."""
 
     def search_files(images: Sequence[Path]) -> Detection:
         def search(pattern: Pattern, grid_size: GridSize | None) -> Detection:
@@ -223,6 +224,6 @@ def search_board(
     names = [os.fspath(path) for path in paths]
     found = search_photographs(names, choice, search_files, tell_decoding)
     error, _ = explain_missing_board(found, board, pattern is None)
-    if error is not None:
+    if error is not None and is_only:
         raise error
     return found

@@ -12,12 +12,16 @@ import numpy.typing as npt
 from calibgui.app.calibrating.settings import AUTO_MODEL, Settings, read_model_choice
 from calibgui.app.photographs.detection import Detection
 from calibgui.app.photographs.videos import DEFAULT_CHOICE
-from calibgui.app.rig.calibrating import calibrate_photographs, require_times, search_cameras
+from calibgui.app.rig.boards import StatedBoard, name_boards, search_boards
+from calibgui.app.rig.calibrating import calibrate_photographs, require_times
 from calibgui.app.rig.pairing import pair_photographs
 from calibgui.dataset import RigResult, relate_cameras
 from calibgui.engine.arrays import GridSize
-from calibgui.engine.boards import Board, Pattern
+from calibgui.engine.boards import Board, BoardShapeModel, Pattern
+from calibgui.engine.errors import CalibrationError
+from calibgui.engine.geometry import Pose
 from calibgui.engine.rig import (
+    PlacedBoard,
     Rig,
     StereoPair,
     TriangulatedPoints,
@@ -45,6 +49,12 @@ class CalibratedRig:
     def rig(self) -> Rig:
         """The engine's record: cameras, poses, covariance."""
         return self.result.rig
+
+    @property
+    def boards(self) -> tuple[PlacedBoard, ...]:
+        """The boards with their places and the shapes that were estimated; the standard deviations
+        of the places are those of ``Rig.board_sigma``."""
+        return self.rig.placed_boards
 
     @property
     def offsets(self) -> dict[str, tuple[float, float]]:
@@ -121,6 +131,9 @@ def calibrate_rig(
     robust: bool = False,
     within: float | None = None,
     offsets: bool = False,
+    boards: Sequence[Board] = (),
+    places: Mapping[int, Pose] | None = None,
+    board_shape: str = BoardShapeModel.NOMINAL,
     progress: Progress | None = None,
 ) -> CalibratedRig:
     """Calibrate a rig of several cameras from photographs of a board that they take together.
@@ -138,6 +151,13 @@ def calibrate_rig(
             that their names or EXIF tell; None to pair by what pairs most.
         offsets: True to estimate how late the clock of each camera is, from a board that moves
             before cameras whose photographs tell their times.
+        boards: several boards that stand fast to each other, in place of square, board and pattern,
+            as ``engine.boards.Board(5, 7, 30, engine.boards.Charuco("DICT_4X4_50"))``; photographs
+            tell them apart by their markers.
+        places: poses first_from_board of those of them that are known, by their numbers from 1 on;
+            the others are estimated.
+        board_shape: the shape of the boards: "nominal", or "affine", "bow" or "free" to estimate
+            it with the rig.
         progress: a function that is told of the progress.
 
     Raises:
@@ -154,23 +174,40 @@ def calibrate_rig(
     if offsets:
         require_times(pairing)
 
-    def search(files: Sequence[str], seen: Board | None) -> Detection:
-        if seen is None:
-            return search_board(files, board, pattern, DEFAULT_CHOICE, tell)
-        return search_board(files, seen.grid_size, seen.pattern, DEFAULT_CHOICE, tell)
+    stated = [StatedBoard(board, pattern, square)]
+    if boards:
+        stated = [
+            StatedBoard(each.grid_size, each.pattern, each.square, (places or {}).get(b))
+            for b, each in enumerate(boards)
+        ]
+
+    def search(files: Sequence[str], wanted: StatedBoard) -> Detection:
+        size, is_only = wanted.grid_size, len(stated) == 1
+        return search_board(files, size, wanted.pattern, DEFAULT_CHOICE, tell, is_only=is_only)
 
     settings = Settings(model=read_model_choice(model), robust=robust)
     return CalibratedRig(
         calibrate_photographs(
             pairing,
-            search_cameras(pairing, search, square),
+            search_boards(pairing, stated, search),
             settings,
             {name: read_camera(file) for name, file in (known or {}).items()},
             hold,
             offsets,
             tell=lambda name: tell(f"calibrating {name}", 0, 0),
+            boards=name_boards(stated, _read_shape(board_shape)),
         )
     )
+
+
+def _read_shape(name: str) -> BoardShapeModel:
+    """Return a model of the boards' shape by its name."""
+    if name not in list(BoardShapeModel):
+        raise CalibrationError(
+            f"There is no board shape {name!r} of rigs.",
+            f"Choose from {', '.join(BoardShapeModel)}.",
+        )
+    return BoardShapeModel(name)
 
 
 def load_rig(path: File) -> CalibratedRig:

@@ -1535,6 +1535,10 @@ nach der Drehung, die beide dort am nächsten zusammenbringt, wo Ecken (Punkte) 
         <translation>Nicht hinzugefügt, da dort kein Bild zu lesen ist: {0}.</translation>
     </message>
     <message>
+        <source>By their names these are photographs of several cameras: {0}. File › Several cameras calibrates each, and how they stand to each other.</source>
+        <translation>Ihren Namen nach sind dies Fotos mehrerer Kameras: {0}. Datei › Mehrere Kameras kalibriert jede, und wie sie zueinander stehen.</translation>
+    </message>
+    <message>
         <source>Folder of images</source>
         <translation>Ordner mit Bildern</translation>
     </message>
@@ -2701,20 +2705,8 @@ nur ihre Lagen angepasst</translation>
 <context>
     <name>LivePage</name>
     <message>
-        <source>camera {0}</source>
-        <translation>Kamera {0}</translation>
-    </message>
-    <message>
         <source>Choose a camera, and press Start.</source>
         <translation>Eine Kamera wählen und auf Start drücken.</translation>
-    </message>
-    <message>
-        <source>Camera</source>
-        <translation>Kamera</translation>
-    </message>
-    <message>
-        <source>A camera at this computer, or the address of one in the network (rtsp://…, http://…), or the folder that a camera&apos;s program fills</source>
-        <translation>Eine Kamera an diesem Rechner, die Adresse einer im Netz (rtsp://…, http://…) oder der Ordner, den das Programm einer Kamera füllt</translation>
     </message>
     <message>
         <source>as the camera has it</source>
@@ -2829,8 +2821,8 @@ nur ihre Lagen angepasst</translation>
         <translation>Nichts wurde aufgenommen.</translation>
     </message>
     <message>
-        <source>Done: the camera is known well enough.</source>
-        <translation>Fertig: die Kamera ist gut genug bekannt.</translation>
+        <source>Done: known well enough.</source>
+        <translation>Fertig: gut genug bekannt.</translation>
     </message>
     <message>
         <source>Stopped. More pictures would help.</source>
@@ -2846,6 +2838,13 @@ nur ihre Lagen angepasst</translation>
     <message>
         <source>Live image</source>
         <translation>Live-Bild</translation>
+    </message>
+</context>
+<context>
+    <name>LiveViews</name>
+    <message>
+        <source>Live image</source>
+        <translation type="unfinished">Live-Bild</translation>
     </message>
 </context>
 <context>
@@ -4355,8 +4354,8 @@ Der Kreis: wie die Bretter geneigt waren; die Mitte ist zur Kamera hin, der Rand
         <translation> ms</translation>
     </message>
     <message>
-        <source>by names</source>
-        <translation>nach Namen</translation>
+        <source>automatic</source>
+        <translation type="unfinished">automatisch</translation>
     </message>
     <message>
         <source>Photographs that were taken at most so far apart are of one instant: by their names (seconds or nanoseconds since 1970, as of ROS) or by EXIF</source>
@@ -5089,6 +5088,33 @@ Die Farben: wo die eigene Unsicherheit der Kalibrierung klein (dunkel) und groß
     <message>
         <source>How to calibrate</source>
         <translation>Wie kalibriert wird</translation>
+    </message>
+</context>
+<context>
+    <name>SourceList</name>
+    <message>
+        <source>&amp;Another camera</source>
+        <translation>&amp;Noch eine Kamera</translation>
+    </message>
+    <message>
+        <source>&amp;Remove</source>
+        <translation>&amp;Entfernen</translation>
+    </message>
+    <message>
+        <source>Several cameras that stand fast to each other take each picture together</source>
+        <translation>Mehrere Kameras, die fest zueinander stehen, nehmen jedes Bild gemeinsam auf</translation>
+    </message>
+    <message>
+        <source>Camera {0}</source>
+        <translation>Kamera {0}</translation>
+    </message>
+    <message>
+        <source>A camera at this computer, or the address of one in the network (rtsp://…, http://…), or the folder that a camera&apos;s program fills</source>
+        <translation type="unfinished">Eine Kamera an diesem Rechner, die Adresse einer im Netz (rtsp://…, http://…) oder der Ordner, den das Programm einer Kamera füllt</translation>
+    </message>
+    <message>
+        <source>camera {0}</source>
+        <translation type="unfinished">Kamera {0}</translation>
     </message>
 </context>
 <context>

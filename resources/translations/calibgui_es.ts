@@ -1535,6 +1535,10 @@ tras el giro que más las acerca donde se vieron esquinas (puntos).</translation
         <translation>No añadido, pues allí no se puede leer ninguna imagen: {0}.</translation>
     </message>
     <message>
+        <source>By their names these are photographs of several cameras: {0}. File › Several cameras calibrates each, and how they stand to each other.</source>
+        <translation>Por sus nombres, estas son fotografías de varias cámaras: {0}. Archivo › Varias cámaras calibra cada una y cómo están entre sí.</translation>
+    </message>
+    <message>
         <source>Folder of images</source>
         <translation>Carpeta de imágenes</translation>
     </message>
@@ -2701,20 +2705,8 @@ ajustando solo sus poses</translation>
 <context>
     <name>LivePage</name>
     <message>
-        <source>camera {0}</source>
-        <translation>cámara {0}</translation>
-    </message>
-    <message>
         <source>Choose a camera, and press Start.</source>
         <translation>Elija una cámara y pulse Iniciar.</translation>
-    </message>
-    <message>
-        <source>Camera</source>
-        <translation>Cámara</translation>
-    </message>
-    <message>
-        <source>A camera at this computer, or the address of one in the network (rtsp://…, http://…), or the folder that a camera&apos;s program fills</source>
-        <translation>Una cámara de este ordenador, la dirección de una en la red (rtsp://…, http://…), o la carpeta que llena el programa de una cámara</translation>
     </message>
     <message>
         <source>as the camera has it</source>
@@ -2829,8 +2821,8 @@ ajustando solo sus poses</translation>
         <translation>No se tomó nada.</translation>
     </message>
     <message>
-        <source>Done: the camera is known well enough.</source>
-        <translation>Hecho: la cámara se conoce lo bastante bien.</translation>
+        <source>Done: known well enough.</source>
+        <translation>Listo: se conoce lo bastante bien.</translation>
     </message>
     <message>
         <source>Stopped. More pictures would help.</source>
@@ -2846,6 +2838,13 @@ ajustando solo sus poses</translation>
     <message>
         <source>Live image</source>
         <translation>Imagen en vivo</translation>
+    </message>
+</context>
+<context>
+    <name>LiveViews</name>
+    <message>
+        <source>Live image</source>
+        <translation type="unfinished">Imagen en vivo</translation>
     </message>
 </context>
 <context>
@@ -4355,8 +4354,8 @@ El círculo: cómo se inclinaron los tableros; el centro es de frente, el borde 
         <translation> ms</translation>
     </message>
     <message>
-        <source>by names</source>
-        <translation>por los nombres</translation>
+        <source>automatic</source>
+        <translation type="unfinished">automático</translation>
     </message>
     <message>
         <source>Photographs that were taken at most so far apart are of one instant: by their names (seconds or nanoseconds since 1970, as of ROS) or by EXIF</source>
@@ -5089,6 +5088,33 @@ Los colores: dónde es pequeña (oscuro) y grande la incertidumbre de la propia 
     <message>
         <source>How to calibrate</source>
         <translation>Cómo calibrar</translation>
+    </message>
+</context>
+<context>
+    <name>SourceList</name>
+    <message>
+        <source>&amp;Another camera</source>
+        <translation>&amp;Otra cámara</translation>
+    </message>
+    <message>
+        <source>&amp;Remove</source>
+        <translation>&amp;Quitar</translation>
+    </message>
+    <message>
+        <source>Several cameras that stand fast to each other take each picture together</source>
+        <translation>Varias cámaras fijas entre sí toman cada imagen a la vez</translation>
+    </message>
+    <message>
+        <source>Camera {0}</source>
+        <translation>Cámara {0}</translation>
+    </message>
+    <message>
+        <source>A camera at this computer, or the address of one in the network (rtsp://…, http://…), or the folder that a camera&apos;s program fills</source>
+        <translation type="unfinished">Una cámara de este ordenador, la dirección de una en la red (rtsp://…, http://…), o la carpeta que llena el programa de una cámara</translation>
+    </message>
+    <message>
+        <source>camera {0}</source>
+        <translation type="unfinished">cámara {0}</translation>
     </message>
 </context>
 <context>

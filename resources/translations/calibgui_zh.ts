@@ -1535,6 +1535,10 @@ after the rotation that brings the two closest where corners (dots) were seen.</
         <translation>未添加，因为其中没有可读的图像：{0}。</translation>
     </message>
     <message>
+        <source>By their names these are photographs of several cameras: {0}. File › Several cameras calibrates each, and how they stand to each other.</source>
+        <translation>从文件名看，这些照片来自多台相机：{0}。“文件 › 多台相机”可标定每台相机及其相互位置。</translation>
+    </message>
+    <message>
         <source>Folder of images</source>
         <translation>图像文件夹</translation>
     </message>
@@ -2701,20 +2705,8 @@ with only their poses fitted</source>
 <context>
     <name>LivePage</name>
     <message>
-        <source>camera {0}</source>
-        <translation>相机 {0}</translation>
-    </message>
-    <message>
         <source>Choose a camera, and press Start.</source>
         <translation>选择相机，然后按“开始”。</translation>
-    </message>
-    <message>
-        <source>Camera</source>
-        <translation>相机</translation>
-    </message>
-    <message>
-        <source>A camera at this computer, or the address of one in the network (rtsp://…, http://…), or the folder that a camera&apos;s program fills</source>
-        <translation>本机的相机，网络相机的地址 (rtsp://…, http://…)，或相机程序写入的文件夹</translation>
     </message>
     <message>
         <source>as the camera has it</source>
@@ -2829,8 +2821,8 @@ with only their poses fitted</source>
         <translation>没有拍摄任何照片。</translation>
     </message>
     <message>
-        <source>Done: the camera is known well enough.</source>
-        <translation>完成：相机已足够精确。</translation>
+        <source>Done: known well enough.</source>
+        <translation>完成：已足够精确。</translation>
     </message>
     <message>
         <source>Stopped. More pictures would help.</source>
@@ -2846,6 +2838,13 @@ with only their poses fitted</source>
     <message>
         <source>Live image</source>
         <translation>实时图像</translation>
+    </message>
+</context>
+<context>
+    <name>LiveViews</name>
+    <message>
+        <source>Live image</source>
+        <translation type="unfinished">实时图像</translation>
     </message>
 </context>
 <context>
@@ -4355,8 +4354,8 @@ The circle: how the boards were tilted; the middle is facing the camera, the rim
         <translation> ms</translation>
     </message>
     <message>
-        <source>by names</source>
-        <translation>按名称</translation>
+        <source>automatic</source>
+        <translation type="unfinished">自动</translation>
     </message>
     <message>
         <source>Photographs that were taken at most so far apart are of one instant: by their names (seconds or nanoseconds since 1970, as of ROS) or by EXIF</source>
@@ -5089,6 +5088,33 @@ The colours: where the calibration&apos;s own uncertainty is small (dark) and la
     <message>
         <source>How to calibrate</source>
         <translation>如何标定</translation>
+    </message>
+</context>
+<context>
+    <name>SourceList</name>
+    <message>
+        <source>&amp;Another camera</source>
+        <translation>再加一台相机(&amp;A)</translation>
+    </message>
+    <message>
+        <source>&amp;Remove</source>
+        <translation>移除(&amp;R)</translation>
+    </message>
+    <message>
+        <source>Several cameras that stand fast to each other take each picture together</source>
+        <translation>相互固定的多台相机同时拍摄每一张照片</translation>
+    </message>
+    <message>
+        <source>Camera {0}</source>
+        <translation>相机 {0}</translation>
+    </message>
+    <message>
+        <source>A camera at this computer, or the address of one in the network (rtsp://…, http://…), or the folder that a camera&apos;s program fills</source>
+        <translation type="unfinished">本机的相机，网络相机的地址 (rtsp://…, http://…)，或相机程序写入的文件夹</translation>
+    </message>
+    <message>
+        <source>camera {0}</source>
+        <translation type="unfinished">相机 {0}</translation>
     </message>
 </context>
 <context>

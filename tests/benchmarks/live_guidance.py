@@ -128,8 +128,11 @@ class Hand:
         )
 
     def _sees(self, pose: Pose) -> bool:
+        """Return whether the whole board is seen, from its front."""
         uv = project_points(BOARD.points(), self._camera, pose)
-        return bool(((uv > 4) & (uv < np.array(SIZE) - 5)).all())
+        R = rotation_from_vector(np.array(pose.rvec))
+        is_front = (BOARD.points() @ R[:, :2].T + pose.tvec) @ R[:, 2] > 0
+        return bool(((uv > 4) & (uv < np.array(SIZE) - 5)).all() and is_front.all())
 
     def _go(self, pose: Pose) -> Pose:
         way = np.linalg.norm(pose.tvec - self._pose.tvec)

@@ -26,10 +26,12 @@ import numpy as np
 from PySide6.QtCore import QEventLoop, QTimer
 from PySide6.QtWidgets import QApplication
 
-from calibgui.app.photographs.recording import RecordedFrame, Recorder
+from calibgui.app.photographs import recording
+from calibgui.app.photographs.recording import RecordedInstant, Recorder
 from calibgui.engine.boards.board import Board
 from calibgui.engine.camera.camera import Camera
-from calibgui.engine.capture.frame_sources import Frame, FrameSource
+from calibgui.engine.capture.frame_sources import Frame
+from calibgui.engine.capture.latest_frames import Instant, PairedFrames
 from calibgui.engine.capture.session import CaptureSession
 from calibgui.engine.detection.find_corners import find_corners
 from calibgui.engine.geometry.pose import Pose
@@ -96,9 +98,11 @@ class TimedRecorder(Recorder):
 
     taken_at: ClassVar[dict[int, float]] = {}
 
-    def _look_at(self, frame: Frame, source: FrameSource) -> RecordedFrame:
-        recorded = super()._look_at(frame, source)
-        self.taken_at[id(recorded.state)] = frame.time
+    def _look_at(self, instant: Instant, frames: PairedFrames) -> RecordedInstant:
+        recorded = super()._look_at(instant, frames)
+        (frame,) = instant
+        if frame is not None:
+            self.taken_at[id(recorded.state)] = frame.time
         return recorded
 
 
@@ -119,7 +123,8 @@ class TimedPage(live_page.LivePage):
 def measure_page() -> None:
     """Photograph live for half a minute, and print how it keeps up."""
     frames = draw_frames(SIZES["1080p"])
-    live_page.Recorder, live_page.open_source = TimedRecorder, lambda *_: Camera1080(frames)  # type: ignore[misc, assignment]
+    live_page.Recorder = TimedRecorder  # type: ignore[misc]
+    recording.open_source = lambda *_: Camera1080(frames)  # type: ignore[assignment, return-value]
     application = QApplication.instance() or QApplication([])
     assert isinstance(application, QApplication)
     jobs = Jobs()

@@ -241,6 +241,42 @@ def test_offsets_are_asked_of_photographs_in_succession(
     assert "--times FILE" in capsys.readouterr().err
 
 
+def test_a_folder_that_mixes_stamped_photographs(
+    folder: Path, tmp_path: Path, capsys: Capture
+) -> None:
+    """Its names tell cameras, instants and times; whoever calibrates one camera is told so."""
+    for c, side in enumerate(("left", "right")):
+        for k in range(1, INSTANTS + 1):
+            name = f"cam{c}_{1403636579763555584 + (400 * k + 7 * c) * 10**6}.png"
+            shutil.copy(folder / f"{side}{k}.png", tmp_path / name)
+    command = ["calibrate", str(tmp_path), "--square", "30", "--board", "5x8"]
+    assert main([*command, "--as-asked"]) == 0
+    said = " ".join(capsys.readouterr().out.split())
+    assert "photographs are of several cameras: cam0 (9), cam1 (9)" in said
+    assert f"`calibgui rig {tmp_path} --square MM`" in said
+    out = tmp_path / "rig.json"
+    assert calibrate(tmp_path, "--offsets", "-o", str(out)) == 0
+    assert "at most 7 ms apart: 9 instants" in " ".join(capsys.readouterr().out.split())
+    rig = read_rig(out).rig
+    assert rig.names == ("cam0", "cam1")  # and the boards stood where they were for cam0
+    assert abs(rig.offsets[1] + 7e-3) < 5 * rig.offset_sigma(1)
+    assert main(["detect", *map(str, sorted(folder.glob("left*.png"))), "--board", "5x8"]) == 0
+    assert "several cameras" not in capsys.readouterr().out
+
+
+def test_another_board_before_a_camera_is_named(
+    folder: Path, tmp_path: Path, capsys: Capture
+) -> None:
+    other = Board(rows=4, cols=6, square=30.0)
+    for k in range(1, 4):
+        shutil.copy(folder / f"left{k}.png", tmp_path / f"left{k}.png")
+        pose = Pose([0.1 * k, -0.2, 0.02 * k], [-80.0, -50.0, 400.0])
+        write_image(tmp_path / f"right{k}.png", render_view(RIGHT, pose, other, blur=0.7))
+    assert main(["rig", str(tmp_path), "--square", "30"]) == 1
+    said = " ".join(capsys.readouterr().err.split())
+    assert "right shows no board of 5x8 in any photograph, and left does" in said
+
+
 def test_offsets_in_python(folder: Path, tmp_path: Path) -> None:
     for side in ("left", "right"):
         (tmp_path / side).mkdir()

@@ -18,7 +18,7 @@ from calibgui.formats.anipose_toml import format_calibration
 from calibgui.formats.camera_places import WORLD
 from calibgui.formats.rig_files import RIG_EXPORTERS
 from tests.formats.readers import in_other_python
-from tests.formats.rigs import make_result
+from tests.formats.rigs import make_result, make_result_of_boards
 from tests.formats.test_rig_files import BROWN, FISHEYE, POINTS, SECOND_BROWN, see
 
 _ANIPOSE = """
@@ -130,7 +130,7 @@ def test_frames_of_nerfstudio_see_the_board_where_we_do(tmp_path: Path, lens: Ca
     names = ("k1", "k2", "k3", "k4") if lens is FISHEYE else ("k1", "k2", "p1", "p2", "k3")
     flip = np.diag([1.0, -1.0, -1.0, 1.0])
     for frame, view in zip(content["frames"], result.rig.views, strict=True):
-        observation = result.observations[view.camera, view.instant]
+        observation = result.observations[view.camera, view.board, view.instant]
         assert frame["file_path"] == result.images[view.camera, view.instant]
         camera_from_board = flip @ np.linalg.inv(frame["transform_matrix"]) @ flip
         board = np.pad(observation.xy / 1000, ((0, 0), (0, 1)))
@@ -139,6 +139,15 @@ def test_frames_of_nerfstudio_see_the_board_where_we_do(tmp_path: Path, lens: Ca
         D = np.array([frame[key] for key in names])
         uv = project(X[:, None], np.zeros(3), np.zeros(3), K, D)[0][:, 0] - 0.5
         np.testing.assert_allclose(uv, observation.uv - view.residuals, atol=1e-6)
+
+
+def test_frames_of_nerfstudio_are_photographs_of_all_boards(tmp_path: Path) -> None:
+    result = make_result_of_boards()
+    RIG_EXPORTERS["nerfstudio"].write(result, tmp_path / "transforms.json", (0, 1))
+    frames = json.loads((tmp_path / "transforms.json").read_text())["frames"]
+    files = [frame["file_path"] for frame in frames]
+    assert len(set(files)) == len(files) < len(result.rig.views)
+    assert set(files) == set(result.images.values())
 
 
 def test_tables_of_ten_cameras_keep_their_order() -> None:

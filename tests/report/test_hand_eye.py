@@ -13,6 +13,7 @@ from calibgui.engine.hand_eye import HandEye, ToolError, calibrate_hand_eye
 from calibgui.report.hand_eye import (
     describe_in_a_line,
     describe_tool,
+    find_outliers,
     list_hand_eye_remarks,
     tabulate_hand_eye,
 )
@@ -110,3 +111,13 @@ def test_what_took_no_part(arm: Arm) -> None:
 def test_a_single_reading(arm: Arm) -> None:
     said = remark_on(replace(solve(arm), next_scatter=np.inf))
     assert "in any other way" not in said
+
+
+def test_rounding_makes_no_outlier(arm: Arm) -> None:
+    """A pose that is off by 3e-7 mm among others that are off by nothing is no mistake."""
+    found = solve(arm)
+    corrections = np.full((12, 6), 1e-12)
+    corrections[4] = [*np.full(3, 1e-10), 0.0, 3e-7, 0.0]
+    assert find_outliers(replace(found, corrections=corrections)) == []
+    corrections[4, 4] = 3e-3
+    assert find_outliers(replace(found, corrections=corrections)) == [4]

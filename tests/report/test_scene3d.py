@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -11,10 +13,12 @@ from scipy.spatial.transform import Rotation
 from calibgui import engine
 from calibgui.dataset import Result, View, ViewStatus
 from calibgui.engine.features.corners import Corners
+from calibgui.report.rig import tabulate_boards
 from calibgui.report.scene3d import (
     Observer,
     PolygonKind,
     SceneCentre,
+    build_rig_scene,
     build_scene,
     draw_scene,
     find_view_at,
@@ -24,6 +28,7 @@ from calibgui.report.scene3d import (
     project_to_plane,
 )
 from tests.engine import scenes
+from tests.formats.rigs import make_result_of_boards
 
 observers = st.builds(Observer, st.floats(-3, 3), st.floats(-1.5, 1.5), st.floats(0.5, 2.0))
 
@@ -146,3 +151,33 @@ def test_points_fall_where_the_polygons_they_belong_to_are_drawn(result: Result)
         points, depth = project_into_scene(polygons, item.polygon.points, observer)
         np.testing.assert_allclose(points, item.points, atol=1e-12)
         assert np.isclose(depth.mean(), item.depth)
+
+
+def test_a_rig_is_drawn_with_every_board_where_it_is() -> None:
+    result = make_result_of_boards()
+    rig = result.rig
+    polygons = [each for each in build_rig_scene(result) if each.kind is PolygonKind.BOARD]
+    assert len(polygons) == len({(view.instant, view.board) for view in rig.views})
+    by_instant = [[each for each in polygons if each.view == k] for k in range(len(rig.instants))]
+    first, second = by_instant[0]
+    # Both are rectangles as large as the corners, and as far apart as the boards.
+    for each in (first, second):
+        sides = np.linalg.norm(np.diff(each.points, axis=0), axis=1)
+        np.testing.assert_allclose(sides[:2], [270.0, 180.0])
+    apart = np.linalg.norm(second.points[0] - first.points[0])
+    assert apart == pytest.approx(np.linalg.norm(rig.placed_boards[1].pose.tvec))
+
+
+def test_boards_of_a_rig_are_tabulated() -> None:
+    text = tabulate_boards(make_result_of_boards())
+    assert "board 2  board 1  mm" in text
+    assert text.count("±") == 6
+    assert "Board 1 deviates from its drawing by" in text
+    rig = make_result_of_boards().rig
+    apart = tuple(
+        replace(board, reference=b, shape=None) for b, board in enumerate(rig.placed_boards)
+    )
+    result = replace(make_result_of_boards(), rig=replace(rig, placed_boards=apart))
+    assert "Where board 2 stands beside board 1 is open" in " ".join(
+        tabulate_boards(result).split()
+    )

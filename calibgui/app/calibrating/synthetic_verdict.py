@@ -63,8 +63,8 @@ def judge_synthetic_check(check: SyntheticCheck) -> SyntheticVerdict:
     ]
     worst, name = max(rows, default=(0.0, ""))
     real, synthetic = (_measure_variance(result) for result in (check.real, check.synthetic))
-    chance = scipy.stats.f.sf(
-        real / max(synthetic, 1e-300), count_freedom(check.real), count_freedom(check.synthetic)
+    chance = scipy.special.fdtrc(
+        count_freedom(check.real), count_freedom(check.synthetic), real / max(synthetic, 1e-300)
     )
     return SyntheticVerdict(
         _find_parameter_chance(check),
@@ -87,7 +87,7 @@ def _find_parameter_chance(check: SyntheticCheck) -> float:
     unit = found.sigma[free]
     off = (found.camera.params - check.real.calibration.camera.params)[free] / unit
     distance = off @ np.linalg.solve(covariance / np.outer(unit, unit), off)
-    return float(scipy.stats.chi2.sf(distance, len(free)))
+    return float(scipy.special.chdtrc(len(free), distance))
 
 
 def _measure_variance(result: Result) -> float:

@@ -190,12 +190,15 @@ def _cover_dots(start: float, end: float, count: int) -> tuple[slice, Array]:
 def complete_pattern(pattern: Pattern, grid_size: GridSize) -> Pattern:
     """Return the pattern with its unknown properties as usually printed on a board of that size."""
     if isinstance(pattern, Charuco):
-        needed = (grid_size[0] + 1) * (grid_size[1] + 1) // 2
+        needed = pattern.number_markers(grid_size).stop
         sizes = opencv.list_dictionaries()
         usual = [name for name in sizes if name.startswith("DICT_4X4_") and sizes[name] >= needed]
         dictionary = min(usual or ["DICT_4X4_1000"], key=lambda name: sizes[name])
         return Charuco(
-            pattern.dictionary or dictionary, pattern.marker or 0.75, bool(pattern.legacy)
+            pattern.dictionary or dictionary,
+            pattern.marker or 0.75,
+            bool(pattern.legacy),
+            pattern.first_marker,
         )
     if isinstance(pattern, Circles | ListedCircles):
         return replace(pattern, diameter=pattern.diameter or pattern.half_distance)

@@ -13,12 +13,8 @@ from functools import partial
 from threading import Event
 from typing import Protocol
 
-from calibgui.app.photographs.detection import (
-    Detection,
-    infer_grid_size,
-    refuse_unreadable,
-    search_view,
-)
+from calibgui.app.photographs.detection import Detection, refuse_unreadable, search_view
+from calibgui.app.photographs.shared_board import infer_grid_size
 from calibgui.app.system.kernel_preparation import prepare_every_finder
 from calibgui.app.system.workers import map_in_processes
 from calibgui.dataset import View, ViewStatus

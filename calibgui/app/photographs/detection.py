@@ -3,15 +3,13 @@
 A failure with one image is recorded in its view and does not stop the search. One camera has one
 image size, and its photographs are all turned alike (``sensor_frame.py``). The size is that of most
 images that show the board: those of the most frequent size are searched first, then those of any
-other size of which there are more than showed it. If the grid size of the board is not given, the
-most frequent one among completely seen boards is taken, or that of a part which several photographs
-share, and images that show another size, or may cut the board, are searched again. Unknown
-properties of a pattern, such as the dictionary of its markers, are inferred in the same way.
+other size of which there are more than showed it. What is not known of the board is taken from what
+the photographs agree on (``shared_board.py``), and images that show another size, or may cut the
+board, are searched again.
 """
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
@@ -21,14 +19,20 @@ from typing import Protocol
 
 from calibgui.app.photographs.interlacing import INTERLACED, is_interlaced
 from calibgui.app.photographs.sensor_frame import list_other_frames, share_frame
+from calibgui.app.photographs.shared_board import (
+    agree_on_board,
+    explain_unknown_size,
+    infer_pattern,
+    list_worth_searching_again,
+)
 from calibgui.app.system.kernel_preparation import choose_preparation
 from calibgui.app.system.workers import Crashed, map_in_processes
 from calibgui.dataset import DEFAULT_SQUARE, CornerSet, View, ViewStatus
 from calibgui.engine import detection
 from calibgui.engine.arrays import Array, GridSize, Size
-from calibgui.engine.boards import CHECKERBOARD, AprilGrid, Board, Pattern
+from calibgui.engine.boards import CHECKERBOARD, Board, Pattern
 from calibgui.engine.errors import CalibrationError, MirroredError, NoBoardError
-from calibgui.engine.features import METHODS, Corners
+from calibgui.engine.features import METHODS
 from calibgui.engine.images import (
     Field,
     Image,
@@ -36,12 +40,7 @@ from calibgui.engine.images import (
     mirror_orientation,
     read_image,
 )
-from calibgui.engine.lattices import LIKE_DOTS
 
-_MIN_PARTS = 3
-"""Number of photographs in which the largest part of a board has one size, from which it counts as
-the board: something covers some corners in each of them. Parts that the image cuts, or that end
-where something begins, are of many sizes."""
 _MIRRORED = str(MirroredError())
 """Reason why a board with marks is not found in a mirrored photograph."""
 Progress = Callable[[int, int, View], None]
@@ -128,72 +127,90 @@ def find_views(
     rois = rois or {}
     waiting = [View(str(path), roi=rois.get(path), field=field) for path in images]
     views, usual_size = share_frame(waiting, size, orientation)
-    unsearched = list(views)
-    searches = 0
+    search = _Search(views, progress, stop, choose_preparation(pattern))
 
-    def search(which: Sequence[int], grid_size: GridSize | None) -> None:
-        nonlocal searches
-        total = searches + len(which)
-        items = [unsearched[k] for k in which]
-        if searches and items and progress is not None:
-            progress(searches, total, views[which[0]])  # it takes longer than it seemed
-        results = map_in_processes(
-            partial(
-                search_image or search_view, grid_size=grid_size, method=method, pattern=pattern
-            ),
-            items,
-            stop,
-            choose_preparation(pattern),
-        )
-        for i, view in results:
-            searches += 1
-            views[which[i]] = _record_crash(items[i]) if isinstance(view, Crashed) else view
-            if progress is not None:
-                progress(searches, total, views[which[i]])
+    def look_for(grid_size: GridSize | None, pattern: Pattern) -> Callable[[View], View]:
+        how = search_image or search_view
+        return partial(how, grid_size=grid_size, method=method, pattern=pattern)
 
-    def search_instead(others: Mapping[int, View]) -> None:
+    look = look_for(grid_size, pattern)
+    search.run([k for k, view in enumerate(views) if view.status is ViewStatus.WAITING], look)
+    if size is None and usual_size is not None:
+        size = _settle_size(search, waiting, usual_size, orientation, look)
+    board = agree_on_board(search.views, grid_size, pattern)
+    again = list_worth_searching_again(search.views, board, grid_size, pattern)
+    search.run(again, look_for(board.grid_size, board.pattern))
+    pattern = infer_pattern(search.views, board.pattern)
+    found = search.views
+    if pattern.identifies_points and any(view.corners is not None for view in found):
+        found = _name_mirrored(found, look_for(board.grid_size, pattern), stop)
+    return Detection(tuple(found), size, board.grid_size, pattern, board.remark)
+
+
+class _Search:
+    """A search of images, which goes on as more is known of their size and of the board."""
+
+    def __init__(
+        self,
+        views: Iterable[View],
+        progress: Progress | None,
+        stop: Event | None,
+        prepare: Callable[[], None],
+    ) -> None:
+        """Begin with views that wait, and others that were refused; the rest as `find_views`."""
+        self.views = list(views)
+        self._unsearched = list(self.views)
+        self._progress, self._stop, self._prepare = progress, stop, prepare
+        self._finished = 0
+
+    def run(self, which: Sequence[int], look: Callable[[View], View]) -> None:
+        """Search some of the images, also again, as they were before any search."""
+        total = self._finished + len(which)
+        items = [self._unsearched[k] for k in which]
+        if self._finished and items:
+            self._report(total, which[0])  # it takes longer than it seemed
+        for i, view in map_in_processes(look, items, self._stop, self._prepare):
+            self._finished += 1
+            self.views[which[i]] = _record_crash(items[i]) if isinstance(view, Crashed) else view
+            self._report(total, which[i])
+
+    def run_instead(self, others: Mapping[int, View], look: Callable[[View], View]) -> None:
         """Take other views of some images, turned otherwise or refused, and search them."""
         for k, view in others.items():
-            views[k] = unsearched[k] = view
-        search([k for k, view in others.items() if view.status is ViewStatus.WAITING], grid_size)
+            self.views[k] = self._unsearched[k] = view
+        self.run([k for k, view in others.items() if view.status is ViewStatus.WAITING], look)
 
-    search([k for k, view in enumerate(views) if view.status is ViewStatus.WAITING], grid_size)
-    if size is None and usual_size is not None:
-        shown = _count_found(views)
-        rivals = [each for each in list_other_frames(waiting, views) if len(each[1]) > shown]
-        search_instead({k: view for _, frame in rivals for k, view in frame.items()})
-        size = _choose_size(views, usual_size, rivals)
-        if rivals and _count_found(views):
-            chosen, _ = share_frame(waiting, size, orientation)
-            search_instead(
-                {
-                    k: view
-                    for k, view in enumerate(chosen)
-                    if view.status is not ViewStatus.WAITING
-                    or view.orientation != unsearched[k].orientation
-                }
-            )
-    seen = None if grid_size else infer_grid_size(views)
-    shared = None if grid_size or seen else _find_shared_part(views)
-    told = (
-        grid_size
-        if _get_first_tag(infer_pattern(views, pattern)) != _get_first_tag(pattern)
-        else None
-    )
-    if (inferred := seen or shared or told) is not None:
-        grid_size, pattern = inferred, infer_pattern(views, pattern)
-        again = [
-            k for k, view in enumerate(views) if _is_worth_searching_again(view, inferred, pattern)
-        ]
-        search(again, inferred)
-    pattern = infer_pattern(views, pattern)
-    if pattern.identifies_points and any(view.corners is not None for view in views):
-        read_mirrored = partial(
-            search_image or search_view, grid_size=grid_size, method=method, pattern=pattern
-        )
-        views = _name_mirrored(views, read_mirrored, stop)
-    remark = "" if shared is None else _describe_shared_part(shared)
-    return Detection(tuple(views), size, grid_size, pattern, remark)
+    def was_turned_as(self, k: int, view: View) -> bool:
+        """Return whether an image was searched turned as a view of it is."""
+        return self._unsearched[k].orientation == view.orientation
+
+    def _report(self, total: int, k: int) -> None:
+        if self._progress is not None:
+            self._progress(self._finished, total, self.views[k])
+
+
+def _settle_size(
+    search: _Search,
+    waiting: Sequence[View],
+    usual: Size,
+    orientation: int | None,
+    look: Callable[[View], View],
+) -> Size:
+    """Search images of other sizes than the `usual` one too, where they may show more boards, and
+    return the size of those that do; all images are left in the frame of that size."""
+    shown = _count_found(search.views)
+    rivals = [each for each in list_other_frames(waiting, search.views) if len(each[1]) > shown]
+    search.run_instead({k: view for _, frame in rivals for k, view in frame.items()}, look)
+    size = _choose_size(search.views, usual, rivals)
+    if rivals and _count_found(search.views):
+        chosen, _ = share_frame(waiting, size, orientation)
+        others = {
+            k: view
+            for k, view in enumerate(chosen)
+            if view.status is not ViewStatus.WAITING or not search.was_turned_as(k, view)
+        }
+        search.run_instead(others, look)
+    return size
 
 
 def search_view(
@@ -273,110 +290,10 @@ def _describe_zero_tail(image: Image) -> str:
     )
 
 
-def explain_unknown_size(views: Iterable[View], pattern: Pattern) -> CalibrationError | None:
-    """Return the error that the images do not tell the size of the board in them: they show parts
-    of it only, or end where a grid of circles may go on. None if they do, or no board is seen."""
-    views = tuple(views)
-    found = [view.corners for view in views if view.corners is not None]
-    largest = measure_largest_part(found)
-    if largest is None or infer_grid_size(views) or _find_shared_part(views):
-        return None
-    is_open = any(corners.relative for corners in found)
-    rows, cols = largest
-    shown = "where the grid ends on all sides" if is_open else "the whole board"
-    points = "inner corners" if pattern.has_squares else "circles"
-    remedy = (
-        f"State the size of the board: {rows} x {cols} if nothing of it lies beyond that part, "
-        f"else count its {points}"
-    )
-    if not pattern.has_squares:
-        remedy += " and take pictures that show its whole border"
-    return CalibrationError(
-        f"No picture shows {shown}, so its size is not known: the largest part seen has {rows} x "
-        f"{cols} {points}.",
-        f"{remedy}.",
-    )
-
-
 def refuse_unreadable(views: Sequence[View]) -> CalibrationError:
     """Return the error that none of the images can be read."""
     problem = "None of the files can be read as an image."
     return CalibrationError(problem, f"The first: {views[0].reason}")
-
-
-def infer_grid_size(views: Iterable[View]) -> GridSize | None:
-    """Return the most frequent grid size of completely seen boards; of equals, the largest.
-
-    If the corners identify themselves, the largest part seen is taken. A grid of circles counts as
-    complete where a few are covered, and as a part where it may go on outside of its image. A size
-    is none if more photographs show a part that is larger: a board may look complete where a shadow
-    or the image's edge hides its next corners. None if there is no board.
-    """
-    found = [view.corners for view in views if view.corners is not None]
-    if found and all(corners.pattern.identifies_points for corners in found):
-        first = _get_first_tag(infer_pattern(views, found[0].pattern))
-        return measure_largest_part([c for c in found if _get_first_tag(c.pattern) == first])
-    whole = Counter(
-        corners.shape
-        for corners in found
-        if not corners.relative and (corners.complete or not corners.pattern.has_squares)
-    )
-    for size in sorted(whole, key=lambda size: (whole[size], size[0] * size[1]), reverse=True):
-        if sum(_is_larger(corners.shape, size) for corners in found) <= whole[size]:
-            return size
-    return None
-
-
-def _is_larger(part: GridSize, size: GridSize) -> bool:
-    """Return whether a part has more corners than a board of a size, one way or the other."""
-    return any(seen > most for seen, most in zip(sorted(part), sorted(size), strict=True))
-
-
-def measure_largest_part(found: Sequence[Corners]) -> GridSize | None:
-    """Return the most rows and columns seen in parts of a board; None if there are no parts."""
-    rows, cols = (max((corners.shape[i] for corners in found), default=0) for i in (0, 1))
-    return (rows, cols) if rows and cols else None
-
-
-def _find_shared_part(views: Iterable[View]) -> GridSize | None:
-    """Return the size of the largest part of a board, if many photographs show just that much."""
-    parts = [view.corners for view in views if view.corners is not None]
-    largest = measure_largest_part(parts)
-    shared = sum(corners.shape == largest for corners in parts)
-    return largest if shared >= _MIN_PARTS else None
-
-
-def _describe_shared_part(size: GridSize) -> str:
-    counted = f"{size[0]} x {size[1]}"
-    return (
-        f"No picture shows every corner of the board. It counts as {counted}, the largest part "
-        "seen, which several pictures share; state its size if it has more."
-    )
-
-
-def infer_pattern(views: Iterable[View], stated: Pattern) -> Pattern:
-    """Return the `stated` pattern, with unknown properties as the images show them."""
-    found = [view.corners.pattern for view in views if view.corners is not None]
-    return stated.complete_from([pattern for pattern in found if pattern.kind == stated.kind])
-
-
-def _get_first_tag(pattern: Pattern) -> int:
-    """Return the number of the first tag of an AprilGrid; 0 for other boards."""
-    return (pattern.first_tag or 0) if isinstance(pattern, AprilGrid) else 0
-
-
-def _is_worth_searching_again(view: View, grid_size: GridSize, pattern: Pattern) -> bool:
-    """Return whether a search for the known board can change the corners of a view."""
-    if view.corners is not None:
-        is_numbered_alike = _get_first_tag(view.corners.pattern) == _get_first_tag(pattern)
-        return view.corners.shape != grid_size or view.corners.relative or not is_numbered_alike
-    is_easier = (
-        view.roi is not None
-        or pattern.identifies_points
-        or not pattern.has_squares
-        or LIKE_DOTS in view.reason
-    )
-    return view.status is ViewStatus.NO_BOARD and is_easier
 
 
 def _record_crash(view: View) -> View:

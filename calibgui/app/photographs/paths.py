@@ -82,7 +82,8 @@ def count_images_below(folder: Path) -> dict[Path, int]:
     no more are looked at.
     """
     counts: dict[Path, int] = {}
-    waiting, suffixes = [folder], FORMATS + list_suffixes()
+    suffixes = FORMATS + list_suffixes()
+    waiting = [folder]
     for _ in range(_MAX_FOLDERS):
         if not waiting:
             break
@@ -194,8 +195,8 @@ def _list_files(name: str) -> list[Path]:
         with os.scandir(path) as entries:
             listed = list(entries)
         images = [path / entry.name for entry in listed if _is_image(entry)]
-        rarer = list_suffixes()  # once: it looks for libraries
-        others = [path / entry.name for entry in listed if _is_image(entry, rarer)]
+        suffixes = list_suffixes()
+        others = [path / entry.name for entry in listed if _is_image(entry, suffixes)]
         stems = {image.stem.casefold() for image in images}  # a camera writes both
         images += [other for other in others if other.stem.casefold() not in stems]
         if not images:

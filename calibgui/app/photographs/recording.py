@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import itertools
 import tempfile
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import ExitStack
 from dataclasses import dataclass
-from math import isnan
+from math import isfinite, isnan
 from pathlib import Path
 from queue import SimpleQueue
 from typing import NamedTuple
@@ -16,13 +18,30 @@ from calibgui.app.system.workers import do_tasks_here
 from calibgui.dataset import View, ViewStatus
 from calibgui.engine.arrays import Array, GreyImage, GridSize
 from calibgui.engine.boards import Pattern
-from calibgui.engine.capture import CaptureSession, CaptureState, Frame, FrameSource, Picture
+from calibgui.engine.capture import (
+    CameraSettings,
+    CaptureSession,
+    Frame,
+    FrameSource,
+    Instant,
+    JointSession,
+    JointState,
+    PairedFrames,
+    Picture,
+    open_source,
+)
 from calibgui.engine.detection import find_corners
 from calibgui.engine.errors import CalibrationError, NoBoardError, OtherSizeError
 from calibgui.engine.features import Corners
 from calibgui.engine.images import write_image
+from calibgui.report.numbers import format_count
+from calibgui.report.rig import describe_offset
 
 _NAME = "picture-{:03d}.png"
+TIMES = "times.csv"
+"""Name of the table of the times at which pictures of several cameras were taken."""
+_PATIENCE = 1.0
+"""Time for which a camera that sends nothing is waited for before the others go on, s: a choice."""
 
 
 class BoardFinder:
@@ -87,16 +106,17 @@ def _contains(size: GridSize, part: GridSize) -> bool:
     return all(most >= seen for most, seen in zip(sorted(size), sorted(part), strict=True))
 
 
-class RecordedFrame(NamedTuple):
-    """A frame that was looked at, and where it was written if it was taken."""
+class RecordedInstant(NamedTuple):
+    """The frames of an instant that were looked at, and where they were written if taken."""
 
-    state: CaptureState
-    file: Path | None
+    state: JointState
+    files: tuple[Path, ...]
+    """The files of the cameras that sent a frame; none if it was not taken."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class CaptureProgress:
-    """The pictures that were taken, and how far the camera is known by them."""
+    """The pictures that a camera took, and how far it is known by them."""
 
     pictures: Mapping[Path, Picture]
     """The pictures that count, by the files that they were written to."""
@@ -111,8 +131,9 @@ class CaptureProgress:
     calibrated without; NaN if there are none."""
     unseen_corners: int
     """Number of such corners."""
-    readout: str
-    """The sentence on how long the camera takes for its rows; empty if nothing moved told."""
+    remarks: tuple[str, ...]
+    """Sentences on what moved told: of how long cameras take for their rows, and of their clocks;
+    and on pairs of cameras."""
 
 
 def check_recording_folder(folder: Path) -> None:
@@ -121,114 +142,197 @@ def check_recording_folder(folder: Path) -> None:
     Raises:
         CalibrationError: naming it.
     """
-    if folder.is_dir() and any(folder.glob(_NAME.format(0).replace("000", "*"))):
+    name = _NAME.format(0).replace("000", "*")
+    if folder.is_dir() and any(itertools.chain(folder.glob(name), folder.glob(f"*/{name}"))):
         raise CalibrationError(
             f"{folder} holds pictures of another capture.", "State another folder: -o."
         )
 
 
-class Recorder:
-    """Looks at frames of a source, and writes those that are taken.
+def open_cameras(names: Sequence[str], patience: float, wanted: CameraSettings) -> PairedFrames:
+    """Open the sources that names mean, all or none. Args and errors are those of `open_source`."""
+    with ExitStack() as stack:
+        sources: list[FrameSource] = []
+        for name in names:
+            source = open_source(name, patience, wanted)
+            stack.callback(source.close)
+            sources.append(source)
+        frames = PairedFrames(sources, _PATIENCE)
+        stack.pop_all()
+    return frames
 
-    What is asked of it, from any thread, is done between two frames.
+
+def begin_session(count: int, finder: BoardFinder, square: float, limit: float) -> JointSession:
+    """Begin a capture with so many cameras.
 
     Args:
-        session: looks at them; it keeps what was taken when the source ends or fails.
+        count: number of cameras.
+        finder: finds the board, the same one in all cameras.
+        square: side of a square, mm.
+        limit: uncertainty of the worst pixel at which it is complete, px.
+    """
+    cameras = [CaptureSession(finder, square, limit) for _ in range(count)]
+    return JointSession(cameras, [f"cam{c}" for c in range(count)])
+
+
+class Recorder:
+    """Looks at frames of cameras, and writes those that are taken.
+
+    Those of one camera are written into the folder itself, of several into a folder for each, with
+    a table of their times, as 'calibgui rig' reads them. What is asked of it, from any thread, is
+    done between two instants.
+
+    Args:
+        session: looks at the frames; it keeps what was taken when the sources end or fail.
         folder: where the pictures are written; it is made if there is none.
     """
 
-    def __init__(self, session: CaptureSession, folder: Path) -> None:
+    def __init__(self, session: JointSession, folder: Path) -> None:
         self._session, self._folder = session, folder
-        self._files: dict[Path, Frame] = {}
-        """The frames of all pictures that were written, also of those that were taken back."""
-        self._taken_back: dict[Path, Picture] = {}
+        several = len(session.names) > 1
+        self._folders = [folder / name if several else folder for name in session.names]
+        self._taken: dict[Path, tuple[Instant, tuple[Path, ...]]] = {}
+        """The frames of all instants that were written, also of those that were taken back, with
+        their files, by the first of these."""
+        self._taken_back: dict[Path, list[Picture | None]] = {}
         self._is_wanted = False
         self._toggled: SimpleQueue[Path] = SimpleQueue()
 
     def ask_for_picture(self) -> None:
-        """Take the next frame that shows a sharp board, whatever it adds."""
+        """Take the next instant that shows a sharp board, whatever it adds."""
         self._is_wanted = True
 
     def ask_to_toggle(self, file: Path) -> None:
-        """Take a picture back, or again; its file stays."""
+        """Take the instant of a file back, or again; its files stay."""
         self._toggled.put(file)
 
     def record(
-        self, source: FrameSource, should_stop: Callable[[], bool]
-    ) -> Iterator[RecordedFrame]:
+        self, frames: PairedFrames, should_stop: Callable[[], bool]
+    ) -> Iterator[RecordedInstant]:
         """Look at frames until the capture is complete.
 
         Args:
-            source: where the frames come from.
+            frames: the cameras' frames.
             should_stop: says whether the user wants it to end.
 
         Raises:
-            CalibrationError: if the source fails, its images change their size, or a picture
+            CalibrationError: if all sources fail, the images of one change their size, or a picture
                 cannot be written.
         """
         while not (self._session.is_complete or should_stop()):
-            frame = source.read()
-            if frame is None:
+            instant = frames.read()
+            if instant is None:
                 return
             self._toggle_pictures()
-            yield self._look_at(frame, source)
+            yield self._look_at(instant, frames)
 
-    def measure_progress(self) -> CaptureProgress:
-        """Measure how far the camera is known; between two frames."""
-        session = self._session
-        aside = [each for each in session.pictures if each.for_validation]
-        unseen_error = session.measure_unseen_error()
+    def measure_progress(self, c: int = 0) -> CaptureProgress:
+        """Measure how far a camera is known; between two instants."""
+        camera = self._session.cameras[c]
+        aside = [each for each in camera.pictures if each.for_validation]
+        unseen_error = camera.measure_unseen_error()
         return CaptureProgress(
-            {file: each for file in self._files if (each := self._get_picture(file)) is not None},
-            session.worst,
-            session.is_complete,
-            session.compute_tilts(),
+            self._list_pictures(c),
+            camera.worst,
+            camera.is_complete,
+            camera.compute_tilts(),
             unseen_error,
             0 if isnan(unseen_error) else sum(len(each.corners) for each in aside),
-            session.describe_readout(),
+            (*describe_readouts(self._session), *describe_pairs(self._session)),
         )
 
-    def list_views(self) -> tuple[View, ...]:
-        """List the views of the pictures that count, with their corners."""
+    def list_views(self, c: int = 0) -> tuple[View, ...]:
+        """List the views of a camera's pictures that count, with their corners."""
         return tuple(
             View(image=str(file), status=ViewStatus.FOUND, corners=picture.corners)
-            for file, picture in self.measure_progress().pictures.items()
+            for file, picture in self._list_pictures(c).items()
         )
 
-    def _look_at(self, frame: Frame, source: FrameSource) -> RecordedFrame:
+    def _list_pictures(self, c: int) -> dict[Path, Picture]:
+        """List the pictures of a camera that count, by their files."""
+        found = {}
+        for instant, files in self._taken.values():
+            picture = self._session.find_pictures(instant)[c]
+            if picture is not None:
+                sent = sum(frame is not None for frame in instant[:c])
+                found[files[sent]] = picture
+        return found
+
+    def _look_at(self, instant: Instant, frames: PairedFrames) -> RecordedInstant:
         session, is_wanted = self._session, self._is_wanted
         self._is_wanted = False
         state = (
-            session.observe(frame, is_live=source.is_live)
-            if source.is_continuous
-            else session.examine(frame)
+            session.observe(instant, is_live=frames.is_live)
+            if frames.is_continuous
+            else session.examine(instant)
         )
-        if is_wanted and state.taken is None:
-            state = session.examine(frame)
-        if state.taken is None:
-            return RecordedFrame(state, None)
-        file = self._folder / _NAME.format(len(self._files) + 1)
-        _write(state.taken, file)
-        self._files[file] = state.taken.frame
-        return RecordedFrame(state, file)
+        if is_wanted and not state.is_taken:
+            state = session.examine(instant)
+        if not state.is_taken:
+            return RecordedInstant(state, ())
+        name = _NAME.format(len(self._taken) + 1)
+        written = {
+            folder / name: frame
+            for folder, frame in zip(self._folders, instant, strict=True)
+            if frame is not None
+        }
+        for file, frame in written.items():
+            _write(frame, file)
+        if len(self._folders) > 1:
+            self._write_times(written)
+        files = tuple(written)
+        self._taken[files[0]] = instant, files
+        return RecordedInstant(state, files)
+
+    def _write_times(self, written: Mapping[Path, Frame]) -> None:
+        """Add the times of frames to the table.
+
+        Raises:
+            CalibrationError: if the disk refuses it.
+        """
+        table = self._folder / TIMES
+        lines = [] if self._taken else ["file,time_s"]
+        lines += [f"{f.parent.name}/{f.name},{frame.time:.6f}" for f, frame in written.items()]
+        try:
+            with table.open("a", encoding="utf-8") as file:
+                file.writelines(f"{line}\n" for line in lines)
+        except OSError as error:
+            raise CalibrationError(
+                f"{table} cannot be written: {error.strerror or error}.", "Check the disk."
+            ) from error
 
     def _toggle_pictures(self) -> None:
-        """Take pictures back, or again, as was asked for."""
+        """Take instants back, or again, as was asked for."""
         while not self._toggled.empty():
             file = self._toggled.get()
-            if (picture := self._get_picture(file)) is not None:
-                self._session.remove(picture)
-                self._taken_back[file] = picture
-            elif file in self._taken_back:
+            if file in self._taken_back:
                 self._session.restore(self._taken_back.pop(file))
-
-    def _get_picture(self, file: Path) -> Picture | None:
-        """Return the picture that a file holds; None if it does not count."""
-        frame = self._files[file]
-        return next((each for each in self._session.pictures if each.frame is frame), None)
+            elif file in self._taken:
+                self._taken_back[file] = self._session.remove(self._taken[file][0])
 
 
-def _write(picture: Picture, file: Path) -> None:
+def describe_readouts(session: JointSession) -> list[str]:
+    """Say how long cameras take for their rows, of those that something moved told it of."""
+    return [
+        f"{name}: {readout}" if len(session.names) > 1 else readout
+        for name, camera in zip(session.names, session.cameras, strict=True)
+        if (readout := camera.describe_readout())
+    ]
+
+
+def describe_pairs(session: JointSession) -> list[str]:
+    """Say how well it is known how cameras stand to each other, and how late they are."""
+    names, sentences = session.names, []
+    for link in session.links:
+        known = f", the worst place to ±{link.worst:.2g} px" if isfinite(link.worst) else ""
+        shared = format_count(link.shared, "common view")
+        sentences.append(f"{names[link.first]} and {names[link.second]}: {shared}{known}.")
+    for (a, b), (late, sigma) in session.list_offsets().items():
+        sentences.append(describe_offset(names[b], names[a], late, sigma))
+    return sentences
+
+
+def _write(frame: Frame, file: Path) -> None:
     """Write a picture.
 
     Raises:
@@ -240,4 +344,4 @@ def _write(picture: Picture, file: Path) -> None:
         raise CalibrationError(
             f"{file.parent} cannot be made: {error.strerror or error}.", "State another folder."
         ) from error
-    write_image(file, picture.frame.image)
+    write_image(file, frame.image)

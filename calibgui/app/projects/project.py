@@ -13,7 +13,7 @@ from functools import cached_property
 from types import MappingProxyType
 
 from calibgui.app.calibrating.settings import Settings
-from calibgui.app.photographs.detection import (
+from calibgui.app.photographs.shared_board import (
     explain_unknown_size,
     infer_grid_size,
     infer_pattern,

@@ -10,13 +10,15 @@ import numpy as np
 from calibgui.app.calibrating.calibration import calibrate_views
 from calibgui.app.calibrating.settings import Settings
 from calibgui.app.photographs.detection import Detection
-from calibgui.dataset import CornerSet, RigPairing, RigResult, View
-from calibgui.engine.boards import Board
+from calibgui.dataset import CornerSet, Result, RigPairing, RigResult, View
+from calibgui.engine.boards import Board, BoardShapeModel
 from calibgui.engine.calibration import Observation
 from calibgui.engine.errors import CalibrationError
-from calibgui.engine.rig import Rig, RigCamera, calibrate_rig
+from calibgui.engine.rig import Rig, RigBoard, RigCamera, calibrate_rig
 from calibgui.formats import ImportedCamera
 
+CornerSets = Mapping[str, CornerSet]
+"""Corners of one board by the names of the cameras."""
 _MAX_RMS_RATIO = 0.8
 """Ratio of residuals with and without offsets in time up to which these are suggested."""
 
@@ -34,15 +36,32 @@ def search_cameras(
         square: side of a square, mm; None if it is not stated.
 
     Raises:
-        CalibrationError: from `search`.
+        CalibrationError: from `search`, or if a camera never shows the first one's board.
     """
     found: dict[str, CornerSet] = {}
     board: Board | None = None
     for camera in pairing.cameras:
-        detection = search([str(file) for file in camera.files.values()], board)
+        try:
+            detection = search([str(file) for file in camera.files.values()], board)
+        except CalibrationError as error:
+            if board is None:
+                raise
+            raise _explain_other_board(camera.name, next(iter(found)), board) from error
         found[camera.name] = corner_set = detection.corner_set(square)
+        if board is not None and not any(view.usable for view in corner_set.views):
+            raise _explain_other_board(camera.name, next(iter(found)), board)
         board = board or corner_set.board  # the first camera tells it for the others
     return found
+
+
+def _explain_other_board(name: str, first: str, board: Board) -> CalibrationError:
+    """Say that a camera never shows the board of the first one."""
+    rows, cols = board.grid_size
+    return CalibrationError(
+        f"{name} shows no board of {rows}x{cols} in any photograph, and {first} does.",
+        "A rig takes one board before all cameras: photograph the same one, or leave out the "
+        "camera that saw another.",
+    )
 
 
 def require_times(pairing: RigPairing) -> None:
@@ -57,18 +76,19 @@ def require_times(pairing: RigPairing) -> None:
 
 def calibrate_photographs(
     pairing: RigPairing,
-    corner_sets: Mapping[str, CornerSet],
+    corner_sets: Sequence[CornerSets],
     settings: Settings,
     known: Mapping[str, ImportedCamera] | None = None,
     hold: bool = False,
     estimate_offsets: bool = False,
     tell: Callable[[str], None] = lambda _: None,
+    boards: Sequence[RigBoard] = (RigBoard(),),
 ) -> RigResult:
     """Calibrate a rig.
 
     Args:
         pairing: the cameras with their photographs.
-        corner_sets: the corners in them, by the names of the cameras.
+        corner_sets: the corners in them, of each board.
         settings: how each camera is calibrated alone.
         known: cameras that are known beforehand, by name. One whose errors are known is estimated
             with them as prior; any other is held.
@@ -76,47 +96,52 @@ def calibrate_photographs(
         estimate_offsets: True to estimate by how much the clock of each camera is late, by the
             times of the photographs (`require_times`).
         tell: a function that is told which camera is calibrated.
+        boards: what is known of the boards.
 
     Raises:
         CalibrationError: if a camera cannot be calibrated, naming it; or as ``calibrate_rig``.
     """
     cameras, images, observations = [], {}, {}
     for c, photographs in enumerate(pairing.cameras):
-        name, corner_set = photographs.name, corner_sets[photographs.name]
+        name = photographs.name
         tell(name)
         numbers = {str(file): instant for instant, file in photographs.files.items()}
         given = (known or {}).get(name)
+        seen = [corner_set[name] for corner_set in corner_sets]
         if given is None:
-            camera = _calibrate_alone(name, corner_set, numbers, settings)
+            camera = _calibrate_alone(name, seen, boards, numbers, settings)
         else:
-            camera = _take_known(name, given, corner_set, numbers)
+            camera = _take_known(name, given, seen, numbers)
         taken = photographs.times
         times = {instant: taken[f] for instant, f in photographs.files.items() if f in taken}
         camera = replace(camera, times=times)
         cameras.append(camera.hold() if hold else camera)
         named = {instant: image for image, instant in numbers.items()}
-        for instant, view in camera.views.items():
-            images[c, instant] = named[instant]
-            observations[c, instant] = view
-    sets = list(corner_sets.values())
-    rig = calibrate_rig(cameras, estimate_offsets=estimate_offsets)
+        for b, views in enumerate(camera.views_by_board):
+            for instant, view in views.items():
+                images[c, instant] = named[instant]
+                observations[c, b, instant] = view
+    rig = calibrate_rig(cameras, None, estimate_offsets, boards)
+    firsts = [next(iter(corner_set.values())) for corner_set in corner_sets]
     return RigResult(
         rig,
         pairing.instants,
         images,
         observations,
-        sets[0].board,
-        all(corner_set.lengths_confirmed for corner_set in sets),
-        () if estimate_offsets else _suggest_offsets(cameras, rig),
+        tuple(first.board for first in firsts if first.board is not None),
+        all(each.lengths_confirmed for corner_set in corner_sets for each in corner_set.values()),
+        () if estimate_offsets else _suggest_offsets(cameras, boards, rig),
     )
 
 
-def _suggest_offsets(cameras: Sequence[RigCamera], rig: Rig) -> tuple[str, ...]:
+def _suggest_offsets(
+    cameras: Sequence[RigCamera], boards: Sequence[RigBoard], rig: Rig
+) -> tuple[str, ...]:
     """Say in a sentence if the cameras' clocks explain that they disagree; nothing if not."""
     if not rig.disagreement:
         return ()
     try:
-        moved = calibrate_rig(cameras, estimate_offsets=True)
+        moved = calibrate_rig(cameras, None, True, boards)
     except CalibrationError:  # the board was held still, or shown now and then
         return ()
     if not moved.rms < _MAX_RMS_RATIO * rig.rms:
@@ -128,12 +153,18 @@ def _suggest_offsets(cameras: Sequence[RigCamera], rig: Rig) -> tuple[str, ...]:
 
 
 def _calibrate_alone(
-    name: str, corner_set: CornerSet, numbers: Mapping[str, int], settings: Settings
+    name: str,
+    seen: Sequence[CornerSet],
+    boards: Sequence[RigBoard],
+    numbers: Mapping[str, int],
+    settings: Settings,
 ) -> RigCamera:
     """Calibrate a camera from its own photographs."""
     remedy = f"Take more of {name}, or name its camera's file: --known {name}=FILE."
+    corner_set, origins = _gather_views(seen, numbers)
+    shape = boards[0].shape if len(boards) == 1 else BoardShapeModel.NOMINAL
     try:
-        result = calibrate_views(corner_set, settings)
+        result = _calibrate_on_shape(corner_set, settings, shape)
     except CalibrationError as error:
         raise CalibrationError(
             f"{name} alone: {error.message}", f"{error.hint} {remedy}"
@@ -142,41 +173,82 @@ def _calibrate_alone(
     if calibration.diagnosis is not None:
         diagnosis = calibration.diagnosis
         raise CalibrationError(f"{name} alone: {diagnosis.message}", f"{diagnosis.hint} {remedy}")
-    views = {
-        numbers[view.image]: observation
-        for view, observation in zip(result.used, result.observations(), strict=True)
-        if _is_counted(view)
-    }
+    views: list[dict[int, Observation]] = [{} for _ in seen]
+    for view, observation in zip(result.used, result.observations(), strict=True):
+        if _is_counted(view):
+            b, instant = origins[view.image]
+            views[b][instant] = observation
     return RigCamera(
         name,
         calibration.camera,
-        views,
+        views[0],
         calibration.fixed,
         model_error=calibration.model_error,
+        others=views[1:],
     )
 
 
+def _calibrate_on_shape(
+    corner_set: CornerSet, settings: Settings, shape: BoardShapeModel
+) -> Result:
+    """Calibrate a camera on a board of a shape that is estimated with it, or on the board as drawn
+    where the camera's own views do not carry that shape: those of the whole rig may."""
+    try:
+        return calibrate_views(corner_set, replace(settings, board_shape=shape))
+    except CalibrationError:
+        if shape is BoardShapeModel.NOMINAL:
+            raise
+        return calibrate_views(corner_set, replace(settings, board_shape=BoardShapeModel.NOMINAL))
+
+
+def _gather_views(
+    seen: Sequence[CornerSet], numbers: Mapping[str, int]
+) -> tuple[CornerSet, dict[str, tuple[int, int]]]:
+    """Gather a camera's views of all boards.
+
+    Returns:
+        The views, named after their photographs, and after their boards if there are several; and
+        the numbers of board and instant by their names.
+    """
+    if len(seen) == 1:
+        return seen[0], {image: (0, instant) for image, instant in numbers.items()}
+    views, origins = [], {}
+    for b, corner_set in enumerate(seen):
+        for view in corner_set.views:
+            if view.usable:
+                image = f"{view.image} (board {b + 1})"
+                points = view.observation(corner_set.board)
+                views.append(replace(view, image=image, corners=None, points=points))
+                origins[image] = b, numbers[view.image]
+    return CornerSet(seen[0].size, tuple(views)), origins
+
+
 def _take_known(
-    name: str, given: ImportedCamera, corner_set: CornerSet, numbers: Mapping[str, int]
+    name: str, given: ImportedCamera, seen: Sequence[CornerSet], numbers: Mapping[str, int]
 ) -> RigCamera:
     """Take a camera that is known from a file."""
-    if given.camera.size != corner_set.size:
+    size = seen[0].size
+    if given.camera.size != size:
         raise CalibrationError(
-            f"The photographs of {name} have {corner_set.size[0]} x {corner_set.size[1]} px, its "
-            f"camera's file {given.camera.size[0]} x {given.camera.size[1]}.",
+            f"The photographs of {name} have {size[0]} x {size[1]} px, its camera's file "
+            f"{given.camera.size[0]} x {given.camera.size[1]}.",
             "Name the file of a camera with images of this size.",
         )
-    views: dict[int, Observation] = {
-        numbers[view.image]: view.observation(corner_set.board)
-        for view in corner_set.views
-        if view.usable and _is_counted(view)
-    }
+    first, *others = (
+        {
+            numbers[view.image]: view.observation(corner_set.board)
+            for view in corner_set.views
+            if view.usable and _is_counted(view)
+        }
+        for corner_set in seen
+    )
+    camera = RigCamera(name, given.camera, first, others=others)
     covariance = given.covariance
     if covariance is None or not np.isfinite(covariance).all():
-        return RigCamera(name, given.camera, views).hold()
+        return camera.hold()
     errors = np.diag(covariance)
     fixed = tuple(n for n, v in zip(given.camera.names, errors, strict=True) if v == 0)
-    return RigCamera(name, given.camera, views, fixed, covariance)
+    return replace(camera, fixed=fixed, covariance=covariance)
 
 
 def _is_counted(view: View) -> bool:

@@ -1,9 +1,7 @@
 """Photographs of a rig to cameras and instants, by the names of folders and files.
 
 Each of several folders, patterns or videos that a user names is a camera. One folder may hold a
-folder for each, or the photographs of all: then one part of the names, a word or a number, tells
-the camera, as in left01 and right01 or cam0_0007 and cam1_0007. It is a word that varies, or the
-number without which most names occur for several cameras.
+folder for each, or the photographs of all (``camera_names.py``).
 
 Photographs of one instant have the same name but for the camera, or the same last number in it, or
 were taken at the same time if their names tell it (``time_pairing.py``); whichever pairs more.
@@ -13,18 +11,17 @@ Where none of these pairs any it is EXIF that tells.
 from __future__ import annotations
 
 import re
-from collections import Counter, defaultdict
-from collections.abc import Collection, Hashable, Mapping, Sequence
+from collections import Counter
+from collections.abc import Collection, Hashable, Iterable, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 
 from calibgui.app.photographs.paths import count_images_below, find_images, make_natural_key
+from calibgui.app.rig.camera_names import list_varying_places, split_by_cameras, split_name
 from calibgui.app.rig.time_pairing import Times, pair_by_times, read_file_times, read_name_times
 from calibgui.dataset import CameraPhotographs, RigPairing, RigResult
 from calibgui.engine.errors import CalibrationError
 
-_PARTS = re.compile(r"\d+|[^\W\d_]+")
-"""A word or a number in a name."""
 _HINT = (
     "Name a folder for each camera (cam0 cam1), a pattern for each in quotes ('left*.jpg' "
     "'right*.jpg'), or call the photographs as left01, right01."
@@ -66,17 +63,10 @@ def pair_files(groups: Mapping[str, Sequence[Path]]) -> RigPairing:
     Raises:
         CalibrationError: if no two cameras have a photograph of one instant.
     """
-    by_name: dict[str, Mapping[Hashable, Path]] = {
-        camera: {_remove_part(file.stem, camera): file for file in files}
-        for camera, files in groups.items()
+    by_number = {
+        camera: _key_files(map(_read_last_number, files), files) for camera, files in groups.items()
     }
-    by_number: dict[str, Mapping[Hashable, Path]] = {
-        camera: _key_by_number(files) for camera, files in groups.items()
-    }
-    candidates: list[tuple[str, Mapping[str, Mapping[Hashable, Path]]]] = [
-        ("numbers", by_number),
-        ("names", by_name),
-    ]
+    candidates = (("numbers", by_number), ("names", _key_by_names(groups)))
     how, keyed = max(candidates, key=lambda candidate: _count_shared(candidate[1]))
     by_times = _pair_by_file_times(groups, _count_shared(keyed))
     if by_times is not None:
@@ -102,7 +92,8 @@ def pair_files(groups: Mapping[str, Sequence[Path]]) -> RigPairing:
 
 
 def _pair_by_file_times(groups: Mapping[str, Sequence[Path]], shared: int) -> RigPairing | None:
-    """Pair photographs by times, if that pairs more than are `shared` by names; else return None.
+    """Pair photographs by times if that pairs no fewer than are `shared` by names; else return
+    None.
 
     EXIF is read only if none is shared.
     """
@@ -114,7 +105,7 @@ def _pair_by_file_times(groups: Mapping[str, Sequence[Path]], shared: int) -> Ri
     except CalibrationError:
         return None
     pairs = sum(len(camera.files) for camera in pairing.cameras) - len(pairing.instants)
-    return pairing if pairs > shared else None
+    return pairing if pairs >= shared else None
 
 
 def move_photographs(
@@ -199,13 +190,33 @@ def _count_shared(keyed: Mapping[str, Mapping[Hashable, Path]]) -> int:
     return sum(count - 1 for count in counts.values())
 
 
-def _key_by_number(files: Sequence[Path]) -> dict[Hashable, Path]:
-    """Return files by the last number in their names; those that share one have none."""
-    keyed: dict[Hashable, list[Path]] = defaultdict(list)
-    for file in files:
-        if numbers := re.findall(r"\d+", file.stem):
-            keyed[int(numbers[-1])].append(file)
-    return {number: named[0] for number, named in keyed.items() if len(named) == 1}
+def _read_last_number(file: Path) -> int | None:
+    """Return the last number in a file's name; None if there is none."""
+    numbers = re.findall(r"\d+", file.stem)
+    return int(numbers[-1]) if numbers else None
+
+
+def _key_by_names(groups: Mapping[str, Sequence[Path]]) -> dict[str, dict[Hashable, Path]]:
+    """Return files by the parts of their names that vary within a camera."""
+    names = {camera: [split_name(file) for file in files] for camera, files in groups.items()}
+    varying = list_varying_places(names)
+    return {
+        camera: _key_files(
+            ("_".join(parts[p] for p in varying if p < len(parts)) for parts in own), groups[camera]
+        )
+        for camera, own in names.items()
+    }
+
+
+def _key_files(keys: Iterable[Hashable], files: Sequence[Path]) -> dict[Hashable, Path]:
+    """Return files by their keys; those that share one have none."""
+    listed = list(keys)
+    counts = Counter(listed)
+    return {
+        key: file
+        for key, file in zip(listed, files, strict=True)
+        if key not in (None, "") and counts[key] == 1
+    }
 
 
 def _group_by_camera(names: Sequence[str]) -> dict[str, Sequence[Path]]:
@@ -219,7 +230,7 @@ def _group_by_camera(names: Sequence[str]) -> dict[str, Sequence[Path]]:
     if len(names) > 1 and not all(Path(name).is_file() for name in names):
         files = [find_images([name]) for name in names]
         return dict(zip(_name_cameras(names, files), files, strict=True))
-    return _split_by_names(find_images(names))
+    return split_by_cameras(find_images(names))
 
 
 def _name_cameras(names: Sequence[str], files: Sequence[Sequence[Path]]) -> list[str]:
@@ -233,33 +244,3 @@ def _name_cameras(names: Sequence[str], files: Sequence[Sequence[Path]]) -> list
     if len(set(named)) < len(named) or not all(named):
         named = [f"cam{c}" for c in range(len(names))]
     return named
-
-
-def _split_by_names(files: Sequence[Path]) -> dict[str, Sequence[Path]]:
-    """Split photographs of one folder by the part of their names that tells the camera."""
-    split = [_PARTS.findall(file.stem) for file in files]
-    best: tuple[tuple[bool, int], dict[str, list[Path]]] = ((False, 0), {})
-    for place in range(max(map(len, split), default=0)):
-        groups: dict[str, list[Path]] = defaultdict(list)
-        rests: Counter[tuple[str, ...]] = Counter()
-        for file, parts in zip(files, split, strict=True):
-            if place < len(parts):
-                groups[_name_part(parts, place)].append(file)
-                rests[(*parts[:place], "", *parts[place + 1 :])] += 1
-        shared = sum(count > 1 for count in rests.values())
-        is_word = not any(name[-1].isdigit() for name in groups)
-        if len(groups) > 1 and shared > 1 and (is_word, shared) > best[0]:
-            best = (is_word, shared), groups
-    return dict(best[1])
-
-
-def _name_part(parts: Sequence[str], place: int) -> str:
-    """Return the part that tells the camera: of a number with the word before it, as cam0."""
-    is_numbered_word = parts[place].isdigit() and place > 0 and not parts[place - 1].isdigit()
-    return (parts[place - 1] if is_numbered_word else "") + parts[place]
-
-
-def _remove_part(stem: str, camera: str) -> str:
-    """Return a file's name without that of its camera."""
-    rest = re.sub(rf"(?<![^\W\d_]){re.escape(camera)}(?![^\W\d_])", "", stem, count=1)
-    return re.sub(r"^[_\W]+|[_\W]+$", "", rest) or stem

@@ -1,8 +1,9 @@
 """Photographs of a rig to instants, by the times at which they were taken.
 
 The times are those of a table, or what the files themselves tell: names as ROS and its users write
-them, seconds or nanoseconds since 1970 (1403636579763555584, 1403636579.763555), or EXIF with its
-fractions of a second. Photographs of two cameras are joined if each is the other camera's nearest
+them, seconds or nanoseconds since 1970 (1403636579763555584, 1403636579.763555), seconds since a
+robot was switched on (1623.456789) and dates (20230612_101502), or EXIF with its fractions of a
+second. Photographs of two cameras are joined if each is the other camera's nearest
 to the other, the nearest first, as long as no two of an instant were taken further apart than a
 tolerance.
 
@@ -15,20 +16,29 @@ from __future__ import annotations
 import itertools
 import re
 from collections.abc import Mapping, Sequence
+from datetime import UTC, datetime
 from pathlib import Path
 
 import numpy as np
 
 from calibgui.dataset import CameraPhotographs, RigPairing
+from calibgui.engine.arrays import Array, IntArray
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.images import read_image_header
 
 Times = Mapping[str, Mapping[Path, float]]
 """Time of each photograph by its camera's clock, s, by the name of the camera."""
-_SECONDS = re.compile(r"(?<!\d)(\d{10})(?:[._](\d{3,9}))?(?!\d)")
-"""Seconds since 1970 and a fraction of them in a name."""
-_WHOLE = re.compile(r"(?<!\d)(\d{19}|\d{16}|\d{13})(?!\d)")
-"""Nano-, micro- or milliseconds since 1970 in a name."""
+TIME = re.compile(
+    r"""(?<!\d)(?:
+    (?P<date>(?:19|20)\d\d[-_.]?[01]\d[-_.]?[0-3]\d[-_.T\ ]?[0-2]\d[-_.]?[0-5]\d[-_.]?[0-5]\d
+        (?:[-_.]?\d{3,9})?)
+    | (?P<whole>\d{19}|\d{16}|\d{13})
+    | (?P<seconds>\d{10}(?:[._]\d{3,9})? | (?<![^\W_])\d+\.\d{6,9})
+    )(?!\d)""",
+    re.VERBOSE,
+)
+"""A time in a name: a date with its fraction of a second, nano-, micro- or milliseconds since 1970,
+or seconds with their fraction."""
 
 
 def read_file_times(groups: Mapping[str, Sequence[Path]]) -> Times:
@@ -53,19 +63,29 @@ def read_name_times(groups: Mapping[str, Sequence[Path]]) -> Times:
     """Read the times of photographs from their names, of the cameras where all tell them."""
     times: dict[str, dict[Path, float]] = {}
     for camera, files in groups.items():
-        told = {file: time for file in files if (time := _read_name_time(file.stem)) is not None}
+        told = {file: time for file in files if (time := read_name_time(file.stem)) is not None}
         if len(told) == len(files):
             times[camera] = told
     return times
 
 
-def _read_name_time(stem: str) -> float | None:
-    """Return the time that a name tells, s since 1970."""
-    if found := _WHOLE.search(stem):
-        return float(int(found[1]) / 10 ** (len(found[1]) - 10))
-    if found := _SECONDS.search(stem):
-        return float(f"{found[1]}.{found[2] or 0}")
-    return None
+def read_name_time(stem: str) -> float | None:
+    """Return the time that a name tells, s since 1970 or any other moment; None if it tells none.
+
+    The times of the photographs of one folder count from the same moment.
+    """
+    if (found := TIME.search(stem)) is None:
+        return None
+    if whole := found["whole"]:
+        return float(int(whole) / 10 ** (len(whole) - 10))
+    if seconds := found["seconds"]:
+        return float(seconds.replace("_", "."))
+    digits = re.sub(r"\D", "", found["date"])
+    try:
+        date = datetime.strptime(digits[:14], "%Y%m%d%H%M%S").replace(tzinfo=UTC)
+    except ValueError:  # a number that looks like a date, as 20231399
+        return None
+    return date.timestamp() + float(f"0.{digits[14:] or 0}")
 
 
 def _read_exif_time(file: Path) -> float | None:
@@ -122,6 +142,18 @@ def pair_by_times(
     return RigPairing(cameras, names, f"times, which are at most {spread * 1e3:.3g} ms apart")
 
 
+def count_instants(times: Times) -> int:
+    """Count the moments at which several cameras, and each of them once, took a photograph."""
+    labels = np.repeat(np.arange(len(times)), [len(own) for own in times.values()])
+    taken = np.concatenate([list(own.values()) for own in times.values()])
+    order = np.argsort(taken, kind="stable")
+    apart = np.diff(taken[order]) > _find_tolerance(times)
+    moment = np.concatenate([[0], np.cumsum(apart)])
+    photographs = np.bincount(moment)
+    cameras = np.bincount(np.unique(np.stack([moment, labels[order]]), axis=1)[0])
+    return int(np.sum((photographs > 1) & (cameras == photographs)))
+
+
 def _find_tolerance(times: Times) -> float:
     """Return half the usual time from one photograph to the next, of the quickest camera, s."""
     intervals = [np.diff(np.sort(list(own.values()))) for own in times.values() if len(own) > 1]
@@ -131,12 +163,18 @@ def _find_tolerance(times: Times) -> float:
 def _join_nearest(times: Times, tolerance: float) -> list[dict[str, Path]]:
     """Return the photographs of each instant by camera, in the order of their times."""
     pairs: list[tuple[float, tuple[str, Path], tuple[str, Path]]] = []
+    in_order = {camera: sorted(own, key=own.__getitem__) for camera, own in times.items()}
     for a, b in itertools.combinations(times, 2):
-        apart = np.abs(np.subtract.outer(list(times[a].values()), list(times[b].values())))
-        files, others = list(times[a]), list(times[b])
-        for k, nearest in enumerate(apart.argmin(axis=1)):
-            if apart[:, nearest].argmin() == k and apart[k, nearest] <= tolerance:
-                pairs.append((apart[k, nearest], (a, files[k]), (b, others[nearest])))
+        files, others = in_order[a], in_order[b]
+        taken = np.array([times[a][file] for file in files])
+        there = np.array([times[b][file] for file in others])
+        nearest, back = _find_nearest_values(taken, there), _find_nearest_values(there, taken)
+        apart = np.abs(taken - there[nearest])
+        mutual = (back[nearest] == np.arange(len(files))) & (apart <= tolerance)
+        pairs += [
+            (float(apart[k]), (a, files[k]), (b, others[nearest[k]]))
+            for k in np.flatnonzero(mutual).tolist()
+        ]
     instants = {(c, file): {c: file} for c, own in times.items() for file in own}
     for _, first, second in sorted(pairs):
         joined = instants[first] | instants[second]
@@ -147,6 +185,15 @@ def _join_nearest(times: Times, tolerance: float) -> list[dict[str, Path]]:
     return sorted(unique, key=lambda instant: min(times[c][f] for c, f in instant.items()))
 
 
+def _find_nearest_values(values: Array, others: Array) -> IntArray:
+    """Return the place of the nearest one of others for each of some values; both ascend."""
+    after = np.clip(np.searchsorted(others, values), 1, max(len(others) - 1, 1))
+    before = after - 1
+    after = np.minimum(after, len(others) - 1)
+    is_before = values - others[before] <= others[after] - values
+    return np.where(is_before, before, after)
+
+
 def _measure_spread(instant: Mapping[str, Path], times: Times) -> float:
     """Return the time from the first to the last photograph of an instant, s."""
     own = [times[camera][file] for camera, file in instant.items()]
@@ -155,7 +202,8 @@ def _measure_spread(instant: Mapping[str, Path], times: Times) -> float:
 
 def _find_nearest(times: Times) -> float:
     """Return the least time between photographs of two cameras, s."""
+    taken = [np.sort(list(own.values())) for own in times.values()]
     return min(
-        float(np.abs(np.subtract.outer(list(a.values()), list(b.values()))).min())
-        for a, b in itertools.combinations(times.values(), 2)
+        float(np.abs(a - b[_find_nearest_values(a, b)]).min())
+        for a, b in itertools.combinations(taken, 2)
     )

@@ -46,7 +46,7 @@ class MarkerLayout:
         of numbers before the first far off."""
         places = numbers - self.first
         rows = 2 * (int(places.max(initial=0)) // max(self.cols - 1, 1)) + 3
-        squares = _list_marked_squares(rows, self.cols, self.first_dark)[places]
+        squares = _list_marked_squares(rows, self.cols, self.first_dark)[np.maximum(places, 0)]
         if self.first:
             squares[places < 0] = _FAR_OFF
         return squares
@@ -78,6 +78,9 @@ class Charuco(CodedPattern):
     """rho, ratio of the side of a marker to the side of a square (the pitch), no length."""
     legacy: bool | None = None
     """True if a board with an even number of rows of squares begins with a white one."""
+    first_marker: int | None = None
+    """Number of the first marker. If None it is 0, or another one where an image shows the whole
+    board; if it is stated, markers of other boards of the dictionary are passed over."""
 
     def __post_init__(self) -> None:
         if self.dictionary is not None and self.dictionary not in opencv.list_dictionaries():
@@ -88,6 +91,11 @@ class Charuco(CodedPattern):
                 f"The side of a marker is {self.marker:.4g} of the side of its square, and must be "
                 "above 0 and below 1.",
                 "Measure both in mm. In Python their ratio is stated, as marker=30 / 40.",
+            )
+        if self.first_marker is not None and self.first_marker < 0:
+            raise CalibrationError(
+                f"The first marker cannot have the number {self.first_marker}.",
+                "State the lowest number on the board: 0 on most.",
             )
 
     @property
@@ -121,6 +129,11 @@ class Charuco(CodedPattern):
         """
         return not (self.legacy and (grid_size[0] + 1) % 2 == 0)
 
+    def number_markers(self, grid_size: GridSize) -> range:
+        """Return the numbers of the markers on a board of rows x columns inner corners."""
+        first = self.first_marker or 0
+        return range(first, first + (grid_size[0] + 1) * (grid_size[1] + 1) // 2)
+
     def draw(self, grid_size: GridSize) -> PrintedPattern:
         """See ``Pattern``.
 
@@ -133,18 +146,18 @@ class Charuco(CodedPattern):
                 "The markers of the board are not known.", "State dictionary and size of a marker."
             )
         rows, cols = grid_size[0] + 1, grid_size[1] + 1
-        white = rows * cols // 2
-        if white > opencv.list_dictionaries()[self.dictionary]:
+        marked = self.number_markers(grid_size)
+        if marked.stop > opencv.list_dictionaries()[self.dictionary]:
             raise CalibrationError(
                 f"{self.dictionary} has too few markers for {rows} x {cols} squares.",
-                f"Choose a dictionary of at least {white} markers.",
+                f"Choose a dictionary of at least {marked.stop} markers.",
             )
         first_dark = self.is_first_square_dark(grid_size)
-        numbers = np.arange(white)
+        numbers = np.array(marked)
         cells = np.array([opencv.draw_marker_cells(self.dictionary, k) for k in numbers.tolist()])
         k = cells.shape[1] + 2  # a margin at either end
         dark = np.repeat(np.repeat(draw_squares(grid_size, first_dark=first_dark).dark, k, 0), k, 1)
-        squares = MarkerLayout(cols, first_dark).locate_squares(numbers)
+        squares = MarkerLayout(cols, first_dark, marked.start).locate_squares(numbers)
         for (row, col), marker in zip(squares.tolist(), cells, strict=True):
             dark[row * k + 1 : (row + 1) * k - 1, col * k + 1 : (col + 1) * k - 1] = marker
         margin = (1 - self.marker) / 2

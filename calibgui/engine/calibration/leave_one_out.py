@@ -145,7 +145,7 @@ def _describe_board(
     if shape is None or not isinstance(arguments["board_shape"], BoardShapeModel):
         return None, index, np.zeros((0, 0))
     variances = _find_variances(shape, arguments["prior"])
-    allowed = allow_deviations(shape.model, points, index, variances)
+    allowed = allow_deviations(shape.model, points, variances)
     return allowed.B, index, allowed.make_stiffness(calibration.noise**2)
 
 

@@ -70,8 +70,8 @@ from calibgui.engine.arrays import Array, IntArray
 from calibgui.engine.boards.shape import BoardShape
 from calibgui.engine.calibration.observations import slice_views
 from calibgui.engine.calibration.refinement.covariances import Estimate
-from calibgui.engine.calibration.refinement.residuals import BoardMotion, compute_view_products
-from calibgui.engine.calibration.refinement.schur import invert_pose_roots, invert_roots
+from calibgui.engine.calibration.refinement.residuals import compute_view_products
+from calibgui.engine.calibration.refinement.schur import invert_pose_roots
 
 _SIGNIFICANCE = 0.01
 """Probability with which noise alone widens the uncertainties."""
@@ -119,10 +119,13 @@ def add_overdispersion(
     leverage = estimate.shape_unknowns / (2 * corners - 6 * K)
     left = 2 * corners - 6 * K - P - estimate.shape_unknowns
     added, ratio = measure_disagreement(R, h, estimate.noise_covariance, sigma2, left, leverage)
+    shape, following = estimate.board_shape, estimate.board_motion
+    if shape is not None and following is not None:
+        shape = widen_board_shape(shape, following.motion, added)
     return estimate._replace(
         camera_covariance=estimate.camera_covariance + added,
         pose_covariances=estimate.pose_covariances + G @ added @ np.swapaxes(G, 1, 2),
-        board_shape=_widen_board_shape(estimate.board_shape, estimate.board_motion, added),
+        board_shape=shape,
         overdispersion=ratio,
     )
 
@@ -159,8 +162,7 @@ def measure_disagreement(
     D_sum, clustered = np.zeros((P, P)), np.zeros((P, P))
     for views in slice_views(K):  # a rig of 8 cameras and 2,000 instants has 250 MB of them
         R[views] = unit.T @ R[views] @ unit
-        tested, alone = _compare_with_others(R[views])
-        D = tested @ alone @ tested
+        tested, alone, D = _compare_with_others(R[views])
         D_sum += D.sum(axis=0)
         square += float(np.sum(tested**2) - np.sum(D**2))
         count += float(np.trace(tested, axis1=1, axis2=2).sum())
@@ -179,17 +181,25 @@ def measure_disagreement(
     return added, float(np.sqrt(X)) if is_significant else 0.0
 
 
-def _compare_with_others(R: Array) -> tuple[Array, Array]:
-    """Return Rk (K, P, P) and (1 - Rk)^-1 without what view k alone determines."""
+def _compare_with_others(R: Array) -> tuple[Array, Array, Array]:
+    """Return Rk (K, P, P), (1 - Rk)^-1 without what view k alone determines, and Dk."""
     norm = np.sqrt(np.sum(R**2, axis=(1, 2)))  # no eigenvalue is more
-    if norm.max() < 1 - _MIN_SHARE_OF_OTHERS:
-        roots = invert_roots(np.eye(R.shape[1]) - R)
-        return R, np.swapaxes(roots, 1, 2) @ roots
-    shares, axes = np.linalg.eigh(R)
+    is_usual = (norm < 1 - _MIN_SHARE_OF_OTHERS)[:, None, None]
+    unit = np.eye(R.shape[1])
+    alone = np.asarray(np.linalg.inv(unit - np.where(is_usual, R, 0.0)), np.float64)
+    D = alone - unit - R
+    if is_usual.all():
+        return R, alone, D
+    is_usual = is_usual[:, 0, 0]
+    shares, axes = np.linalg.eigh(R[~is_usual])
     is_shared = shares < 1 - _MIN_SHARE_OF_OTHERS
     tested = np.where(is_shared, shares, 0.0)[:, None]
-    back = np.swapaxes(axes, 1, 2)
-    return (axes * tested) @ back, (axes * (is_shared[:, None] / (1 - tested))) @ back
+    back, gain = np.swapaxes(axes, 1, 2), is_shared[:, None] / (1 - tested)
+    R = R.copy()
+    R[~is_usual] = (axes * tested) @ back
+    alone[~is_usual] = (axes * gain) @ back
+    D[~is_usual] = (axes * (tested**2 * gain)) @ back
+    return R, alone, D
 
 
 def _assume_disagreement(estimate: Estimate) -> Estimate:
@@ -211,14 +221,16 @@ def reduce_products(A: Array, P: int) -> tuple[Array, Array, Array]:
     return left[..., :-1], left[..., -1], np.swapaxes(roots, 1, 2) @ Y[..., :-1]
 
 
-def _widen_board_shape(
-    board_shape: BoardShape | None, board_motion: BoardMotion | None, added: Array
-) -> BoardShape | None:
-    """Widen an estimated board shape by the uncertainty that it takes over from the camera."""
-    if board_shape is None or board_motion is None:
-        return board_shape
+def widen_board_shape(board_shape: BoardShape, motion: Array, added: Array) -> BoardShape:
+    """Widen an estimated board shape by the uncertainty that it takes over from the camera.
+
+    Args:
+        board_shape: the shape.
+        motion: (n, 3, P) motion of its corners with the camera's parameters, mm per unit.
+        added: (P, P) what is added to the covariance of these.
+    """
     values, axes = np.linalg.eigh(added)
-    return board_shape.add_errors(board_motion.motion @ (axes * np.sqrt(np.maximum(values, 0.0))))
+    return board_shape.add_errors(motion @ (axes * np.sqrt(np.maximum(values, 0.0))))
 
 
 def _compute_excess(covariance: Array, root: Array) -> Array:

@@ -1,7 +1,8 @@
 """Capture: live images, the board followed in them, and what to do with it until enough is known.
 
-`open_source` opens a camera, a video or a folder that is being filled; a `CaptureSession` looks at
-its frames, says what to do, and takes those that are worth it.
+`open_source` opens a camera, a video or a folder that is being filled; `PairedFrames` reads one or
+several; a `JointSession` looks at their frames, says what to do, and takes those that are worth it,
+with a `CaptureSession` for each camera.
 """
 
 from __future__ import annotations
@@ -21,7 +22,14 @@ if TYPE_CHECKING:
         open_source as open_source,
     )
     from calibgui.engine.capture.guidance import Guidance as Guidance, guide_board as guide_board
-    from calibgui.engine.capture.latest_frames import LatestFrames as LatestFrames
+    from calibgui.engine.capture.joint_session import (
+        JointSession as JointSession,
+        JointState as JointState,
+    )
+    from calibgui.engine.capture.latest_frames import (
+        Instant as Instant,
+        PairedFrames as PairedFrames,
+    )
     from calibgui.engine.capture.session import (
         CaptureSession as CaptureSession,
         CaptureState as CaptureState,
@@ -36,7 +44,8 @@ load_on_demand(
         "cameras": ["list_cameras"],
         "frame_sources": ["Frame", "FrameSource", "Opened", "open_source"],
         "guidance": ["Guidance", "guide_board"],
-        "latest_frames": ["LatestFrames"],
+        "joint_session": ["JointSession", "JointState"],
+        "latest_frames": ["Instant", "PairedFrames"],
         "session": ["CaptureSession", "CaptureState", "Picture"],
     },
 )

@@ -23,7 +23,7 @@ from calibgui.engine.geometry.homography import apply_homography, fit_homography
 _MAX_RETURN_PX = 0.5
 """Distance from where it came to which the flow must lead a corner back, px: a plausibility
 limit."""
-_MAX_OFF_PX = 2.0
+MAX_OFF_PX = 2.0
 """Distance from where the homography of all corners puts it at which a corner was lost, px: lenses
 bend boards by less between two frames."""
 _MIN_SHARE = 0.7
@@ -48,7 +48,7 @@ def track_corners(before: GreyImage, after: GreyImage, corners: Corners) -> Corn
     if good.sum() < least:
         return None
     H = fit_homography(corners.uv[good], uv[good], np.ones(int(good.sum())))
-    good &= np.linalg.norm(apply_homography(H, corners.uv) - uv, axis=1) <= _MAX_OFF_PX
+    good &= np.linalg.norm(apply_homography(H, corners.uv) - uv, axis=1) <= MAX_OFF_PX
     if good.sum() < least:
         return None
     return replace(
@@ -64,3 +64,14 @@ def track_corners(before: GreyImage, after: GreyImage, corners: Corners) -> Corn
         others=(),
         remark="",
     )
+
+
+def measure_motion(before: Corners, after: Corners) -> float:
+    """Measure the rms distance, px, between the corners that both have; NaN if there are none."""
+    places = {tuple(cell): uv for cell, uv in zip(before.grid.tolist(), before.uv, strict=True)}
+    moved = [
+        uv - places[tuple(cell)]
+        for cell, uv in zip(after.grid.tolist(), after.uv, strict=True)
+        if tuple(cell) in places
+    ]
+    return float(np.sqrt(np.mean(np.sum(np.array(moved) ** 2, axis=1)))) if moved else np.nan

@@ -20,8 +20,9 @@ from calibgui.engine.images.reading import FORMATS, is_video, read_image
 
 AS_IT_IS = CameraSettings()
 """No wishes."""
-_POLL_SECONDS = 0.2
-"""Time between two looks into a folder that is being filled, s: a choice."""
+LOOK_SECONDS = 0.2
+"""Time after which is looked anew, into a folder that is being filled, or for the whole board in a
+film, s: a choice; the board costs a tenth to a quarter of a core."""
 _SCHEMES = ("http://", "https://", "rtsp://")
 """How the addresses of cameras in a network begin."""
 
@@ -44,6 +45,8 @@ class FrameSource(Protocol):
     """True if frames follow each other as in a film; False if each is a photograph by itself."""
     is_live: bool
     """True if a frame that nobody reads in time is lost, as those of cameras are."""
+    remark: str
+    """Sentences on the source's settings and what is wrong with them; empty if it has none."""
 
     def read(self) -> Frame | None:
         """Return the next frame, or None if there is none any more.
@@ -60,7 +63,6 @@ class _Opened:
     """A source that closes itself at the end of a `with` statement."""
 
     remark = ""
-    """Sentences on the source's settings and what is wrong with them; empty if it has none."""
 
     def close(self) -> None:
         """Release nothing."""
@@ -165,7 +167,7 @@ class FolderSource(_Opened):
                     last = time.monotonic()
                     yield file
                 sizes[file] = size
-            time.sleep(_POLL_SECONDS)
+            time.sleep(LOOK_SECONDS)
 
 
 Opened = VideoSource | CameraSource | FolderSource

@@ -13,8 +13,8 @@ corners' (v / H) m and r the residuals of the best pose, one frame tells
 
 s^2 being what is left of the residuals. Frames in which nothing moves tell nothing, and weigh
 nothing. What the camera so far has wrong bends all frames of one motion alike: the frames' scatter
-about their mean counts where it is larger than these variances. The sign tells from which end the
-rows are read.
+about their mean counts where it is larger than these variances (`scattered_mean`). The sign tells
+from which end the rows are read.
 """
 
 from __future__ import annotations
@@ -24,10 +24,9 @@ import numpy as np
 from calibgui.engine.arrays import Array
 from calibgui.engine.camera.camera import Camera
 from calibgui.engine.camera.distortion import project_points
+from calibgui.engine.capture.scattered_mean import ScatteredMean
 from calibgui.engine.geometry.pose import Pose
 
-_MIN_SIGMAS = 4.0
-"""Standard deviations from which a time is told: chance reaches it once in 16,000 looks."""
 _STEP = np.cbrt(np.finfo(np.float64).eps)
 """Step of the central differences by the pose, rad, and over the distance: with it rounding and
 curvature err alike."""
@@ -37,8 +36,7 @@ class RowReadout:
     """Adds up what frames of a moving board tell of the time in which rows are read."""
 
     def __init__(self) -> None:
-        self._times: list[float] = []
-        self._weights: list[float] = []
+        self._time = ScatteredMean()
 
     def add_frame(self, camera: Camera, pose: Pose, xy: Array, uv: Array, motion: Array) -> None:
         """Add a frame.
@@ -62,23 +60,17 @@ class RowReadout:
             return
         time = float(g @ r) / information
         variance = float(np.sum((r - time * g) ** 2)) / (len(r) - 7)
-        self._times.append(time)
-        self._weights.append(information / variance)
+        self._time.add(time, information / variance)
 
     def estimate(self) -> tuple[float, float]:
         """Return tau and its standard deviation, s; NaN and infinite before the second frame."""
-        times, weights = np.array(self._times), np.array(self._weights)
-        if len(times) < 2:
-            return np.nan, np.inf
-        mean = float(weights @ times / weights.sum())
-        scatter = float(weights @ (times - mean) ** 2) / (len(times) - 1)
-        return mean, float(np.sqrt(max(1.0, scatter) / weights.sum()))
+        return self._time.estimate()
 
     def describe(self) -> str:
         """Say how long the rows take, where that is certain; else ""."""
-        time, sigma = self.estimate()
-        if not abs(time) > _MIN_SIGMAS * sigma:
+        if not self._time.is_significant:
             return ""
+        time, sigma = self.estimate()
         return (
             f"Rolling shutter: rows are read over {1000 * abs(time):.0f} ± {1000 * sigma:.0f} ms. "
             "Let the board stand by itself."

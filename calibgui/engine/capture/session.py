@@ -40,9 +40,9 @@ from calibgui.engine.calibration.calibrate import calibrate
 from calibgui.engine.calibration.observations import Observation, make_observation
 from calibgui.engine.calibration.result import Calibration, DegenerateError
 from calibgui.engine.camera.distortion import project_points
-from calibgui.engine.capture.board_tracking import track_corners
+from calibgui.engine.capture.board_tracking import MAX_OFF_PX, measure_motion, track_corners
 from calibgui.engine.capture.exposure import judge_exposure
-from calibgui.engine.capture.frame_sources import Frame
+from calibgui.engine.capture.frame_sources import LOOK_SECONDS, Frame
 from calibgui.engine.capture.guidance import guide_board
 from calibgui.engine.capture.row_readout import RowReadout
 from calibgui.engine.detection.detector_io import check_grey_levels
@@ -62,9 +62,6 @@ from calibgui.engine.uncertainty.view_design import ViewDesign
 MODELS = ("lucchese", "brown-conrady", "kannala-brandt")
 """The lens models of which the best fitting one is used: the paper's, one for strong barrel
 distortion, and one for fisheyes."""
-_SEARCH_SECONDS = 0.2
-"""Time after which the board is found anew, s: a choice, which costs a tenth to a quarter of a
-core."""
 _STILL_PX = 0.3
 """Rms motion of the corners from frame to frame up to which the board is still, px: its share of
 the blur is less than that of a pixel."""
@@ -74,7 +71,7 @@ _MAX_BLUR_RATIO = 1.5
 """Blur of the edges over that of the sharpest picture up to which one is sharp: a choice."""
 _MIN_USE = 0.5
 """Part of what the best view would gain that a view must gain to be taken: a choice."""
-_MIN_MATCH = 0.7
+MIN_MATCH = 0.7
 """Match with the wanted pose from which a view is taken while the camera is not determined: within
 a third of the board's size, which a tilt of 25 degrees or more survives."""
 _VALIDATION_EVERY = 5
@@ -132,6 +129,8 @@ class CaptureSession:
         """The camera so far, which may be partial; None before the first picture."""
         self._checked: Calibration | None = None
         """The camera from the pictures that are not put aside; None if none is put aside."""
+        self._unseen_error: float | None = np.nan
+        """What `measure_unseen_error` returns; None if it is to be measured anew."""
         self.worst = np.inf
         """Uncertainty of the worst pixel's projection, px; infinite until the views determine the
         camera."""
@@ -151,8 +150,15 @@ class CaptureSession:
         self._readout = RowReadout()
         self._has_judged = False
         """True if this pose was judged since the board last moved."""
+        self.is_new = False
+        """True if the board is in a pose that is worth a picture, which was not taken."""
         self._advice = ""
         """Why this pose was not taken, as long as the board stays in it."""
+
+    @property
+    def board(self) -> Board | None:
+        """The board, as far as the pictures show it; None before the first."""
+        return self._board
 
     @property
     def is_complete(self) -> bool:
@@ -167,6 +173,14 @@ class CaptureSession:
     def observe(self, frame: Frame, *, is_live: bool = True) -> CaptureState:
         """Look at a frame, and take it if it is still, new, sharp and well exposed.
 
+        Args and errors are those of `look`.
+        """
+        state = self.look(frame, is_live=is_live)
+        return self.take_seen(frame, state) if self.is_new else state
+
+    def look(self, frame: Frame, *, is_live: bool = True) -> CaptureState:
+        """Look at a frame: follow the board, and judge it when it has come to rest.
+
         Args:
             frame: the frame.
             is_live: False if its exposure can no longer be changed, and does not matter.
@@ -178,21 +192,30 @@ class CaptureSession:
         self._check_size(grey)
         self._follow(grey, frame.time)
         if self._corners is None:
+            self.is_new = False
             return self._state(_WHOLE_BOARD)
         pose = self._locate(self._corners)
         match, instruction = self._guide(pose)
         if not self._is_still:
-            self._has_judged, self._advice = False, ""
+            self._has_judged, self.is_new, self._advice = False, False, ""
             return self._state(instruction, match)
-        taken = None
         if not self._has_judged:
             self._advice = judge_exposure(grey, self._corners) if is_live else ""
             self._has_judged = not self._advice  # the light may change while the board does not
-            if self._has_judged and self._is_worth_taking(self._corners, pose, match):
-                taken = self.take(frame)
+            self.is_new = self._has_judged and self._is_worth_taking(self._corners, pose, match)
+        return self._state(self._advice or instruction, match)
+
+    @property
+    def is_ready(self) -> bool:
+        """True if the board is still and well exposed in the last frame."""
+        return self._corners is not None and self._is_still and self._has_judged
+
+    def take_seen(self, frame: Frame, state: CaptureState) -> CaptureState:
+        """Take a frame that was looked at, unless it is blurred; return its new state."""
+        taken = self.take(frame)
         if taken is None:
-            return self._state(self._advice or instruction, match)
-        return self._state("Taken.", match, taken)
+            return self._state(self._advice or state.instruction, state.match)
+        return self._state("Taken.", state.match, taken)
 
     def examine(self, frame: Frame) -> CaptureState:
         """Look at a photograph that somebody took by itself, and take it if it shows a sharp board.
@@ -213,6 +236,7 @@ class CaptureSession:
         Raises:
             CalibrationError: if its size is not that of those before.
         """
+        self.is_new = False
         grey = check_grey_levels(frame.image)
         self._check_size(grey)
         try:
@@ -235,8 +259,13 @@ class CaptureSession:
             return None
         is_aside = len(self.pictures) % _VALIDATION_EVERY == _VALIDATION_EVERY - 1
         picture = Picture(frame, corners, observation, is_aside)
+        was_known = self.calibration is not None
         self.pictures.append(picture)
         self._learn()
+        if was_known and self.calibration is None:  # nothing more would ever be learnt with it
+            self.remove(picture)
+            self._advice = "It contradicts the pictures taken before: take back one that is wrong."
+            return None
         return picture
 
     def remove(self, picture: Picture) -> None:
@@ -271,11 +300,14 @@ class CaptureSession:
         It is that of a camera that is calibrated without them; their boards' poses are estimated.
         NaN if none was put aside, or no camera is known without them.
         """
-        aside = [each.observation for each in self.pictures if each.for_validation]
-        if not aside or self._checked is None:
-            return float("nan")
-        missed = [locate_board(self._checked.camera, view).residuals for view in aside]
-        return float(np.sqrt(np.mean(np.sum(np.concatenate(missed) ** 2, axis=1))))
+        if self._unseen_error is None:
+            aside = [each.observation for each in self.pictures if each.for_validation]
+            self._unseen_error = np.nan
+            if aside and self._checked is not None:
+                missed = [locate_board(self._checked.camera, view).residuals for view in aside]
+                squares = np.sum(np.concatenate(missed) ** 2, axis=1)
+                self._unseen_error = float(np.sqrt(np.mean(squares)))
+        return self._unseen_error
 
     def _state(
         self, instruction: str, match: float = 0.0, taken: Picture | None = None
@@ -297,14 +329,18 @@ class CaptureSession:
         """Follow the board to this frame, or find it."""
         before, self._before = self._before, grey
         seconds, self._before_time = time - self._before_time, time
-        corners = None
+        corners, motion = None, np.inf
         if self._corners is not None and before is not None:
             corners = track_corners(before, grey, self._corners)
-        self._motions.append(np.inf if corners is None else _measure_motion(self._corners, corners))
-        if corners is None or time - self._found_at >= _SEARCH_SECONDS:
+            if corners is not None:
+                motion = measure_motion(self._corners, corners)
+        self._motions.append(motion)
+        if corners is None or time - self._found_at >= LOOK_SECONDS:
             with suppress(NoBoardError):  # a blurred one can be followed where it cannot be found
                 found = self._find_board(grey)
-                self._found_at, self._pose = time, None
+                self._found_at = time
+                if corners is None or not measure_motion(corners, found) <= MAX_OFF_PX:
+                    self._pose = None  # it may be counted from another end
                 if corners is not None and self._corners is not None:
                     self._time_rows(found, self._corners, corners, seconds)
                 corners = found
@@ -397,7 +433,7 @@ class CaptureSession:
         if pose is None or self._board is None:
             return False
         if self.calibration.diagnosis is not None:
-            return match >= _MIN_MATCH
+            return match >= MIN_MATCH
         view = make_observation(corners.uv, self._board.points(corners.grid))
         after = predict_uncertainty(self.calibration, self.views, view, pose, _LOSS)
         gain, best = self.wanted.before - after, self.wanted.before - self.wanted.after
@@ -414,7 +450,7 @@ class CaptureSession:
         views = self.views
         self.calibration = _calibrate(views, self._size, MODELS) if views else None
         kept = [each.observation for each in self.pictures if not each.for_validation]
-        self._checked = None
+        self._checked, self._unseen_error = None, None
         if self.calibration is not None and len(kept) < len(views):
             self._checked = _calibrate(kept, self._size, (self.calibration.camera.model,))
         self.worst, self.wanted, self.goal = np.inf, None, None
@@ -453,18 +489,6 @@ def _map_back(before: Corners, after: Corners, uv: Array) -> Array:
     kept = [places[tuple(cell)] for cell in after.grid.tolist()]
     H = fit_homography(after.uv, before.uv[kept], np.ones(len(kept)))
     return apply_homography(H, uv)
-
-
-def _measure_motion(before: Corners | None, after: Corners) -> float:
-    """Measure the rms motion, px, of the corners that both have."""
-    assert before is not None
-    places: dict[tuple[int, ...], Array] = {
-        tuple(cell): uv for cell, uv in zip(before.grid.tolist(), before.uv, strict=True)
-    }
-    moved = [
-        uv - places[tuple(cell)] for cell, uv in zip(after.grid.tolist(), after.uv, strict=True)
-    ]
-    return float(np.sqrt(np.mean(np.sum(np.array(moved) ** 2, axis=1))))
 
 
 def _measure_blur(corners: Corners) -> float:

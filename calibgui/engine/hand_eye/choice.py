@@ -146,7 +146,7 @@ def _check_lengths(choice: Choice, boards: Motions, points: Array) -> None:
     freedom = 3 * len(seen.R) - 7
     gain = choice.start.scatter**2 - other.scatter**2
     ratio = freedom * gain / (other.scatter**2 + _LEAST_SCATTER_MM**2)
-    if scipy.stats.f.sf(ratio, 1, freedom) < _CHANCE:
+    if scipy.special.fdtrc(1, freedom, ratio) < _CHANCE:
         raise CalibrationError(
             f"By the robot's motions the board's squares are {scale:.3g} times as long as stated.",
             "State the side of a square as it was printed.",

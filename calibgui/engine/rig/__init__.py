@@ -1,9 +1,10 @@
 """Rigs: several cameras that stand fast to each other, and instants that they photograph together.
 
 `calibrate_rig` takes cameras that are known alone, each with its views by instants, and returns a
-`Rig`: how the cameras stand to each other and all their parameters, solved together, with the
-covariance that the disagreement of the instants tells. `triangulate_points` finds points in space
-from their pixels, `rectify_pair` images in whose rows the same points lie.
+`Rig`: how the cameras stand to each other, and boards if there are several, and all their
+parameters, solved together, with the covariance that the disagreement of the instants tells.
+`triangulate_points` finds points in space from their pixels, `rectify_pair` images in whose rows
+the same points lie.
 """
 
 from __future__ import annotations
@@ -22,7 +23,9 @@ if TYPE_CHECKING:
         Layout as Layout,
         LeftOutView as LeftOutView,
         Mistake as Mistake,
+        PlacedBoard as PlacedBoard,
         Rig as Rig,
+        RigBoard as RigBoard,
         RigCamera as RigCamera,
         RigMistake as RigMistake,
         RigPair as RigPair,
@@ -48,7 +51,9 @@ load_on_demand(
             "Layout",
             "LeftOutView",
             "Mistake",
+            "PlacedBoard",
             "Rig",
+            "RigBoard",
             "RigCamera",
             "RigMistake",
             "RigPair",

@@ -14,17 +14,14 @@ from typing import NamedTuple
 import numpy as np
 
 from calibgui.engine.arrays import Array, BoolArray, IntArray
-from calibgui.engine.errors import CalibrationError
 from calibgui.engine.rig.alone import CameraAlone
 from calibgui.engine.rig.consensus import (
     Relation,
     apply_turns,
     choose_turns,
-    find_relation,
-    find_tree,
     measure_scatter,
 )
-from calibgui.engine.rig.records import RigCamera, RigPair
+from calibgui.engine.rig.records import RigPair
 
 _MAX_CONTRADICTION = 10.0
 """Ratio of a view's contradiction of the others to the usual one, in px, beyond which it is left
@@ -77,50 +74,10 @@ def list_turns(alone: Sequence[CameraAlone]) -> list[Array]:
     return turns
 
 
-def join_cameras(
-    cameras: Sequence[RigCamera], alone: Sequence[CameraAlone], turns: Sequence[Array]
-) -> list[Relation]:
-    """Find how each camera stands to the first one.
-
-    Raises:
-        CalibrationError: if the cameras fall apart into groups that never see the board together.
-    """
-    C, shared = len(alone), count_shared(alone)
-    relations = {0: Relation(np.eye(3), np.zeros(3))}
-    for a, b in find_tree(shared):
-        _, in_a, in_b = np.intersect1d(
-            alone[a].poses.instant, alone[b].poses.instant, return_indices=True
-        )
-        there = alone[b].poses.select(in_b)
-        found = find_relation(alone[a].poses.select(in_a), [there.turn(turn) for turn in turns])
-        relations[b] = found.after(relations[a])
-    if len(relations) < C:
-        raise _explain_groups([camera.name for camera in cameras], shared)
-    return [relations[c] for c in range(C)]
-
-
 def count_shared(alone: Sequence[CameraAlone]) -> IntArray:
     """Count (C, C) the instants at which two cameras both see the board."""
     seen = [set(part.poses.instant.tolist()) for part in alone]
     return np.array([[len(first & second) for second in seen] for first in seen])
-
-
-def _explain_groups(names: Sequence[str], shared: IntArray) -> CalibrationError:
-    """Say which cameras see the board together, and which picture would join them."""
-    groups: list[list[int]] = []
-    left = list(range(len(names)))
-    while left:
-        order = np.ix_(left, left)
-        group = [left[0], *(left[b] for _, b in find_tree(shared[order]))]
-        groups.append(sorted(group))
-        left = [c for c in left if c not in group]
-    listed = "; ".join(", ".join(names[c] for c in group) for group in groups)
-    return CalibrationError(
-        f"The cameras fall apart into {len(groups)} groups that never see the board together: "
-        f"{listed}.",
-        f"Take pictures in which {names[groups[0][-1]]} and {names[groups[1][0]]} both see the "
-        "board, or any two cameras of both groups.",
-    )
 
 
 def find_agreement(
@@ -181,10 +138,11 @@ def describe_pairs(
     relations: Sequence[Relation],
     turns: Sequence[Array],
     agreement: Agreement,
+    tree: Sequence[tuple[int, int]],
 ) -> tuple[RigPair, ...]:
     """Describe how far apart single instants have the cameras of the pairs that join the rig."""
     pairs = []
-    for a, b in find_tree(count_shared(alone)):
+    for a, b in tree:
         kept = [
             part.poses.select(np.flatnonzero(agreement.kept[c]))
             for c, part in ((a, alone[a]), (b, alone[b]))

@@ -1,20 +1,24 @@
 """The calibration of a rig: from cameras that are known alone to cameras that stand to each other.
 
-1. Each camera alone says where the board was in each of its views (``alone.py``).
-2. What most instants say of each pair of cameras is found, the pairs are joined to a tree
-   (``consensus.py``), and views that contradict the others are left out (``agreement.py``).
-3. All is solved together from there (``joint_solve.py``).
+1. Each camera alone says where each board was in each of its views (``alone.py``).
+2. What most instants say of pairs of cameras, and of boards, is found, the pairs are joined to a
+   tree (``consensus.py``, ``joining.py``), and views that contradict the others are left out
+   (``agreement.py``).
+3. All is solved together from there (``joint_solve.py``), with the shapes of the boards if they are
+   to be estimated (``board_shapes.py``).
 4. How much the instants disagree says how far the result is to be trusted (``uncertainty.py``).
+
+Steps 1 and 2 take what a camera sees of a board for a camera of its own: a sight.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
 
-from calibgui.engine.arrays import Array, IntArray
+from calibgui.engine.arrays import Array, BoolArray, IntArray
 from calibgui.engine.calibration.observations import Observations
 from calibgui.engine.calibration.refinement.levenberg_marquardt import Solution
 from calibgui.engine.calibration.refinement.residuals import State, compute_misses
@@ -22,23 +26,25 @@ from calibgui.engine.calibration.result import Cost, Report
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.geometry.pose import Pose
 from calibgui.engine.geometry.rotations import vector_from_rotation
-from calibgui.engine.rig.agreement import (
-    Agreement,
-    describe_pairs,
-    find_agreement,
-    join_cameras,
-    list_turns,
-)
-from calibgui.engine.rig.alone import CameraAlone, see_alone
-from calibgui.engine.rig.consensus import Relation
-from calibgui.engine.rig.joint_solve import (
-    CameraProblem,
-    RigProblem,
-    place_views,
-    solve_jointly,
-)
+from calibgui.engine.rig.agreement import Agreement, describe_pairs, find_agreement, list_turns
+from calibgui.engine.rig.alone import CameraAlone, locate_views, see_alone
+from calibgui.engine.rig.board_shapes import solve_shapes
+from calibgui.engine.rig.joining import Joined, Sight, join_rig, list_sights, pair_sights
+from calibgui.engine.rig.joint_solve import place_corners, solve_jointly
 from calibgui.engine.rig.mistakes import find_mistakes
-from calibgui.engine.rig.records import Layout, LeftOutView, Rig, RigCamera, RigPair, RigView
+from calibgui.engine.rig.problem import BoardProblem, CameraProblem, RigProblem, SightProblem
+from calibgui.engine.rig.records import (
+    Layout,
+    LeftOutView,
+    Mistake,
+    PlacedBoard,
+    Rig,
+    RigBoard,
+    RigCamera,
+    RigMistake,
+    RigPair,
+    RigView,
+)
 from calibgui.engine.rig.time_offsets import Motion, find_motions, hold_board_still
 from calibgui.engine.rig.uncertainty import estimate_rig_covariance
 from calibgui.engine.threads import with_one_blas_thread
@@ -48,11 +54,15 @@ _OWN = tuple(range(7))
 _ROUNDS = 3
 """Number of solves where cameras are late: what contradicts the others shows once the offsets are
 known, to some tenths after the first."""
+_ONE_BOARD = (RigBoard(),)
 
 
 @with_one_blas_thread
 def calibrate_rig(
-    cameras: Sequence[RigCamera], report: Report | None = None, estimate_offsets: bool = False
+    cameras: Sequence[RigCamera],
+    report: Report | None = None,
+    estimate_offsets: bool = False,
+    boards: Sequence[RigBoard] = _ONE_BOARD,
 ) -> Rig:
     """Calibrate a rig: how its cameras stand to each other, and all parameters together.
 
@@ -62,69 +72,116 @@ def calibrate_rig(
         report: a function that takes each iteration of the joint solve; it returns False to stop.
         estimate_offsets: True to estimate by how much the clock of each camera is late, from a
             board that moves; views without one before and one after then take no part.
+        boards: the boards as they are known, in the order of ``RigCamera.views_by_board``. They
+            stand fast to each other, and where is estimated unless it is stated.
 
     Raises:
         CalibrationError: if there are fewer than two cameras, a view cannot be used, the cameras
-            fall apart into groups that never see the board together, or the views leave a parameter
-            open; the message names what.
+            fall apart into groups that nothing joins, a board is never seen, or the views leave a
+            parameter open; the message names what.
         Cancelled: from `report`.
     """
     if len(cameras) < 2:
         raise CalibrationError(
             "A rig has at least two cameras.", "Name the photographs of each camera."
         )
-    instants = sorted({instant for camera in cameras for instant in camera.views})
-    alone = see_alone(cameras, instants)
+    sights, seen = list_sights(cameras, boards)
+    instants = sorted({instant for part in seen for instant in part.views})
+    alone = see_alone(seen, instants)
     motions = hold_board_still(alone)
     if estimate_offsets:
-        instants, alone, motions = find_motions(cameras, instants, alone)
-    turns, offsets = list_turns(alone), np.zeros(len(cameras))
+        instants, alone, motions = find_motions(seen, instants, alone)
+    # Several boards are told apart by marks, which tell the end that they are counted from, too.
+    turns = list_turns(alone) if len(boards) == 1 else [np.eye(3)]
+    offsets = np.zeros(len(cameras))
     for _ in range(_ROUNDS if estimate_offsets else 1):
         still = [
-            motion.move_back(part, late)
-            for motion, part, late in zip(motions, alone, offsets.tolist(), strict=True)
+            motion.move_back(part, offsets[sight.camera])
+            for motion, part, sight in zip(motions, alone, sights, strict=True)
         ]
-        relations = join_cameras(cameras, still, turns)
+        joined = join_rig(cameras, boards, sights, still, turns)
+        still = joined.express(sights, still)
+        relations = [joined.cameras[sight.camera] for sight in sights]
         agreement = find_agreement(still, relations, turns, len(instants))
-        problem = _state_problem(cameras, alone, agreement, turns, len(instants), motions)
-        start = _find_start(cameras, still, relations, agreement, offsets)
+        views = _take_views(sights, alone, agreement, turns, motions)
+        problem = _state_problem(
+            cameras, boards, joined, tuple(views.values()), agreement, len(instants), motions
+        )
+        start = _find_start(cameras, joined, sights, still, agreement, offsets)
         solution = solve_jointly(problem, start, report)
         offsets = solution.state.params[[*map(problem.layout.offset, range(len(cameras)))]]
-    pairs = describe_pairs(still, relations, turns, agreement)
-    rig = _assemble(cameras, instants, alone, turns, agreement, pairs, problem, solution)
+    problem, solution = solve_shapes(problem, solution, [board.shape for board in boards], report)
+    tree = pair_sights(sights, still)
+    pairs = describe_pairs(still, relations, turns, agreement, tree)
+    rms = {
+        s: _measure_alone(problem, solution.state, sight, seen[s], alone[s], agreement.kept[s])
+        for s, sight in zip(views, problem.sights, strict=True)
+    }
+    rig = _assemble(cameras, boards, joined, instants, turns, agreement, rms, problem, solution)
+    left_out = _list_left_out(sights, alone, agreement, instants)
     mistakes = find_mistakes(
-        cameras, still, relations, turns, agreement, instants, rig.disagreement > 0
+        seen, still, relations, turns, agreement, instants, rig.disagreement > 0, tree
     )
-    return replace(rig, mistakes=mistakes)
+    return replace(
+        rig,
+        pairs=_pair_cameras(sights, pairs),
+        left_out=left_out,
+        mistakes=_blame_cameras(sights, mistakes),
+    )
+
+
+def _take_views(
+    sights: Sequence[Sight],
+    alone: Sequence[CameraAlone],
+    agreement: Agreement,
+    turns: Sequence[Array],
+    motions: Sequence[Motion],
+) -> dict[int, SightProblem]:
+    """Take the views that go together, by the numbers of the sights that have any."""
+    taken = {}
+    for s, (sight, part) in enumerate(zip(sights, alone, strict=True)):
+        kept, turned = agreement.kept[s], agreement.turn[s]
+        if kept.any():
+            taken[s] = SightProblem(
+                *sight,
+                _turn_views(part.observations, turned, turns).select_views(kept),
+                part.poses.instant[kept],
+                motions[s].velocity[kept],
+                motions[s].lag[kept],
+            )
+    return taken
 
 
 def _state_problem(
     cameras: Sequence[RigCamera],
-    alone: Sequence[CameraAlone],
+    boards: Sequence[RigBoard],
+    joined: Joined,
+    views: tuple[SightProblem, ...],
     agreement: Agreement,
-    turns: Sequence[Array],
     count: int,
     motions: Sequence[Motion],
 ) -> RigProblem:
     """State the joint problem of the views that go together."""
-    problems = []
-    for c, (camera, part) in enumerate(zip(cameras, alone, strict=True)):
-        kept, turned = agreement.kept[c], agreement.turn[c]
-        observations = _turn_views(part.observations, turned, turns).select_views(kept)
-        problems.append(
-            CameraProblem(
-                camera.camera.model,
-                observations,
-                part.poses.instant[kept],
-                motions[c].velocity[kept],
-                motions[c].lag[kept],
-                camera.free,
-                np.array(_OWN[: 6 + motions[c].is_moving] if c else (), dtype=np.int64),
-                _make_prior(camera, agreement.noise),
+    own = _OWN[: 6 + any(motion.is_moving for motion in motions)]
+    problems = tuple(
+        CameraProblem(
+            camera.camera.model,
+            camera.free,
+            np.array(own if c else (), dtype=np.int64),
+            _make_prior(camera, agreement.noise),
+        )
+        for c, camera in enumerate(cameras)
+    )
+    placed = tuple(
+        BoardProblem(
+            np.array(
+                () if joined.references[b] == b or board.pose is not None else _OWN[:6], np.int64
             )
         )
-    layout = Layout(tuple(len(camera.camera.params) for camera in cameras))
-    return RigProblem(tuple(problems), layout, count)
+        for b, board in enumerate(boards)
+    )
+    layout = Layout(tuple(len(camera.camera.params) for camera in cameras), len(boards))
+    return RigProblem(problems, placed, views, layout, count)
 
 
 def _make_prior(camera: RigCamera, variance: float) -> tuple[Array, Array] | None:
@@ -163,75 +220,88 @@ def _turn_views(
 
 def _find_start(
     cameras: Sequence[RigCamera],
-    alone: Sequence[CameraAlone],
-    relations: Sequence[Relation],
+    joined: Joined,
+    sights: Sequence[Sight],
+    still: Sequence[CameraAlone],
     agreement: Agreement,
     offsets: Array,
 ) -> State:
-    """Return the state that the views agree about, with the board where each base sees it."""
-    params = np.concatenate(
-        [
-            np.concatenate([camera.camera.params, vector_from_rotation(R), T, [late]])
-            for camera, (R, T), late in zip(cameras, relations, offsets.tolist(), strict=True)
-        ]
-    )
+    """Return the state that the views agree about, with the boards where each base sees them."""
+    params = [
+        np.concatenate([camera.camera.params, vector_from_rotation(R), T, [late]])
+        for camera, (R, T), late in zip(cameras, joined.cameras, offsets.tolist(), strict=True)
+    ]
+    for relation in joined.boards[1:]:
+        M, A = relation.invert()
+        params.append(np.concatenate([vector_from_rotation(M), A]))
     count = len(agreement.base)
     R, T = np.empty((count, 3, 3)), np.empty((count, 3))
-    for c, (part, relation) in enumerate(zip(alone, relations, strict=True)):
+    for s, (sight, part) in enumerate(zip(sights, still, strict=True)):
         at = part.poses.instant
-        is_base = agreement.base[at] == c
-        back, place = relation.invert()
-        R[at[is_base]] = back @ part.poses.R[is_base]
-        T[at[is_base]] = part.poses.T[is_base] @ back.T + place
-    return State(params, R, T)
+        is_base = agreement.base[at] == s
+        back = part.poses.select(np.flatnonzero(is_base)).see_from(
+            joined.cameras[sight.camera].invert()
+        )
+        R[back.instant], T[back.instant] = back.R, back.T
+    return State(np.concatenate(params), R, T)
+
+
+def _measure_alone(
+    problem: RigProblem,
+    state: State,
+    sight: SightProblem,
+    camera: RigCamera,
+    alone: CameraAlone,
+    kept: BoolArray,
+) -> Array:
+    """Measure the root mean square residuals, px, of the views that are kept of a sight with its
+    camera alone, on the board of the shape that was found."""
+    alone = alone.select(np.flatnonzero(kept))
+    if problem.boards[sight.board].deviations is not None:
+        observations = place_corners(problem, state, sight)[1]
+        alone = locate_views(camera, observations, sight.instant)
+    return alone.compute_rms()
 
 
 def _assemble(
     cameras: Sequence[RigCamera],
+    boards: Sequence[RigBoard],
+    joined: Joined,
     instants: Sequence[int],
-    alone: Sequence[CameraAlone],
     turns: Sequence[Array],
     agreement: Agreement,
-    pairs: tuple[RigPair, ...],
+    rms: Mapping[int, Array],
     problem: RigProblem,
     solution: Solution,
 ) -> Rig:
-    """Assemble the rig that was found."""
+    """Assemble the rig that was found; `rms` has the residuals of each sight's camera alone, px."""
     names = tuple(camera.name for camera in cameras)
-    found = estimate_rig_covariance(problem, solution, names)
+    found = estimate_rig_covariance(problem, solution, names, [board.name for board in boards])
     state, layout = solution.state, problem.layout
-    views, left_out = [], []
-    for c, part in enumerate(alone):
-        own = problem.cameras[c]
-        misses = compute_misses(
-            place_views(problem, state, c), own.observations, own.model, Cost.IMAGE
-        )
-        rms, kept = part.compute_rms(), np.flatnonzero(agreement.kept[c])
-        for k, view in enumerate(kept.tolist()):
-            turn = turns[agreement.turn[c][view]]
+    views = []
+    for s, sight in zip(rms, problem.sights, strict=True):
+        own, there = place_corners(problem, state, sight)
+        misses = compute_misses(own, there, problem.cameras[sight.camera].model, Cost.IMAGE)
+        for k, view in enumerate(np.flatnonzero(agreement.kept[s]).tolist()):
+            turn = turns[agreement.turn[s][view]]
             views.append(
                 RigView(
-                    c,
-                    instants[part.poses.instant[view]],
-                    misses[k, own.observations.corners_of(k)],
-                    float(rms[view]),
-                    float(np.sqrt(agreement.cost[c][view] / 6)),
+                    sight.camera,
+                    instants[sight.instant[k]],
+                    misses[k, there.corners_of(k)],
+                    float(rms[s][k]),
+                    float(np.sqrt(agreement.cost[s][view] / 6)),
                     float(np.degrees(np.arctan2(turn[1, 0], turn[0, 0]))) % 360,
+                    sight.board,
                 )
             )
-        for view in np.flatnonzero(~agreement.kept[c]).tolist():
-            at = part.poses.instant[view]
-            both = part.observations.mask[view].sum() + _count_corners(alone, agreement, at)
-            error = float(np.sqrt(agreement.cost[c][view] / both))
-            left_out.append(LeftOutView(c, instants[at], error))
-    poses = [np.split(state.params[layout.pose(c)], 2) for c in range(len(cameras))]
     return Rig(
         names=names,
         cameras=tuple(
             replace(camera.camera, params=state.params[layout.camera(c)])
             for c, camera in enumerate(cameras)
         ),
-        poses=tuple(Pose(rvec, tvec) for rvec, tvec in poses),
+        poses=tuple(Pose(*np.split(state.params[layout.pose(c)], 2)) for c in range(len(cameras))),
         offsets=np.array([state.params[layout.offset(c)] for c in range(len(cameras))]),
         covariance=found.covariance,
         noise_covariance=found.noise_covariance,
@@ -241,9 +311,34 @@ def _assemble(
         noise=found.noise,
         disagreement=found.disagreement,
         status=solution.status,
-        pairs=pairs,
-        left_out=tuple(left_out),
+        pairs=(),
+        placed_boards=tuple(
+            PlacedBoard(
+                board.name,
+                Pose(*np.split(state.params[layout.board(b)] if b else np.zeros(6), 2)),
+                joined.references[b],
+                found.shapes[b],
+            )
+            for b, board in enumerate(boards)
+        ),
     )
+
+
+def _list_left_out(
+    sights: Sequence[Sight],
+    alone: Sequence[CameraAlone],
+    agreement: Agreement,
+    instants: Sequence[int],
+) -> tuple[LeftOutView, ...]:
+    """List the views that contradict the others."""
+    left_out = []
+    for s, (sight, part) in enumerate(zip(sights, alone, strict=True)):
+        for view in np.flatnonzero(~agreement.kept[s]).tolist():
+            at = part.poses.instant[view]
+            both = part.observations.mask[view].sum() + _count_corners(alone, agreement, at)
+            error = float(np.sqrt(agreement.cost[s][view] / both))
+            left_out.append(LeftOutView(sight.camera, instants[at], error, sight.board))
+    return tuple(left_out)
 
 
 def _count_corners(alone: Sequence[CameraAlone], agreement: Agreement, at: int) -> float:
@@ -251,3 +346,40 @@ def _count_corners(alone: Sequence[CameraAlone], agreement: Agreement, at: int) 
     base = alone[int(agreement.base[at])]
     view = int(np.searchsorted(base.poses.instant, at))
     return float(base.observations.mask[view].sum())
+
+
+def _pair_cameras(sights: Sequence[Sight], pairs: Sequence[RigPair]) -> tuple[RigPair, ...]:
+    """Return pairs of sights as pairs of cameras, each the first time that it occurs."""
+    found: dict[tuple[int, int], RigPair] = {}
+    for pair in pairs:
+        a, b = sights[pair.first].camera, sights[pair.second].camera
+        if a != b and (b, a) not in found:
+            found.setdefault((a, b), replace(pair, first=a, second=b))
+    return tuple(found.values())
+
+
+def _blame_cameras(
+    sights: Sequence[Sight], mistakes: Sequence[RigMistake]
+) -> tuple[RigMistake, ...]:
+    """Return mistakes in sights as mistakes in cameras, those of one kind together.
+
+    Boards that moved against each other explain all views that agree less than others.
+    """
+    found: dict[tuple[Mistake, int, int, float], RigMistake] = {}
+    for mistake in mistakes:
+        kind, camera, other = (
+            mistake.kind,
+            *(sights[s].camera for s in (mistake.camera, mistake.other)),
+        )
+        if kind is Mistake.MOVED and camera == other:
+            kind = Mistake.BOARDS_MOVED
+        ratio = mistake.value if kind is Mistake.OTHER_SCALE else 0.0
+        before = found.get((kind, camera, other, ratio))
+        numbers = {*mistake.instants, *(before.instants if before else ())}
+        found[kind, camera, other, ratio] = RigMistake(
+            kind, camera, other, tuple(sorted(numbers)), mistake.value
+        )
+    kinds = {kind for kind, *_ in found}
+    unexplained = {Mistake.OTHER_INSTANT, Mistake.LESS_AGREEMENT}
+    dropped = unexplained if Mistake.BOARDS_MOVED in kinds else set()
+    return tuple(mistake for mistake in found.values() if mistake.kind not in dropped)

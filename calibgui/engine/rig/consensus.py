@@ -25,7 +25,8 @@ McClure), each instant counting with its information.
 A board whose pattern a turn leaves unchanged may be counted from another end in one camera. Every
 instant then has as many relations as there are turns, and the one that costs least is taken.
 
-Cameras are joined in the order of how many instants they share (a spanning tree of most instants).
+Cameras are joined in the order of how many instants they share (a spanning tree of most instants),
+and boards that stand fast to each other likewise (``joining.py``).
 """
 
 from __future__ import annotations
@@ -46,8 +47,6 @@ from calibgui.engine.geometry.rotations import (
 _MAX_STARTS = 12
 """Number of instants whose relations are tried as a start: with half of all instants wrong, one of
 so many is right but once in 4,000."""
-_MAX_INSTANTS = 100
-"""Number of instants that a start is found from: the joint solve takes all."""
 _MAX_STEPS = 20
 """Number of weighted means, at most."""
 _MIN_SAVING = 1e-6
@@ -71,6 +70,12 @@ class ViewPoses:
         """Return some of the views."""
         return ViewPoses(self.R[views], self.T[views], self.covariance[views], self.instant[views])
 
+    @staticmethod
+    def concatenate(parts: Sequence[ViewPoses]) -> ViewPoses:
+        """Return the views of several parts in one."""
+        fields = ((part.R, part.T, part.covariance, part.instant) for part in parts)
+        return ViewPoses(*map(np.concatenate, zip(*fields, strict=True)))
+
     def turn(self, motion: Array) -> ViewPoses:
         """Return the poses of a board that is counted from another end.
 
@@ -78,12 +83,56 @@ class ViewPoses:
             motion: (3, 3) motion of the board's plane that leaves its pattern unchanged, from the
                 points as they are to be counted to those as they were.
         """
-        turn, arm = np.eye(3), self.R[..., :2] @ motion[:2, 2]
+        turn = np.eye(3)
         turn[:2, :2] = motion[:2, :2]
-        carry = np.tile(np.eye(6), (len(arm), 1, 1))  # tau' = tau + w x arm
-        carry[:, 3:, :3] = -make_cross_matrix(arm)
+        return self.express_on(Relation(turn, np.append(motion[:2, 2], 0.0)))
+
+    def express_on(self, relation: Relation) -> ViewPoses:
+        """Return the poses of another body that stands fast to the board.
+
+        Args:
+            relation: board_from_body.
+        """
+        carry = self.carry_to(relation)
         covariance = carry @ self.covariance @ np.swapaxes(carry, 1, 2)
-        return ViewPoses(self.R @ turn, self.T + arm, covariance, self.instant)
+        return ViewPoses(
+            self.R @ relation.R, self.T + self.R @ relation.T, covariance, self.instant
+        )
+
+    def carry_to(self, relation: Relation) -> Array:
+        """Return (K, 6, 6) how the local (w, tau) of these poses move those of `express_on`: by
+        (w, tau + w x arm)."""
+        carry = np.tile(np.eye(6), (len(self.T), 1, 1))
+        carry[:, 3:, :3] = -make_cross_matrix(self.R @ relation.T)
+        return carry
+
+    def see_from(self, relation: Relation) -> ViewPoses:
+        """Return the poses frame_from_board in another frame.
+
+        Args:
+            relation: frame_from_cam.
+        """
+        G = np.kron(np.eye(2), relation.R)
+        return ViewPoses(
+            relation.R @ self.R,
+            self.T @ relation.R.T + relation.T,
+            G @ self.covariance @ G.T,
+            self.instant,
+        )
+
+    def invert(self) -> ViewPoses:
+        """Return the poses board_from_cam, as if the board saw the camera: (w, tau) becomes
+        (-R^T w, -R^T (tau + [T]x w))."""
+        back = np.swapaxes(self.R, 1, 2)
+        G = np.zeros((len(back), 6, 6))
+        G[:, :3, :3] = G[:, 3:, 3:] = -back
+        G[:, 3:, :3] = -back @ make_cross_matrix(self.T)
+        return ViewPoses(
+            back,
+            -(back @ self.T[..., None])[..., 0],
+            G @ self.covariance @ np.swapaxes(G, 1, 2),
+            self.instant,
+        )
 
 
 class Relation(NamedTuple):
@@ -104,24 +153,25 @@ class Relation(NamedTuple):
 
 
 def compare_views(relation: Relation, a: ViewPoses, b: ViewPoses) -> Array:
-    """Compute the costs c (K,), px^2, of a relation at the instants of two cameras' views.
+    """Compute the costs c (..., K), px^2, of relations at the instants of two cameras' views.
 
     Args:
-        relation: b_from_a.
+        relation: b_from_a, or several, (..., 1, 3, 3) and (..., 1, 3).
         a, b: the views of both cameras at the same instants.
     """
     e, covariance = measure_differences(relation, a, b)
-    return np.asarray(np.sum(e * np.linalg.solve(covariance, e[..., None])[..., 0], axis=1))
+    return np.asarray(np.sum(e * np.linalg.solve(covariance, e[..., None])[..., 0], axis=-1))
 
 
 def measure_differences(relation: Relation, a: ViewPoses, b: ViewPoses) -> tuple[Array, Array]:
-    """Return e (K, 6) and its covariance (K, 6, 6) for residuals of 1 px."""
+    """Return e (..., K, 6) and its covariance (..., K, 6, 6) for residuals of 1 px."""
     Q, S = relation
-    w = vector_from_rotation(b.R @ np.swapaxes(Q @ a.R, 1, 2))
-    tau = b.T - (a.T @ Q.T + S)
-    G = np.zeros((6, 6))
-    G[:3, :3] = G[3:, 3:] = Q
-    return np.concatenate([w, tau], axis=1), b.covariance + G @ a.covariance @ G.T
+    w = vector_from_rotation(b.R @ np.swapaxes(Q @ a.R, -1, -2))
+    tau = b.T - ((Q @ a.T[..., None])[..., 0] + S)
+    G = np.zeros((*Q.shape[:-2], 6, 6))
+    G[..., :3, :3] = G[..., 3:, 3:] = Q
+    covariance = b.covariance + G @ a.covariance @ np.swapaxes(G, -1, -2)
+    return np.concatenate([w, tau], axis=-1), covariance
 
 
 def differentiate_differences(relation: Relation, a: ViewPoses) -> Array:
@@ -152,10 +202,10 @@ def measure_scatter(relation: Relation, a: ViewPoses, b: ViewPoses) -> tuple[flo
 def choose_turns(
     relation: Relation, a: ViewPoses, turned: Sequence[ViewPoses]
 ) -> tuple[IntArray, Array]:
-    """Choose the turn of each view of b that costs least; return its number (K,) and cost (K,).
+    """Choose the turn of each view of b that costs least; return its number and cost (..., K).
 
     Args:
-        relation: b_from_a.
+        relation: b_from_a, or several, as of `compare_views`.
         a: the views of camera a.
         turned: the views of camera b at the same instants, with the board counted from each end.
     """
@@ -171,9 +221,8 @@ def find_relation(a: ViewPoses, turned: Sequence[ViewPoses]) -> Relation:
         a: the views of camera a, at the instants at which both see the board.
         turned: those of camera b, with the board counted from each end that it may have.
     """
-    if len(a.instant) > _MAX_INSTANTS:
-        some = _spread_evenly(len(a.instant), _MAX_INSTANTS)
-        a, turned = a.select(some), [b.select(some) for b in turned]
+    some = _spread_evenly(len(a.instant), 8 * _MAX_STARTS)  # the joint solve takes all
+    a, turned = a.select(some), [b.select(some) for b in turned]
     relation = _find_start(a, turned)
     for _ in range(_MAX_STEPS):
         chosen, costs = choose_turns(relation, a, turned)
@@ -193,13 +242,12 @@ def _find_start(a: ViewPoses, turned: Sequence[ViewPoses]) -> Relation:
     some = _spread_evenly(len(a.instant), 2 * _MAX_STARTS)
     a, turned = a.select(some), [b.select(some) for b in turned]
     tried = _spread_evenly(len(a.instant), _MAX_STARTS)
-    starts = []
-    for k in tried.tolist():
-        for b in turned:
-            Q = b.R[k] @ a.R[k].T
-            relation = Relation(Q, b.T[k] - Q @ a.T[k])
-            starts.append((relation, float(np.median(choose_turns(relation, a, turned)[1]))))
-    return min(starts, key=lambda start: start[1])[0]
+    Q = np.concatenate([b.R[tried] @ np.swapaxes(a.R[tried], 1, 2) for b in turned])
+    T = np.concatenate([b.T[tried] for b in turned])
+    T -= (Q @ np.tile(a.T[tried], (len(turned), 1))[..., None])[..., 0]
+    costs = choose_turns(Relation(Q[:, None], T[:, None]), a, turned)[1]
+    best = int(np.argmin(np.median(costs, axis=1)))
+    return Relation(Q[best], T[best])
 
 
 def _spread_evenly(count: int, most: int) -> IntArray:
@@ -233,7 +281,7 @@ def _move_relation(
 def find_tree(shared: IntArray) -> list[tuple[int, int]]:
     """Find pairs (known, new) that join cameras to the first one, those that share most first.
 
-    Cameras that no chain of pairs joins to the first are in none.
+    Cameras that no chain of pairs joins to the first are joined to the first of their own.
 
     Args:
         shared: (C, C) numbers of instants at which two cameras both see the board.
@@ -246,8 +294,9 @@ def find_tree(shared: IntArray) -> list[tuple[int, int]]:
             key=lambda pair: (shared[pair], -pair[0], -pair[1]),
         )
         if shared[a, b] == 0:
-            break
-        tree.append((a, b))
+            b = others[0]
+        else:
+            tree.append((a, b))
         joined.append(b)
         others.remove(b)
     return tree

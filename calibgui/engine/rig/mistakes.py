@@ -30,7 +30,7 @@ import scipy
 
 from calibgui.engine.arrays import Array, BoolArray, IntArray
 from calibgui.engine.errors import CalibrationError
-from calibgui.engine.rig.agreement import USUAL_COST, Agreement, count_shared
+from calibgui.engine.rig.agreement import USUAL_COST, Agreement
 from calibgui.engine.rig.alone import CameraAlone, locate_views
 from calibgui.engine.rig.consensus import (
     Relation,
@@ -40,7 +40,6 @@ from calibgui.engine.rig.consensus import (
     compare_views,
     differentiate_differences,
     find_relation,
-    find_tree,
     measure_differences,
 )
 from calibgui.engine.rig.records import Mistake, RigCamera, RigMistake
@@ -70,6 +69,7 @@ def find_mistakes(
     agreement: Agreement,
     instants: Sequence[int],
     is_disagreeing: bool,
+    tree: Sequence[tuple[int, int]],
 ) -> tuple[RigMistake, ...]:
     """Find what is wrong with the views of a rig.
 
@@ -81,10 +81,11 @@ def find_mistakes(
         agreement: which views go together.
         instants: the numbers of all instants.
         is_disagreeing: True if the instants disagree by more than the corners' noise explains.
+        tree: the pairs of cameras that are compared.
     """
     found: list[RigMistake] = []
     explained: set[tuple[int, int]] = set()  # camera and place of the instant
-    for a, b in find_tree(count_shared(alone)):
+    for a, b in tree:
         pair = _Pair(a, b, (alone[a], alone[b]), turns, agreement, instants)
         both = [(cameras[c], alone[c]) for c in (a, b)]
         between = relations[b].after(relations[a].invert())

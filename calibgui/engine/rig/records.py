@@ -1,19 +1,21 @@
-"""The records of a rig: what is given of its cameras, and what was found.
+"""The records of a rig: what is given of its cameras and boards, and what was found.
 
 A rig is several cameras that do not move against each other, and instants at which they photograph
-one board together. Its frame is that of its first camera: `Rig.poses` are cam_from_rig, so that the
-first is the identity, and `Rig.boards` are rig_from_board.
+one board together, or several that stand fast to each other. Its frame is that of its first camera:
+`Rig.poses` are cam_from_rig, so that the first is the identity, and `Rig.boards` are rig_from_board
+of the first board. The others' place beside it is `PlacedBoard.pose`.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from enum import StrEnum
 
 import numpy as np
 
 from calibgui.engine.arrays import Array, IntArray, freeze
+from calibgui.engine.boards.shape import BoardShape, BoardShapeModel
 from calibgui.engine.calibration.observations import Observation
 from calibgui.engine.calibration.result import Status
 from calibgui.engine.camera.camera import Camera
@@ -30,7 +32,7 @@ class RigCamera:
     camera: Camera
     """The camera as it was calibrated alone, or as an earlier result has it."""
     views: Mapping[int, Observation]
-    """Corners in its photographs, by the number of the instant."""
+    """Corners of the first board in its photographs, by the number of the instant."""
     fixed: Sequence[str] | None = None
     """Names of the parameters that are held; None for those that the lens model holds by default.
     """
@@ -43,6 +45,13 @@ class RigCamera:
     times: Mapping[int, float] = field(default_factory=dict)
     """Time of each photograph by the camera's clock, s, by the number of the instant; empty if they
     are not known, and all cameras took them at the same moments, a second apart."""
+    others: Sequence[Mapping[int, Observation]] = ()
+    """Corners of the second board and of those after it, likewise."""
+
+    @property
+    def views_by_board(self) -> tuple[Mapping[int, Observation], ...]:
+        """The views of each board."""
+        return (self.views, *self.others)
 
     @property
     def free(self) -> IntArray:
@@ -52,14 +61,34 @@ class RigCamera:
 
     def hold(self) -> RigCamera:
         """Return the camera with all parameters held."""
-        return RigCamera(
-            self.name,
-            self.camera,
-            self.views,
-            self.camera.names,
-            model_error=self.model_error,
-            times=self.times,
-        )
+        return replace(self, fixed=self.camera.names, covariance=None)
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class RigBoard:
+    """A board of a rig as it is known before."""
+
+    name: str = "the board"
+    """Its name, for messages."""
+    pose: Pose | None = None
+    """Pose first_from_board beside the first board if it is stated, which is then held; None to
+    estimate it."""
+    shape: BoardShapeModel = BoardShapeModel.NOMINAL
+    """The deviations from its drawing that are estimated with the rig."""
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class PlacedBoard:
+    """A board of a rig with its place beside the others, after the solve."""
+
+    name: str = "the board"
+    pose: Pose = field(default_factory=lambda: Pose(np.zeros(3), np.zeros(3)))
+    """Pose reference_from_board."""
+    reference: int = 0
+    """Number of the board that the pose is beside: the first one, or another one if this board was
+    never seen at one instant with the first; its own number if it was seen with none before it."""
+    shape: BoardShape | None = None
+    """The shape that was estimated; None if the board is as drawn."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -82,6 +111,8 @@ class RigView:
     turned: float = 0.0
     """Angle, degrees, by which the board was counted from another end than in the view of the same
     instant that it is compared with; the residuals are with the board turned back."""
+    board: int = 0
+    """Number of the board, from 0."""
 
     def __post_init__(self) -> None:
         freeze(self, "residuals")
@@ -119,6 +150,7 @@ class Mistake(StrEnum):
     REFOCUSED = "refocused"
     OTHER_INSTANT = "other-instant"
     LESS_AGREEMENT = "less-agreement"
+    BOARDS_MOVED = "boards-moved"
 
 
 @dataclass(frozen=True, slots=True)
@@ -131,12 +163,11 @@ class RigMistake:
     other: int
     """Number of the first camera of the pair; that of the camera itself where there is none."""
     instants: tuple[int, ...]
-    """Numbers of the instants concerned; of a camera that has moved or was refocused, those after.
-    """
+    """Numbers of the instants concerned; of what has moved or was refocused, those after."""
     value: float
     """Number of instants by which a pairing is shifted (positive if the camera's photographs belong
     to later ones), ratio of squares or of focal lengths, or distance, mm, by which a camera has
-    moved; 0 otherwise."""
+    moved, or one board beside another; 0 otherwise."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -150,6 +181,8 @@ class LeftOutView:
     error: float
     """Root mean square length, px, by which the corners of this view and of the one that it is
     compared with lie off what both views would have together."""
+    board: int = 0
+    """Number of the board, from 0."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -157,15 +190,22 @@ class Layout:
     """The places of a rig's parameters in one vector.
 
     Camera by camera, they are the parameters of the camera, the rotation vector and the translation
-    of its pose cam_from_rig, rad and mm, and the time by which its photographs are late, s.
+    of its pose cam_from_rig, rad and mm, and the time by which its photographs are late, s. Those
+    of the pose reference_from_board of the second board and of those after it come last.
     """
 
     counts: tuple[int, ...]
     """Numbers of the cameras' own parameters."""
+    boards: int = 1
+    """Number of boards."""
 
     @property
     def size(self) -> int:
         """Number of all parameters."""
+        return self._board_start + 6 * (self.boards - 1)
+
+    @property
+    def _board_start(self) -> int:
         return sum(self.counts) + 7 * len(self.counts)
 
     def camera(self, c: int) -> slice:
@@ -181,6 +221,11 @@ class Layout:
     def offset(self, c: int) -> int:
         """Return the place of camera `c`'s offset in time."""
         return self.pose(c).stop
+
+    def board(self, b: int) -> slice:
+        """Return the place of board `b`'s pose; that of the first, which has none, is empty."""
+        start = self._board_start + 6 * max(b - 1, 0)
+        return slice(start, start + 6 * (b > 0))
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -202,9 +247,10 @@ class Rig:
     instants: tuple[int, ...]
     """Numbers of the instants that took part, ascending."""
     boards: tuple[Pose, ...]
-    """Pose rig_from_board at each of these instants."""
+    """Pose rig_from_board of the first board at each of these instants; of the board that those
+    seen there have their places beside, if the first has none beside them."""
     views: tuple[RigView, ...]
-    """What each camera saw at these instants, by camera and instant."""
+    """What each camera saw at these instants, by camera, board and instant."""
     noise: float
     """Standard deviation of one coordinate of a residual, px."""
     disagreement: float
@@ -217,6 +263,8 @@ class Rig:
     """Views that took no part because they contradict the others."""
     mistakes: tuple[RigMistake, ...] = ()
     """What is wrong with the views, as far as they tell (``mistakes.py``)."""
+    placed_boards: tuple[PlacedBoard, ...] = (PlacedBoard(),)
+    """The boards."""
 
     def __post_init__(self) -> None:
         freeze(self, "offsets", "covariance", "noise_covariance")
@@ -224,7 +272,8 @@ class Rig:
     @property
     def layout(self) -> Layout:
         """The places of the parameters in `covariance`."""
-        return Layout(tuple(len(camera.params) for camera in self.cameras))
+        counts = tuple(len(camera.params) for camera in self.cameras)
+        return Layout(counts, len(self.placed_boards))
 
     @property
     def rms(self) -> float:
@@ -249,6 +298,11 @@ class Rig:
         """Return the standard deviation of camera `c`'s offset in time, s."""
         place = self.layout.offset(c)
         return float(np.sqrt(self.covariance[place, place]))
+
+    def board_sigma(self, b: int) -> Array:
+        """Return (6,) standard deviations of board `b`'s (rvec, tvec) beside its reference, rad and
+        mm; 0 for a reference itself."""
+        return self._sigma(self.layout.board(b)) if b else np.zeros(6)
 
     def camera_rms(self, c: int) -> float:
         """Return the root mean square length of camera `c`'s residuals, px."""

@@ -36,6 +36,7 @@ from calibgui.app.projects.project import (
 from calibgui.app.projects.project_file import is_project
 from calibgui.app.projects.recent import remember_project
 from calibgui.app.projects.result_project import make_project
+from calibgui.app.rig.camera_names import find_named_cameras, list_cameras
 from calibgui.app.system.resources import find_resource, find_sample_square
 from calibgui.dataset import Result, find_orientation
 from calibgui.engine.calibration import is_held
@@ -156,8 +157,13 @@ class Files(QObject):
                 self._session.notified.emit(f"{refused}\n{unread}".strip())
 
         def describe_unread(_: object) -> str:
+            groups = find_named_cameras(taken)
+            rig = self.tr(
+                "By their names these are photographs of several cameras: {0}. File › Several "
+                "cameras calibrates each, and how they stand to each other."
+            ).format(list_cameras(groups))
             said = describe_unread_folders(taken, known), describe_unread_photographs(taken)
-            return "\n".join(filter(None, said))
+            return "\n".join(filter(None, (*said, rig if groups else "")))
 
         taken = [name for name in names if name not in others]
         self._session.jobs.start("", describe_unread, tell)

@@ -1,12 +1,14 @@
 """The page on which photographs are taken live: the camera tells which is wanted next.
 
-A job reads the source and looks at its frames; a timer shows the newest one, so that the image goes
-on while a picture is calibrated. What was taken is on the disk at once.
+A job reads the cameras and looks at their frames; a timer shows the newest ones, so that the images
+go on while a picture is calibrated. What was taken is on the disk at once. One camera's pictures
+become a project, those of several a rig.
 """
 
 from __future__ import annotations
 
 import math
+from contextlib import closing
 from datetime import datetime
 from pathlib import Path
 from typing import NamedTuple
@@ -30,24 +32,25 @@ from PySide6.QtWidgets import (
 from calibgui.app.photographs.recording import (
     BoardFinder,
     CaptureProgress,
-    RecordedFrame,
+    RecordedInstant,
     Recorder,
+    begin_session,
     check_recording_folder,
+    open_cameras,
 )
 from calibgui.dataset import DEFAULT_SQUARE
 from calibgui.engine.capture import (
     CameraSettings,
-    CaptureSession,
-    LatestFrames,
-    list_cameras,
-    open_source,
+    JointSession,
+    PairedFrames,
 )
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.numbers import format_two_digits
 from calibgui.gui.jobs.job import Job
 from calibgui.gui.jobs.jobs import Jobs
-from calibgui.gui.live.live_view import LiveView
+from calibgui.gui.live.live_views import LiveViews
 from calibgui.gui.live.progress_figure import ProgressFigure
+from calibgui.gui.live.source_list import SourceList
 from calibgui.gui.live.taken_strip import TakenStrip
 from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.buttons import Button, Kind
@@ -62,8 +65,6 @@ _LIMIT = 0.1
 """Uncertainty of the worst pixel that is asked for unless another is stated, px."""
 _FRAME = 33
 """Time between two looks for a new image, ms."""
-_UNNAMED = 4
-"""Number of cameras that are offered by number where the system names none."""
 _SIZES = ((640, 480), (1280, 720), (1920, 1080), (3840, 2160))
 """Sizes of images that are offered, px."""
 _AS_IT_IS = -1000.0
@@ -73,10 +74,13 @@ _SILENT = "silent"
 
 
 class _Seen(NamedTuple):
-    """A frame that was looked at, as the job tells of it."""
+    """An instant that was looked at, as the job tells of it."""
 
-    recorded: RecordedFrame
+    recorded: RecordedInstant
     progress: CaptureProgress
+    """That of the camera whose wanted view is followed."""
+    absent: list[str]
+    """Sentences on cameras that send nothing."""
 
 
 class LivePage(QWidget):
@@ -88,24 +92,25 @@ class LivePage(QWidget):
 
     pictures_wanted = Signal(list)
     """The pictures in these files are to be calibrated from."""
+    rig_wanted = Signal(str, list)
+    """The rig whose pictures are in this folder is to be calibrated, without those at these
+    instants."""
     left = Signal()
 
     def __init__(self, jobs: Jobs) -> None:
         super().__init__()
         self._jobs = jobs
         self._job: Job | None = None
-        self.session: CaptureSession | None = None
+        self.session: JointSession | None = None
         """The session that looks at the frames; None before the start."""
         self._recorder: Recorder | None = None
-        self._frames: LatestFrames | None = None
+        self._frames: PairedFrames | None = None
         self._has_failed = False
         self._remark = ""
-        """The line that says how the camera is set."""
-        self._shown: object = None
-        """The image that is on the screen."""
+        """The lines that say how the cameras are set."""
         self.folder = Path()
         """The folder that the pictures are written to."""
-        self.view, self.strip, self.figure = LiveView(), TakenStrip(), ProgressFigure(_LIMIT)
+        self.view, self.strip, self.figure = LiveViews(), TakenStrip(), ProgressFigure(_LIMIT)
         self._make_controls()
         self._lay_out()
         self._timer = QTimer(self, interval=_FRAME)
@@ -118,20 +123,14 @@ class LivePage(QWidget):
 
     def offer(self) -> None:
         """Offer to begin, with the cameras that there are now."""
-        named = list_cameras()
-        self.source.clear()
-        for number in named or range(_UNNAMED):
-            name = self.tr("camera {0}").format(number)
-            if number in named:
-                name = f"{name}, {named[number]}"
-            self.source.addItem(name, str(number))
+        self.sources.offer()
         self.folder = _name_folder()
         self._show_folder()
         self.session = self._recorder = None
         self.strip.clear()
         self.strip.hide()
         self.figure.show_progress(None)
-        self.view.clear()
+        self.view.begin([""])
         self.view.show_words(self.tr("Choose a camera, and press Start."))
         self._stack.setCurrentIndex(0)
         self._show_buttons()
@@ -149,16 +148,7 @@ class LivePage(QWidget):
                 self._frames.stop()
 
     def _make_controls(self) -> None:
-        self.source = QComboBox()
-        self.source.setEditable(True)
-        self.source.setInsertPolicy(QComboBox.InsertPolicy.NoInsert)
-        self.source.setAccessibleName(self.tr("Camera"))
-        self.source.setToolTip(
-            self.tr(
-                "A camera at this computer, or the address of one in the network (rtsp://…, "
-                "http://…), or the folder that a camera's program fills"
-            )
-        )
+        self.sources = SourceList()
         self.image_size = QComboBox()
         self.image_size.addItem(self.tr("as the camera has it"), None)
         for width, height in _SIZES:
@@ -198,7 +188,7 @@ class LivePage(QWidget):
             (self.start, self._begin),
             (self.take, self._take),
             (self.finish, self.stop),
-            (self.calibrate, lambda: self.pictures_wanted.emit(self.strip.list_files())),
+            (self.calibrate, self._hand_over),
             (self.go_on, self._go_on),
             (self.leave, self._leave),
         ):
@@ -218,7 +208,7 @@ class LivePage(QWidget):
         rows = QFormLayout(form)
         rows.setContentsMargins(0, 0, 0, 0)
         rows.setRowWrapPolicy(QFormLayout.RowWrapPolicy.WrapAllRows)
-        rows.addRow(self.tr("Camera, address or folder"), self.source)
+        rows.addRow(self.tr("Camera, address or folder"), self.sources)
         rows.addRow(self.tr("Size of its images"), self.image_size)
         wishes = QHBoxLayout()
         for label, wish in ((self.tr("Exposure"), self.exposure), (self.tr("Focus"), self.focus)):
@@ -287,7 +277,8 @@ class LivePage(QWidget):
             self.view.show_words(f"{error.message} {self.tr('Choose another one.')}")
             return
         self.figure.limit = self.limit.value()
-        self.session = CaptureSession(BoardFinder(None, None), DEFAULT_SQUARE, self.figure.limit)
+        finder, count = BoardFinder(None, None), len(self.sources.boxes)
+        self.session = begin_session(count, finder, DEFAULT_SQUARE, self.figure.limit)
         self._recorder = Recorder(self.session, self.folder)
         self.words.setText("")
         self._record()
@@ -296,31 +287,30 @@ class LivePage(QWidget):
         """Take more pictures; of a camera that is known as well as was asked for, more is asked."""
         if (session := self.session) is not None:
             if session.is_complete:
-                session.limit = self.figure.limit = session.worst / 2
+                self.figure.limit = session.worst / 2
+                session.state_limit(self.figure.limit)
             self._record()
 
     def _record(self) -> None:
         """Open the source, and look at its frames beside the window."""
-        recorder, text = self._recorder, self.source.currentText().strip()
-        index = self.source.findText(text)
-        name = self.source.itemData(index) if index >= 0 else text
+        recorder, session, names = self._recorder, self.session, self.sources.list_names()
         assert recorder is not None
+        assert session is not None
 
         wanted = CameraSettings(
             self.image_size.currentData(), _read_wish(self.exposure), _read_wish(self.focus)
         )
 
         def work(job: Job) -> None:
-            source = open_source(name, math.inf, wanted)
-            self._remark = source.remark
-            frames = self._frames = LatestFrames(source)
-            try:
+            with closing(open_cameras(names, math.inf, wanted)) as frames:
+                self._frames, self._remark = frames, frames.remark
                 for recorded in recorder.record(frames, lambda: job.stopping):
-                    job.send(_Seen(recorded, recorder.measure_progress()))
-            finally:
-                frames.close()
+                    progress = recorder.measure_progress(recorded.state.leading)
+                    absent = frames.list_absent()
+                    told = [f"{session.names[c]}: {problem}" for c, problem in absent.items()]
+                    job.send(_Seen(recorded, progress, told))
 
-        self.view.clear()
+        self.view.begin(session.names)
         self.view.show_words(self.tr("Opening…"))
         self.strip.show()
         self._stack.setCurrentIndex(1)
@@ -338,27 +328,28 @@ class LivePage(QWidget):
         self.view.setFocus()
 
     def _show_newest(self) -> None:
-        """Show the newest image, if there is another one."""
-        frame = None if self._frames is None else self._frames.newest
-        if frame is not None and frame is not self._shown:
-            self._shown = frame
-            self.view.show_image(frame.image)
+        """Show the newest images, where there are others."""
+        if self._frames is not None:
+            self.view.show_frames([camera.newest for camera in self._frames.cameras])
 
     def _show_seen(self, seen: _Seen) -> None:
-        state, file = seen.recorded.state, seen.recorded.file
+        state, files = seen.recorded.state, seen.recorded.files
         self.view.show_state(state)
-        self.match.setValue(round(100 * state.match))
-        self.match.setVisible(state.goal is not None)
-        if file is not None and state.taken is not None:
-            self.strip.add(file, state.taken)
+        leading = state.cameras[state.leading]
+        self.match.setValue(round(100 * leading.match) if leading is not None else 0)
+        self.match.setVisible(leading is not None and leading.goal is not None)
+        if files:
+            taken = [picture for picture in state.taken if picture is not None]
+            self.strip.add(files[0], taken[0])
             if self.sound.isChecked():
                 QApplication.beep()
         self.figure.show_progress(seen.progress)
-        self._describe(seen.progress)
+        self._describe(seen)
 
-    def _describe(self, progress: CaptureProgress) -> None:
-        """Say how the camera is set, and how well pictures that were put aside are predicted."""
-        said = [each for each in (self._remark, progress.readout) if each]
+    def _describe(self, seen: _Seen) -> None:
+        """Say how the cameras are set, what is wrong with them, and what they tell by now."""
+        progress = seen.progress
+        said = [each for each in (self._remark, *seen.absent, *progress.remarks) if each]
         if progress.unseen_corners:
             text = self.tr("Pictures put aside are predicted to {0} px rms ({1} corners).").format(
                 format_two_digits(progress.unseen_error), progress.unseen_corners
@@ -378,13 +369,13 @@ class LivePage(QWidget):
         session, self._job, self._frames = self.session, None, None
         self._timer.stop()
         has_failed, self._has_failed = self._has_failed, False
-        if session is None or not session.pictures:
+        if session is None or not session.instants:
             self._stack.setCurrentIndex(0)
             if not has_failed:
                 self.view.show_words(self.tr("Nothing was taken."))
         elif not has_failed:
             self.view.show_words(
-                self.tr("Done: the camera is known well enough.")
+                self.tr("Done: known well enough.")
                 if session.is_complete
                 else self.tr("Stopped. More pictures would help.")
             )
@@ -392,7 +383,7 @@ class LivePage(QWidget):
 
     def _show_buttons(self) -> None:
         running = self.is_running
-        has_pictures = self.session is not None and bool(self.session.pictures)
+        has_pictures = self.session is not None and bool(self.session.instants)
         for button, shown in (
             (self.start, not running and not has_pictures),
             (self.calibrate, not running and has_pictures),
@@ -406,6 +397,14 @@ class LivePage(QWidget):
     def _take(self) -> None:
         if self.is_running and self._recorder is not None:
             self._recorder.ask_for_picture()
+
+    def _hand_over(self) -> None:
+        """Let the pictures be calibrated from."""
+        assert self.session is not None
+        if len(self.session.names) > 1:
+            self.rig_wanted.emit(str(self.folder), self.strip.list_taken_back())
+        else:
+            self.pictures_wanted.emit(self.strip.list_files())
 
     def _toggle(self, file: Path) -> None:
         if self._recorder is not None:

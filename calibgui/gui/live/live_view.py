@@ -22,20 +22,26 @@ _FLASH = 180
 
 
 class LiveView(QWidget):
-    """Shows the newest image as large as there is room for."""
+    """Shows the newest image as large as there is room for.
 
-    def __init__(self) -> None:
+    Args:
+        name: what the camera is called, among several; empty for a single one.
+    """
+
+    def __init__(self, name: str = "") -> None:
         super().__init__()
+        self._name = name
         self._image: QImage | None = None
         self._size = (1, 1)
         """Width and height of the camera's images, px."""
         self._state: CaptureState | None = None
+        self._shows_goal = True
         self._words = ""
         self._flash = QTimer(self, singleShot=True, interval=_FLASH)
         self._flash.timeout.connect(self.update)
         self.setMinimumSize(240, 180)
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Expanding)
-        self.setAccessibleName(self.tr("Live image"))
+        self.setAccessibleName(name or self.tr("Live image"))
 
     def show_image(self, image: GreyImage) -> None:
         """Show an image, grey (h, w) or RGB (h, w, 3), of 8 bits or more."""
@@ -52,11 +58,11 @@ class LiveView(QWidget):
         self._image = QImage(pixels.data, cols, rows, pixels.strides[0], kind).copy()
         self.update()
 
-    def show_state(self, state: CaptureState | None) -> None:
-        """Show where the board is, where it is wanted, and what to do."""
-        self._state = state
-        self._words = "" if state is None else state.instruction
-        self.setAccessibleDescription(self._words)
+    def show_state(self, state: CaptureState | None, words: str, shows_goal: bool) -> None:
+        """Show where the board is, what to do and, if that is about this camera, where it is wanted
+        next."""
+        self._state, self._words, self._shows_goal = state, words, shows_goal
+        self.setAccessibleDescription(words)
         if state is not None and state.taken is not None:
             self._flash.start()
         self.update()
@@ -66,11 +72,6 @@ class LiveView(QWidget):
         self._words = words
         self.setAccessibleDescription(words)
         self.update()
-
-    def clear(self) -> None:
-        """Show nothing."""
-        self._image = None
-        self.show_state(None)
 
     def paintEvent(self, event: QPaintEvent) -> None:  # noqa: N802, ARG002 - Qt's name
         painter = QPainter(self)
@@ -86,8 +87,10 @@ class LiveView(QWidget):
                 painter.setBrush(Qt.BrushStyle.NoBrush)
                 painter.setPen(QPen(QColor("#ffffff"), 10))
                 painter.drawRect(self._place.adjusted(5, 5, -5, -5))
+        if self._name:
+            self._paint_text(painter, self._name, theme.HEADLINE, is_above=True)
         if self._words:
-            self._paint_words(painter)
+            self._paint_text(painter, self._words, _LETTERS, is_above=False)
 
     @property
     def _place(self) -> QRectF:
@@ -104,7 +107,7 @@ class LiveView(QWidget):
     def _paint_marks(self, painter: QPainter, state: CaptureState) -> None:
         painter.save()
         painter.setClipRect(self._place)
-        if state.goal is not None:
+        if state.goal is not None and self._shows_goal:
             self._paint_goal(painter, self._to_screen(state.goal))
         if state.corners is not None:
             uv = self._to_screen(state.corners.uv)
@@ -129,21 +132,26 @@ class LiveView(QWidget):
         painter.setPen(QPen(theme.REGION, 3))
         painter.drawPolygon(_make_polygon(outline))
 
-    def _paint_words(self, painter: QPainter) -> None:
-        """Write what to do at the lower edge, on dark ground."""
-        font = theme.make_font(_LETTERS, bold=True)
+    def _paint_text(self, painter: QPainter, text: str, letters: int, is_above: bool) -> None:
+        """Write a text in the middle of the lower edge, or in the upper left corner, on dark
+        ground."""
+        font = theme.make_font(letters, bold=True)
         metrics = QFontMetricsF(font)
         room = QRectF(self.rect()).adjusted(2 * _MARGIN, _MARGIN, -2 * _MARGIN, -_MARGIN)
         flags = int(Qt.AlignmentFlag.AlignCenter) | int(Qt.TextFlag.TextWordWrap)
-        needed = metrics.boundingRect(room, flags, self._words)
+        needed = metrics.boundingRect(room, flags, text)
         card = QRectF(0, 0, needed.width() + 2 * _MARGIN, needed.height() + _MARGIN)
-        card.moveCenter(QPointF(self.width() / 2, self.height() - _MARGIN - card.height() / 2))
+        if is_above:
+            card.moveTopLeft(QPointF(_MARGIN, _MARGIN))
+        else:
+            middle = self.height() - _MARGIN - card.height() / 2
+            card.moveCenter(QPointF(self.width() / 2, middle))
         painter.setPen(Qt.PenStyle.NoPen)
         painter.setBrush(QColor(0, 0, 0, 170))
         painter.drawRoundedRect(card, theme.RADIUS, theme.RADIUS)
         painter.setFont(font)
         painter.setPen(QColor("#ffffff"))
-        painter.drawText(card, flags, self._words)
+        painter.drawText(card, flags, text)
 
 
 def _make_polygon(uv: Array) -> QPolygonF:

@@ -73,6 +73,10 @@ class TakenStrip(QWidget):
         files = [item.data(Qt.ItemDataRole.UserRole) for item in items]
         return [str(file) for file in files if file not in self._taken_back]
 
+    def list_taken_back(self) -> list[str]:
+        """List the names of the files of the pictures that do not count."""
+        return sorted(file.name for file in self._taken_back)
+
     def clear(self) -> None:
         """Show nothing."""
         self._taken_back.clear()

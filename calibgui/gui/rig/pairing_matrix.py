@@ -2,18 +2,23 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Collection, Mapping
-from statistics import median
+from statistics import fmean, median
 
+import numpy as np
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QColor
 from PySide6.QtWidgets import QAbstractItemView, QHeaderView, QTableWidget, QTableWidgetItem
 
 from calibgui.dataset import CornerSet, RigPairing, RigResult, ViewStatus
+from calibgui.engine.numbers import format_two_digits
 from calibgui.gui.widgets import theme
 
 _WIDTH = 88
 """Least width of a column, device-independent px."""
+_SEEN_AT_ONCE = 2
+"""Number of columns that are seen beside each other."""
 _STRONG, _WEAK = 150, 60
 """Opacity of a cell with three times the usual residuals, and of one where the board was found."""
 
@@ -62,7 +67,7 @@ class PairingMatrix(QTableWidget):
         self.clear()
         self.setRowCount(len(pairing.instants))
         self.setColumnCount(len(pairing.cameras))
-        self.setVerticalHeaderLabels([_shorten(name) for name in pairing.instants.values()])
+        self.setVerticalHeaderLabels(self._label_instants(pairing, result))
         self.setHorizontalHeaderLabels([camera.name for camera in pairing.cameras])
         fits = {} if result is None else {(v.camera, v.instant): v for v in result.rig.views}
         out = set() if result is None else {(v.camera, v.instant) for v in result.rig.left_out}
@@ -89,7 +94,7 @@ class PairingMatrix(QTableWidget):
                     excess = (fit.rms / usual - 1) / 2 if usual else 0.0
                     strength = round(_STRONG * min(max(excess, 0.0), 1.0))
                     self._mark(item, theme.current().warning, strength)
-                    item.setText(self.tr("{0} px").format(f"{fit.rms:.2f}"))
+                    item.setText(self.tr("{0} px").format(format_two_digits(fit.rms)))
                     item.setToolTip(
                         self.tr("{0}: {1} corners, {2} px rms; alone {3} px").format(
                             file, len(fit.residuals), f"{fit.rms:.3f}", f"{fit.alone:.3f}"
@@ -105,6 +110,20 @@ class PairingMatrix(QTableWidget):
         if at[0] >= 0:
             self.setCurrentCell(min(at[0], self.rowCount() - 1), min(at[1], self.columnCount() - 1))
         self.choose(chosen)
+
+    def _label_instants(self, pairing: RigPairing, result: RigResult | None) -> list[str]:
+        """Return the names of the instants; in a rig of more cameras than are seen beside each
+        other, with how well each fits."""
+        labels = {instant: _shorten(name) for instant, name in pairing.instants.items()}
+        if result is not None and len(pairing.cameras) > _SEEN_AT_ONCE:
+            squares: dict[int, list[float]] = {instant: [] for instant in labels}
+            for view in result.rig.views:
+                squares[view.instant] += np.sum(view.residuals**2, axis=1).tolist()
+            for instant, own in squares.items():
+                if own:
+                    fit = self.tr("{0} px").format(format_two_digits(math.sqrt(fmean(own))))
+                    labels[instant] += f"  {fit}"
+        return list(labels.values())
 
     def list_chosen(self) -> Mapping[int, list[int]]:
         """List the instants of the chosen photographs, by the number of the camera."""

@@ -27,7 +27,7 @@ class RigForm(QWidget):
         self.square.setAccessibleName(self.tr("Side of a square"))
         self.within = NumberBox(decimals=1, minimum=0.0, maximum=1e6)
         self.within.setSuffix(self.tr(" ms"))
-        self.within.setSpecialValueText(self.tr("by names"))
+        self.within.setSpecialValueText(self.tr("automatic"))
         self.within.setToolTip(
             self.tr(
                 "Photographs that were taken at most so far apart are of one instant: by their "
@@ -84,5 +84,5 @@ class RigForm(QWidget):
 
     @property
     def tolerance(self) -> float | None:
-        """Largest time between photographs of one instant, s; None to pair by names."""
+        """Largest time between photographs of one instant, s; None to pair by what pairs most."""
         return self.within.value() / 1e3 or None

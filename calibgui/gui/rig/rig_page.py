@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from functools import partial
 from pathlib import Path
 from typing import TypeVar
@@ -22,7 +22,7 @@ from PySide6.QtWidgets import (
 
 from calibgui.app.calibrating.settings import Settings
 from calibgui.app.rig.frames import find_videos
-from calibgui.app.rig.pairing import recall_pairing
+from calibgui.app.rig.pairing import leave_photographs_out, recall_pairing
 from calibgui.dataset import CornerSet, RigPairing, RigResult
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.images import read_colour
@@ -96,14 +96,22 @@ class RigPage(QWidget):
         """Return whether photographs are paired or searched, or a rig is calibrated."""
         return self._job is not None
 
-    def open_folders(self, names: Sequence[str]) -> None:
-        """Pair the photographs of folders, one for each camera or one that holds all, or videos."""
+    def open_folders(self, names: Sequence[str], without: Collection[str] = ()) -> None:
+        """Pair the photographs of folders, one for each camera or one that holds all, or videos.
+
+        Args:
+            names: the folders or videos.
+            without: names of photographs that are left out.
+        """
         if self.is_running:
             return
         self.form.begin()
 
         def done(pairing: RigPairing) -> None:
             self._names = list(names)
+            for c, camera in enumerate(pairing.cameras):
+                left_out = [k for k, file in camera.files.items() if file.name in without]
+                pairing = leave_photographs_out(pairing, c, left_out)
             self._begin(pairing)
 
         self._pair(names, done)

@@ -36,7 +36,7 @@ def pair_names(names: Sequence[str], tolerance: float | None, every: int, job: J
 
     Args:
         names: a folder or a video for each camera, or one folder of all of them.
-        tolerance: largest time between photographs of one instant, s; None to pair by names.
+        tolerance: largest time between photographs of one instant, s; None by what pairs most.
         every: number of frames from one that is taken to the next.
         job: that is told of the progress, and may be stopped.
     """
@@ -79,7 +79,7 @@ def search_and_calibrate(
     found = {name: _state_square(each, square) for name, each in found.items()}
     result = calibrate_photographs(
         pairing,
-        _keep_paired(found, pairing),
+        [_keep_paired(found, pairing)],
         settings,
         estimate_offsets=estimate_offsets,
         tell=lambda name: job.rename(translate("RigPage", "Calibrating {0}").format(name)),

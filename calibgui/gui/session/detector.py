@@ -8,7 +8,8 @@ from pathlib import Path
 
 from PySide6.QtCore import QObject, Signal
 
-from calibgui.app.photographs.detection import Detection, find_views, infer_grid_size, infer_pattern
+from calibgui.app.photographs.detection import Detection, find_views
+from calibgui.app.photographs.shared_board import infer_grid_size, infer_pattern
 from calibgui.app.projects.project import Project, change_views, remove_digests
 from calibgui.dataset import View, ViewStatus, find_orientation
 from calibgui.engine.arrays import Array

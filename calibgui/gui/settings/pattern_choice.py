@@ -249,10 +249,13 @@ class PatternChoice(QWidget):
     def _edit(self) -> None:
         pattern = KINDS[self.kind.currentData()]
         try:
-            if isinstance(pattern, Charuco) and pattern.kind == self._pattern.kind:
+            if isinstance(pattern, Charuco) and isinstance(self._pattern, Charuco):
                 marker = self.marker.value() / self._side
                 pattern = Charuco(
-                    self.dictionary.currentData(), marker or None, self.layout_used.currentData()
+                    self.dictionary.currentData(),
+                    marker or None,
+                    self.layout_used.currentData(),
+                    self._pattern.first_marker,
                 )
             if (
                 isinstance(self._pattern, Circles | ListedCircles)

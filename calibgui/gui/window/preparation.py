@@ -91,7 +91,6 @@ def _load_ahead() -> bool:
 _NEEDED_SOON = (
     "calibgui.engine.detection.find_corners",
     "calibgui.engine.redetection.redetect_corners",
-    "scipy.stats",
     "calibgui.gui.panels.analysis",
 )
 """Modules that are imported beside the main thread once the window is open."""

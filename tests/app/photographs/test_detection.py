@@ -11,8 +11,9 @@ import numpy as np
 import pytest
 
 from calibgui.app.photographs import detection
-from calibgui.app.photographs.detection import Detection, find_views, infer_grid_size, search_view
+from calibgui.app.photographs.detection import Detection, find_views, search_view
 from calibgui.app.photographs.paths import find_images
+from calibgui.app.photographs.shared_board import infer_grid_size
 from calibgui.app.system import workers
 from calibgui.dataset import View, ViewStatus
 from calibgui.engine.arrays import GridSize, freeze_array

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 from PIL import Image
 
+from calibgui.app.rig.camera_names import find_named_cameras
 from calibgui.app.rig.pairing import pair_photographs
 from calibgui.app.rig.time_pairing import pair_by_times
 from calibgui.dataset import RigPairing
@@ -109,6 +111,58 @@ def test_names_with_nanoseconds_pair_by_time(tmp_path: Path) -> None:
     assert "by their times, which are at most 11 ms apart: 4 instants" in describe_pairing(pairing)
     first = pairing.cameras[1]
     assert [round(first.times[file], 3) for file in first.files.values()][:2] == [0.011, 0.411]
+
+
+def stamp(instant: int, camera: int) -> int:
+    """Nanoseconds since 1970, as of ROS, 3 ms later in each further camera."""
+    return 1403636579763555584 + (400 * instant + 3 * camera) * 10**6 + 12345 * (instant % 7)
+
+
+@pytest.mark.parametrize(
+    ("write", "cameras"),
+    [
+        (lambda k, c: f"cam{c}_{stamp(k, c)}.png", "cam0 cam1"),
+        (lambda k, c: f"{stamp(k, c)}_{('left', 'right')[c]}.png", "left right"),
+        (lambda k, c: f"image_{c}_{1623 + 0.4 * k + 0.003 * c:.6f}.png", "image0 image1"),
+        (lambda k, c: f"image_{c}_{1623 + 0.5 * k:.6f}.png", "image0 image1"),
+        (lambda k, c: f"_rig_{'ab'[c]}_image_raw_{stamp(k, c) / 1e9:.6f}.png", "a b"),
+        (lambda k, c: f"infra{c + 1}_image_rect_{stamp(k, c) // 1000}.png", "infra1 infra2"),
+        (lambda k, c: f"cam_{c}_{stamp(k, c) // 10**9}_{stamp(k, c) % 10**9:09d}.png", "cam0 cam1"),
+        (lambda k, c: f"cam{c}_{'xy'[c]}_{k:04d}_{stamp(k, c)}.png", "cam0 cam1"),
+        (lambda k, c: f"2130456{c}-{stamp(k, c)}.png", "21304560 21304561"),
+        (lambda k, c: f"2023-06-12-10-15-{2 * k:02d}-{300 + 7 * c}_cam{c}.png", "cam0 cam1"),
+        (lambda k, c: f"{('left', 'right')[c]}-{k:04d}.png", "left right"),
+        (lambda k, c: f"frame{k:06d}_cam{c}.jpg", "cam0 cam1"),
+    ],
+)
+def test_names_of_recorders_single_the_cameras_out(
+    tmp_path: Path, write: Callable[[int, int], str], cameras: str
+) -> None:
+    names = {camera: [write(k, c) for k in range(1, 9)] for c, camera in enumerate(cameras.split())}
+    make_files(tmp_path, *(name for own in names.values() for name in own))
+    pairing = pair_photographs([str(tmp_path)])
+    assert list_pairs(pairing) == names
+    assert len(pairing.shared) == 8 and not pairing.left_over
+    assert list(find_named_cameras([str(tmp_path)])) == cameras.split()
+
+
+@pytest.mark.parametrize(
+    "names",
+    [
+        [f"{stamp(k, 0)}.png" for k in range(8)],
+        [f"cam0_{stamp(k, 0)}.png" for k in range(8)],
+        [f"IMG_20230612_1015{2 * k:02d}.jpg" for k in range(8)],
+        [f"frame{k:06d}.png" for k in range(8)],
+        [f"{where} {k}.jpg" for where in ("near", "far") for k in range(8)],
+        [f"run{run}_{stamp(k + 20 * run, 0)}.png" for run in range(2) for k in range(8)],
+        [f"DSC_{k:04d}{copy}.jpg" for k in range(4) for copy in ("", " copy")],
+    ],
+)
+def test_names_of_one_camera_are_not_taken_for_those_of_several(
+    tmp_path: Path, names: list[str]
+) -> None:
+    make_files(tmp_path, *names)
+    assert not find_named_cameras([str(tmp_path)])
 
 
 def test_a_tolerance_parts_what_is_too_far(tmp_path: Path) -> None:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 import numpy as np
 import pytest
 
@@ -11,7 +13,10 @@ from calibgui.engine.calibration.board_poses import locate_board
 from calibgui.engine.camera.camera import Camera
 from calibgui.engine.camera.distortion import project_points
 from calibgui.engine.capture.row_readout import RowReadout
+from calibgui.engine.capture.session import CaptureSession
+from calibgui.engine.detection.find_corners import find_corners
 from calibgui.engine.geometry.pose import Pose
+from tests.scenes.hand import Film, Walk, spread_places
 
 CAMERA = Camera((640, 480), [600, 600, 317, 243, -0.1, 0.02, 0, 0, 0], "brown-conrady")
 BOARD = Board(7, 10, 25.0)
@@ -63,3 +68,24 @@ def test_a_board_at_rest_tells_nothing() -> None:
     for _ in range(3):
         found.add_frame(CAMERA, pose, XY, project_points(XY, CAMERA, pose), np.zeros((len(XY), 2)))
     assert found.describe() == ""
+
+
+@pytest.mark.parametrize("readout", [0.025, -0.025, 0.0])
+def test_a_rendered_film_tells_it_from_the_tracked_motion(readout: float) -> None:
+    camera = Camera((320, 240), [300, 300, 157, 122, -0.2, 0.05, 0, 0, 0], "brown-conrady")
+    board = Board(6, 8, 20.0)
+    places = spread_places(board, 9, np.array([0.0, 0.0, 330.0]))
+    film = Film(camera, board)
+    session = CaptureSession(lambda image: find_corners(image, board.grid_size), 20.0, 1e-3)
+    for pose in places[:6]:
+        assert session.take(film.take(pose)) is not None
+    walk = Walk(places[6:], hold=0.0, move=2.0)
+    for k in range(14):
+        session.observe(film.roll(walk, 0.21 * k, readout), is_live=False)
+    said = session.describe_readout()
+    if not readout:
+        assert said == ""
+    else:
+        found = re.match(r"Rolling shutter: rows are read over (\d+) ± (\d+) ms", said)
+        assert found, said
+        assert abs(float(found[1]) - 25) <= 2 * float(found[2]) + 1

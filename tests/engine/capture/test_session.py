@@ -113,6 +113,29 @@ def test_a_part_whose_place_on_the_board_is_open_is_not_taken(film: Film) -> Non
     assert not session.pictures
 
 
+def test_a_picture_that_contradicts_the_others_is_refused(film: Film) -> None:
+    """A board that is counted in a mirror fits no camera together with the others."""
+    is_mirrored = [False, False, True]
+
+    def find(image: GreyImage) -> Corners:
+        corners = _find(image)
+        if is_mirrored.pop(0):
+            grid = np.array([0, BOARD.cols - 1]) + corners.grid * [1, -1]
+            corners = replace(corners, grid=grid)
+        return corners
+
+    session = CaptureSession(find, BOARD.square, limit=0.08)
+    tilted = Pose([0.6, 0.1, 0.1], [-70, -45, 280])
+    other = Pose([-0.6, 0.2, 0.0], [-75, -55, 330])
+    assert session.take(film.take(FIRST)) is not None
+    assert session.take(film.take(tilted)) is not None
+    state = session.examine(film.take(other))
+    assert state.taken is None
+    assert state.instruction.startswith("It contradicts the pictures")
+    assert len(session.pictures) == 2
+    assert session.calibration is not None
+
+
 def test_no_board_is_said(session: CaptureSession) -> None:
     state = session.observe(Frame(np.full((240, 320), 128, np.uint8), 0.0))
     assert state.corners is None

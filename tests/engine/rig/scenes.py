@@ -8,12 +8,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from calibgui.engine.arrays import Size
+from calibgui.engine.arrays import Array, Size
 from calibgui.engine.boards.board import Board
 from calibgui.engine.calibration.observations import Observation
 from calibgui.engine.camera.camera import Camera
-from calibgui.engine.camera.distortion import project_points
-from calibgui.engine.camera.projection import rays_from_pixels
+from calibgui.engine.camera.projection import pixels_from_rays, rays_from_pixels
 from calibgui.engine.geometry.pose import Pose
 from calibgui.engine.geometry.rotations import rotation_from_vector, vector_from_rotation
 from calibgui.engine.rig.records import RigCamera
@@ -67,13 +66,18 @@ def invert(pose: Pose) -> Pose:
     return Pose(-pose.rvec, -R @ pose.tvec)
 
 
-def photograph_board(camera: Camera, pose: Pose, min_corners: int = 12) -> Observation | None:
-    """What a camera sees of the board, in part or whole; None if too little."""
+def photograph_board(
+    camera: Camera, pose: Pose, min_corners: int = 12, deviation: Array | None = None
+) -> Observation | None:
+    """What a camera sees of the board, in part or whole; None if too little. Its corners may
+    deviate from the drawing by (n, 3) mm."""
     xy = BOARD.points()
     R = rotation_from_vector(pose.rvec)
     X = xy @ R[:, :2].T + pose.tvec
+    if deviation is not None:
+        X = X + deviation @ R.T
     with np.errstate(all="ignore"):
-        uv = project_points(xy, camera, pose)
+        uv = pixels_from_rays(X, camera)
     width, height = camera.size
     inside = (uv > 5).all(axis=1) & (uv < [width - 6, height - 6]).all(axis=1)
     rays = rays_from_pixels(uv, camera)  # others than seen where the lens folds over
@@ -152,3 +156,11 @@ def measure_pose_error(found: Sequence[Pose], true: Sequence[Pose]) -> tuple[flo
     ]
     moves = [np.linalg.norm(f.tvec - t.tvec) for f, t in zip(found, true, strict=True)]
     return float(max(turns)), float(max(moves))
+
+
+def check_honest(found: Array, reported: Array, draws: int) -> None:
+    """Check that reported standard deviations (draws, n) are the scatter (n) of what is found."""
+    ratio = np.median(reported, axis=0) / found.std(axis=0, ddof=1)
+    margin = 4 / np.sqrt(2 * draws)
+    assert (np.abs(ratio - 1) < margin).all(), ratio
+    assert abs(ratio.mean() - 1) < 0.1, ratio

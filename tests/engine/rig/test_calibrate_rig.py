@@ -18,6 +18,7 @@ from tests.engine.rig.scenes import (
     BOARD,
     LENSES,
     RigScene,
+    check_honest,
     compose,
     disturb,
     make_rig,
@@ -82,14 +83,6 @@ def take_instants(camera: RigCamera, half: int) -> RigCamera:
 def draw_rigs(scene: RigScene, draws: int, sigma: float) -> list[Rig]:
     rng = np.random.default_rng(5)
     return [calibrate_rig(scene.noisy(sigma, rng)) for _ in range(draws)]
-
-
-def check_honest(found: Array, reported: Array, draws: int) -> None:
-    """Check that reported standard deviations (draws, n) are the scatter (n) of what is found."""
-    ratio = np.median(reported, axis=0) / found.std(axis=0, ddof=1)
-    margin = 4 / np.sqrt(2 * draws)
-    assert (np.abs(ratio - 1) < margin).all(), ratio
-    assert abs(ratio.mean() - 1) < 0.1, ratio
 
 
 @pytest.mark.slow

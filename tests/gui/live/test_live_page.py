@@ -11,16 +11,16 @@ import pytest
 from PySide6.QtCore import Qt
 from pytestqt.qtbot import QtBot
 
+from calibgui.app.photographs import recording
 from calibgui.dataset import ViewStatus
 from calibgui.engine.boards import Board
 from calibgui.engine.camera.camera import Camera
 from calibgui.engine.capture import CameraSettings, Frame, FrameSource
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.geometry.pose import Pose
-from calibgui.gui.live import live_page
 from calibgui.gui.live.live_page import LivePage
 from calibgui.gui.window.main_window import MainWindow
-from tests.scenes.hand import Film, follow, shake
+from tests.scenes.hand import Film, RenderedCamera, Walk, follow, shake, spread_places
 
 CAMERA = Camera((320, 240), [300, 300, 157, 122, -0.2, 0.05, 0, 0, 0], "brown-conrady")
 BOARD = Board(6, 8, 20.0)
@@ -59,8 +59,9 @@ class Hand:
             for _ in range(STILL):
                 yield pose
             session = None if self.page is None else self.page.session
-            if session is not None and session.goal is not None:
-                pose = shake(follow(session.goal, CAMERA, BOARD), BOARD, self._rng, 10, 3)
+            goal = None if session is None else session.cameras[0].goal
+            if goal is not None:
+                pose = shake(follow(goal, CAMERA, BOARD), BOARD, self._rng, 10, 3)
 
 
 class Page:
@@ -86,7 +87,7 @@ def live(window: MainWindow, qtbot: QtBot, tmp_path: Path, monkeypatch: pytest.M
         hand.is_open, hand.wanted = True, wanted
         return hand
 
-    monkeypatch.setattr(live_page, "open_source", open_hand)
+    monkeypatch.setattr(recording, "open_source", open_hand)
     qtbot.mouseClick(window.welcome.buttons[1], LEFT)
     assert window.own_pages.live is not None
     assert window.pages.currentWidget() is window.own_pages.live
@@ -145,12 +146,12 @@ def test_a_picture_taken_back_no_longer_counts(live: Page, qtbot: QtBot) -> None
     live.click("start")
     live.wait(lambda: page.strip.list.count() >= 2)
     assert page.session is not None
-    first = page.session.pictures[0]
+    first = page.session.cameras[0].pictures[0]
     page.strip.list.setCurrentRow(page.strip.list.count() - 1)
     qtbot.mouseClick(page.strip.toggle, LEFT)
-    live.wait(lambda: page.session is not None and first not in page.session.pictures)
+    live.wait(lambda: page.session is not None and first not in page.session.cameras[0].pictures)
     qtbot.mouseClick(page.strip.toggle, LEFT)
-    live.wait(lambda: page.session is not None and first in page.session.pictures)
+    live.wait(lambda: page.session is not None and first in page.session.cameras[0].pictures)
 
 
 def test_a_camera_that_dies_costs_nothing_that_was_taken(live: Page) -> None:
@@ -178,8 +179,58 @@ def test_a_camera_that_is_not_there_is_said(window: MainWindow, qtbot: QtBot) ->
     window.own_pages.photograph_live()
     page = window.own_pages.live
     assert page is not None
-    page.source.setEditText("97")
+    page.sources.boxes[0].setEditText("97")
     qtbot.mouseClick(page.start, LEFT)
     qtbot.waitUntil(lambda: not page.is_running, timeout=30_000)
     assert "camera 97 cannot be opened. Check" in page.view.accessibleDescription()
     assert page.start.isVisible()
+
+
+def test_two_cameras_take_their_pictures_together_and_become_a_rig(
+    window: MainWindow, qtbot: QtBot, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    poses = {"0": Pose([0, 0, 0], [0, 0, 0]), "1": Pose([0.01, -0.12, 0.0], [-60.0, 1.0, 6.0])}
+    walk = Walk(spread_places(BOARD, 5, np.array([30.0, 0.0, 330.0])), hold=0.4, move=0.0)
+
+    def open_rendered(name: str, _: float, __: CameraSettings) -> FrameSource:
+        return RenderedCamera(CAMERA, poses[name], BOARD, walk)
+
+    monkeypatch.setattr(recording, "open_source", open_rendered)
+    window.own_pages.photograph_live()
+    page = window.own_pages.live
+    assert page is not None
+    page.folder = tmp_path / "live"
+    qtbot.mouseClick(page.sources.add, LEFT)
+    assert page.sources.list_names() == ["0", "1"]
+    qtbot.mouseClick(page.start, LEFT)
+    qtbot.waitUntil(lambda: page.strip.list.count() >= 3, timeout=60_000)
+    assert len(page.view.views) == 2
+    assert all(view.isVisible() and view._image is not None for view in page.view.views)
+    assert "cam0 and cam1: " in page.words.text()
+    qtbot.mouseClick(page.finish, LEFT)
+    qtbot.waitUntil(lambda: not page.is_running, timeout=30_000)
+    count = page.strip.list.count()
+    page.strip.list.setCurrentRow(0)
+    qtbot.mouseClick(page.strip.toggle, LEFT)
+    qtbot.mouseClick(page.calibrate, LEFT)
+    rig = window.own_pages.rig
+    assert rig is not None
+    assert window.pages.currentWidget() is rig
+    qtbot.waitUntil(lambda: rig.pairing is not None, timeout=30_000)
+    assert rig.pairing is not None
+    assert [camera.name for camera in rig.pairing.cameras] == ["cam0", "cam1"]
+    assert len(rig.pairing.shared) == count - 1
+
+
+def test_cameras_are_added_and_removed(window: MainWindow, qtbot: QtBot) -> None:
+    window.own_pages.photograph_live()
+    page = window.own_pages.live
+    assert page is not None
+    for _ in range(5):
+        qtbot.mouseClick(page.sources.add, LEFT)
+    assert len(page.sources.boxes) == 4
+    assert not page.sources.add.isEnabled()
+    for _ in range(3):
+        qtbot.mouseClick(page.sources.remove, LEFT)
+    assert len(page.sources.boxes) == 1
+    assert not page.sources.remove.isVisible()

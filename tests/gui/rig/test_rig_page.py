@@ -178,6 +178,29 @@ def test_folders_that_are_dropped_may_be_of_several_cameras(
     assert window.pages.currentWidget() is page
 
 
+def test_one_folder_that_mixes_cameras_is_dropped(
+    window: MainWindow, drawn: Path, tmp_path: Path, qtbot: QtBot
+) -> None:
+    """Names single the cameras out: nothing is asked. Other ways to add it tell so."""
+    for c, side in enumerate(("left", "right")):
+        for k in range(INSTANTS):
+            stamp = 1403636579763555584 + (500 * k + 4 * c) * 10**6
+            shutil.copy(drawn / side / f"{k + 1}.png", tmp_path / f"image_{c}_{stamp}.png")
+    drop(window, tmp_path)
+    page = window.own_pages.rig
+    assert page is not None
+    qtbot.waitUntil(lambda: page.pairing is not None and not page.is_running)
+    assert page.pairing is not None
+    assert [camera.name for camera in page.pairing.cameras] == ["image0", "image1"]
+    assert page.matrix.rowCount() == INSTANTS
+    qtbot.mouseClick(page.leave, LEFT_BUTTON)
+    with qtbot.waitSignal(window.session.notified) as told:
+        window.files.open_paths([str(tmp_path)])
+    assert "several cameras: image0 (8), image1 (8)" in told.args[0]
+    drop(window, drawn / "left")
+    assert window.pages.currentWidget() is not page
+
+
 def test_videos_that_are_dropped_are_cameras(
     window: MainWindow, drawn: Path, tmp_path: Path, qtbot: QtBot, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -54,7 +54,10 @@ from calibgui.engine.assessment.residuals.cause_fits import (
     fit_own_cause,
 )
 from calibgui.engine.assessment.residuals.residual_causes import CAUSES, Family, list_tests
-from calibgui.engine.assessment.residuals.residual_statistics import summarise_residuals
+from calibgui.engine.assessment.residuals.residual_statistics import (
+    compute_kurtosis_chance,
+    summarise_residuals,
+)
 from calibgui.engine.assessment.residuals.systematic_errors import (
     make_cubic_displacements,
     prepare_fit,
@@ -272,9 +275,7 @@ def _check_shape(residual: Array, sigma: Array, seen: BoolArray) -> NoiseCheck:
     over = square / np.minimum(sigma**2, _MAX_RMS_OVER_MEDIAN**2 * median)[:, None]
     far = seen & (over > _MAX_LENGTH_IN_SIGMA**2 * np.median(over[seen]) / (2 * np.log(2)))
     harmless = excess > 0 and not far.any()
-    passed = harmless or bool(
-        scipy.stats.kurtosistest(relative.ravel()).pvalue >= _MAX_FALSE_ALARM_RATE
-    )
+    passed = harmless or compute_kurtosis_chance(relative.ravel()) >= _MAX_FALSE_ALARM_RATE
     return NoiseCheck(
         "shape",
         passed,

@@ -14,6 +14,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+import scipy
 
 from calibgui.engine.arrays import Array, freeze
 from calibgui.engine.calibration.result import Calibration, ViewResiduals
@@ -173,3 +174,22 @@ def stack_residuals(calibration: Calibration, on_reference: bool) -> Array:
     return np.concatenate(
         [view.reference if on_reference else view.image for view in calibration.residuals]
     )
+
+
+def compute_kurtosis_chance(values: Array) -> float:
+    """Return the chance that as many Gaussian values as these (n,) have a fourth moment farther
+    from that of a Gaussian, either way (Anscombe and Glynn, Biometrika 70, 1983, 227-234).
+
+    ``scipy.stats.kurtosistest`` says the same. To import that package takes longer than to judge a
+    calibration, and nothing else that calibrates needs it.
+    """
+    n, off = values.size, values - values.mean()
+    kurtosis = float(np.mean(off**4) / np.mean(off**2) ** 2)
+    variance = 24.0 * n * (n - 2) * (n - 3) / ((n + 1) ** 2 * (n + 3) * (n + 5))
+    standardised = (kurtosis - 3.0 * (n - 1) / (n + 1)) / np.sqrt(variance)
+    skewness = 6.0 * (n * n - 5 * n + 2) / ((n + 7) * (n + 9))
+    skewness *= np.sqrt(6.0 * (n + 3) * (n + 5) / (n * (n - 2) * (n - 3)))
+    a = 6 + 8 / skewness * (2 / skewness + np.sqrt(1 + 4 / skewness**2))
+    root = np.cbrt((1 - 2 / a) / (1 + standardised * np.sqrt(2 / (a - 4))))
+    z = (1 - 2 / (9 * a) - root) / np.sqrt(2 / (9 * a))
+    return float(2 * scipy.special.ndtr(-abs(z)))

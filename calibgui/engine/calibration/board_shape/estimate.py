@@ -62,12 +62,12 @@ _MIN_VIEWS = {BoardShapeModel.AFFINE: 3, BoardShapeModel.BOW: 3, BoardShapeModel
 """Number of views below which a model without a prior follows the noise and is refused."""
 _MIN_VIEWS_OF_CORNER = 4
 """Number of views that must show every corner of a free board without a prior."""
-_SOLVES = 3
+SOLVES = 3
 """Number of solves where a prior or covariances are given; the noise hardly changes after them."""
 _GAUGE_STIFFNESS = 1e4
 """Factor kappa of the gauge (``parametrisation.py``). A prior pulls at the scale of a board that
 deviates by its square, which leaves a net scale of 1e-9 of the board or less with this factor."""
-_MIN_INFORMATION = 1e-9
+MIN_INFORMATION = 1e-9
 """Information left (``covariances.invert_information``) below which a shape is undetermined."""
 
 
@@ -101,35 +101,24 @@ def fit_board_shape(
         CalibrationError: if the views cannot determine the shape; the message says why.
     """
     points, index = index_board_points(observations)
-    check_views(observations, index, len(points), shape, prior)
-    deviations = allow_deviations(shape, points, index, variances)
+    shown = np.bincount(index[observations.mask > 0], minlength=len(points))
+    check_views(len(index), shown, shape, prior)
+    deviations = allow_deviations(shape, points, variances)
     B, G, P = deviations.B, deviations.G, len(free)
     is_relearnt = prior is None and bool(deviations.precision.any())
-    joint = _solve_jointly(nominal, observations, model, free, deviations, is_relearnt, report)
+    joint = _solve_jointly(
+        nominal, observations, index, model, free, deviations, is_relearnt, report
+    )
     reduced = eliminate_poses(joint.solution.normal)
     inverse = covariances.invert_information(reduced)[0]
     by_views = inverse
     if prior is None:  # a shape is what the views show: without its prior they must determine it
         by_views, left = covariances.invert_information(_forget_prior(reduced, joint, G))
-        if left < _MIN_INFORMATION:
-            raise CalibrationError(
-                f"These views do not determine the board's shape ({shape.value}).",
-                "Add views tilted in different directions that show the whole board, "
-                "state a prior, or keep the board as it is drawn.",
-            )
-    covariance = _remove_gauge(joint.sigma2 * inverse, G, P)
+        if left < MIN_INFORMATION:
+            raise refuse_undetermined(shape)
+    covariance = remove_gauge(joint.sigma2 * inverse, G, slice(P, None))
     camera, of_shape = covariance[:P, :P], covariance[P:, P:]
     motion = np.linalg.solve(camera, covariance[:P, P:]).T
-    flat = B.reshape(-1, B.shape[2])
-    is_free = len(flat) == len(of_shape)  # its basis is the identity
-    of_corners = of_shape if is_free else flat @ of_shape @ flat.T
-    fitted = BoardShape(
-        shape,
-        points,
-        joint.deviation,
-        np.sqrt(np.maximum(of_corners.diagonal(), 0.0)).reshape(-1, 3),
-        project_covariance(points, of_corners),
-    )
     estimate = Estimate(
         solution=joint.solution,
         state=joint.state,
@@ -138,7 +127,7 @@ def fit_board_shape(
         camera_covariance=camera,
         pose_covariances=covariances.compute_pose_covariances(reduced, covariance, joint.sigma2),
         noise_covariance=camera,
-        board_shape=fitted,
+        board_shape=deviations.describe(joint.deviation, of_shape),
         shape_unknowns=joint.unknowns,
         board_motion=BoardMotion(B @ motion, index),
     )
@@ -148,10 +137,10 @@ def fit_board_shape(
 class AllowedDeviations(NamedTuple):
     """The deviations that are allowed (``parametrisation.py``), and what holds them."""
 
+    shape: BoardShapeModel
+    """The model of the board's shape that allows them."""
     points: Array
     """(n, 2) the board's corners, mm."""
-    corner: IntArray
-    """(K, N) index among these of each observation."""
     B: Array
     """(n, 3, Q) basis of the deviations."""
     G: Array
@@ -167,27 +156,37 @@ class AllowedDeviations(NamedTuple):
         """
         return sigma2 * self.precision + _GAUGE_STIFFNESS * self.G @ self.G.T
 
+    def describe(self, deviation: Array, covariance: Array) -> BoardShape:
+        """Return the shape of deviations (n, 3), mm, of coefficients of a covariance (Q, Q)."""
+        flat = self.B.reshape(-1, self.B.shape[2])
+        is_free = len(flat) == len(covariance)  # its basis is the identity
+        of_corners = covariance if is_free else flat @ covariance @ flat.T
+        return BoardShape(
+            self.shape,
+            self.points,
+            deviation,
+            np.sqrt(np.maximum(of_corners.diagonal(), 0.0)).reshape(-1, 3),
+            project_covariance(self.points, of_corners),
+        )
 
-def allow_deviations(
-    shape: BoardShapeModel, points: Array, index: IntArray, variances: Array
-) -> AllowedDeviations:
+
+def allow_deviations(shape: BoardShapeModel, points: Array, variances: Array) -> AllowedDeviations:
     """Make the deviations that a model of the board's shape allows.
 
     Args:
         shape: the model.
         points: (n, 2) the board's corners, mm.
-        index: (K, N) index among these of each observation.
         variances: (3,) variances of a free board's deviations by kind, mm^2.
     """
     B = make_basis(shape, points)
     Q = B.shape[2]
     if shape is not BoardShapeModel.FREE:
-        return AllowedDeviations(points, index, B, np.zeros((Q, 0)), np.zeros((Q, Q)))
+        return AllowedDeviations(shape, points, B, np.zeros((Q, 0)), np.zeros((Q, Q)))
     G, (flat, true) = make_gauge(points), split_by_kind(make_deviations(points))
     of_flatness, of_print, of_others = 1 / variances
     precision = of_others * (np.eye(Q) - G @ G.T)
     precision += (of_flatness - of_others) * flat @ flat.T + (of_print - of_others) * true @ true.T
-    return AllowedDeviations(points, index, B, G, precision)
+    return AllowedDeviations(shape, points, B, G, precision)
 
 
 def recall_variances(shape: BoardShape) -> Array:
@@ -201,7 +200,7 @@ def recall_variances(shape: BoardShape) -> Array:
     return _average_squares(total, sums, [B.shape[1] for B in bases], d.size)
 
 
-def _relearn_variances(points: Array, q: Array, covariance: Array) -> Array:
+def relearn_variances(points: Array, q: Array, covariance: Array) -> Array:
     """Return the variances (3,) of a free board's deviations, mm^2, after a step of
     expectation-maximisation (``deviation_variances.py``) from corners q (Q,) of that covariance."""
     bases = split_by_kind(make_deviations(points))
@@ -215,7 +214,8 @@ def _average_squares(total: float, sums: list[float], counts: list[int], size: i
     and of all."""
     others = max(size - 7 - sum(counts), 1)
     found = [each / max(count, 1) for each, count in zip(sums, counts, strict=True)]
-    smallest = np.finfo(float).tiny ** 0.25
+    # The sum of the others is a difference, and no smaller than rounding leaves it.
+    smallest = max(np.finfo(float).tiny ** 0.25, np.finfo(float).eps * total / size)
     return np.maximum([*found, (total - sum(sums)) / others], smallest)
 
 
@@ -240,6 +240,7 @@ class _JointSolution(NamedTuple):
 def _solve_jointly(
     nominal: Solution,
     observations: Observations,
+    index: IntArray,
     model: str,
     free: IntArray,
     deviations: AllowedDeviations,
@@ -258,10 +259,11 @@ def _solve_jointly(
     start = nominal.state._replace(params=np.append(nominal.state.params, np.zeros(Q)))
     solution = nominal._replace(state=start)
     is_solved_once = not deviations.precision.any() and observations.cov is None
-    for _ in range(1 if is_solved_once else _SOLVES):
+    points, B = deviations.points, deviations.B
+    for _ in range(1 if is_solved_once else SOLVES):
         stiffness = deviations.make_stiffness(sigma2)
         solution = minimise(
-            make_board_shape_problem(observations, model, free, *deviations[:3], stiffness),
+            make_board_shape_problem(observations, model, free, points, index, B, stiffness),
             solution.state,
             np.append(free, P + np.arange(Q)),
             observations.count,
@@ -271,10 +273,8 @@ def _solve_jointly(
         )
         q = solution.state.params[P:]
         state = solution.state._replace(params=solution.state.params[:P])
-        deviation = deviations.B @ q
-        displaced = displace_board_points(
-            observations, deviations.points, deviations.corner, deviation
-        )
+        deviation = B @ q
+        displaced = displace_board_points(observations, points, index, deviation)
         inverse = covariances.invert_information(eliminate_poses(solution.normal))[0]
         unknowns = Q - float(np.sum(inverse[-Q:, -Q:] * stiffness))
         if observations.cov is not None:
@@ -285,10 +285,8 @@ def _solve_jointly(
         cost = solution.normal.cost - float(q @ stiffness @ q)
         sigma2 = covariances.estimate_variance(cost, observations.count, known + unknowns)
         if is_relearnt and np.isfinite(sigma2):
-            learnt = _relearn_variances(deviations.points, q, sigma2 * inverse[-Q:, -Q:])
-            deviations = allow_deviations(
-                BoardShapeModel.FREE, deviations.points, deviations.corner, learnt
-            )
+            learnt = relearn_variances(points, q, sigma2 * inverse[-Q:, -Q:])
+            deviations = allow_deviations(BoardShapeModel.FREE, points, learnt)
     return _JointSolution(solution, state, displaced, deviation, sigma2, unknowns, stiffness)
 
 
@@ -302,35 +300,49 @@ def _forget_prior(reduced: Reduced, joint: _JointSolution, G: Array) -> Reduced:
 
 
 def check_views(
-    observations: Observations,
-    index: IntArray,
-    count: int,
-    shape: BoardShapeModel,
-    prior: BoardShapePrior | None,
+    views: int, shown: IntArray, shape: BoardShapeModel, prior: BoardShapePrior | None
 ) -> None:
-    """Refuse views that are too few for a model of the board's shape."""
-    K = len(observations.mask)
-    if prior is None and _MIN_VIEWS[shape] > K:
+    """Refuse views that are too few for a model of the board's shape.
+
+    Args:
+        views: number of views.
+        shown: (n,) number of views that show each of the board's corners.
+        shape: the model.
+        prior: what is known beforehand of the corners of a free board.
+
+    Raises:
+        CalibrationError: if they are.
+    """
+    if prior is None and _MIN_VIEWS[shape] > views:
         raise CalibrationError(
-            f"{K} views cannot carry the board shape {shape.value!r}, which needs "
+            f"{views} views cannot carry the board shape {shape.value!r}, which needs "
             f"{_MIN_VIEWS[shape]}.",
             "Add views, or keep the board as it is drawn.",
         )
     if shape is not BoardShapeModel.FREE or prior is not None:
         return
-    seen = np.bincount(index[observations.mask > 0], minlength=count)
-    if (rare := int((seen < _MIN_VIEWS_OF_CORNER).sum())) > 0:
+    if (rare := int((shown < _MIN_VIEWS_OF_CORNER).sum())) > 0:
         raise CalibrationError(
-            f"{rare} of the board's {count} corners are seen in fewer than "
+            f"{rare} of the board's {len(shown)} corners are seen in fewer than "
             f"{_MIN_VIEWS_OF_CORNER} views.",
             "A free board shape needs every corner in several views: add views of those parts, "
             "state a prior, or use the board shapes affine or bow.",
         )
 
 
-def _remove_gauge(covariance: Array, G: Array, P: int) -> Array:
-    """Remove the directions of the gauge, which are fixed by definition, from a covariance."""
+def refuse_undetermined(shape: BoardShapeModel) -> CalibrationError:
+    """Return the error that views do not determine a board's shape."""
+    return CalibrationError(
+        f"These views do not determine the board's shape ({shape.value}).",
+        "Add views tilted in different directions that show the whole board, "
+        "state a prior, or keep the board as it is drawn.",
+    )
+
+
+def remove_gauge(covariance: Array, G: Array, place: slice) -> Array:
+    """Remove the directions of the gauge G (Q, 7), which are fixed by definition, from the
+    coefficients at a place in a covariance."""
     left = covariance.copy()
-    left[P:] -= G @ (G.T @ left[P:])
-    left[:, P:] -= (left[:, P:] @ G) @ G.T
+    left[place] -= G @ (G.T @ left[place])
+    left[:, place] -= (left[:, place] @ G) @ G.T
     return left

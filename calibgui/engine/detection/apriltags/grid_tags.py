@@ -277,6 +277,8 @@ def _identify_tags(
     clockwise = (np.arange(4) + tags.turns[:, None]) % 4
     numbers, corners = drop_repeated(tags.numbers, reader.quads[tags.which[:, None], clockwise])
     on_board = numbers >= (pattern.first_tag or 0)
+    if grid_size is not None and pattern.first_tag is not None:
+        on_board &= numbers < pattern.first_tag + grid_size[0] * grid_size[1] // 4
     numbers, corners = numbers[on_board], corners[on_board]
     is_open = grid_size is None and _is_sure(tag_print)
     likely = _ALL_LAYOUTS if is_open else _list_likely_layouts(numbers, corners)

@@ -8,6 +8,9 @@ takes as long once more: only after all else has failed.
 
 from __future__ import annotations
 
+import sys
+from dataclasses import replace
+
 import numpy as np
 
 from calibgui.engine.arrays import Array, GreyImage, GridSize
@@ -28,11 +31,20 @@ from calibgui.engine.detection.detector_io import convert_for_reading, invert_le
 from calibgui.engine.errors import MirroredError, NoBoardError, UnknownPartError
 
 
-def open_readers(grey: GreyImage, outline: Array | None) -> list[MarkerReader]:
-    """Return readers of the markers in an image and in its negative, which remember them."""
+def open_readers(
+    grey: GreyImage, outline: Array | None, pattern: Charuco, grid_size: GridSize | None
+) -> list[MarkerReader]:
+    """Return readers of the markers in an image and in its negative, which remember them.
+
+    Of a board whose first marker is stated they read no others.
+    """
+    numbers = None
+    if pattern.first_marker is not None:
+        last = sys.maxsize if grid_size is None else pattern.number_markers(grid_size).stop
+        numbers = range(pattern.first_marker, last)
     image = convert_for_reading(grey)
-    positive = MarkerReader(image, outline)
-    return [positive, MarkerReader(invert_levels(image), outline, positive)]
+    positive = MarkerReader(image, outline, numbers=numbers)
+    return [positive, MarkerReader(invert_levels(image), outline, positive, numbers)]
 
 
 def read_board(
@@ -50,7 +62,8 @@ def read_board(
         NoBoardError: if the markers contradict what is stated of their side or of the size.
     """
     read = read_markers(pattern, readers, grid_size, CHARUCO_THRESHOLDS.min_markers)
-    if grid_size is not None and (read is None or count_rows(read[0].readings[0]) > grid_size[0]):
+    is_open = grid_size is not None and pattern.first_marker is None
+    if grid_size and is_open and (read is None or count_rows(read[0].readings[0]) > grid_size[0]):
         read = _read_numbered_board(pattern, readers, grid_size) or read
     if read is None:
         return None
@@ -65,7 +78,7 @@ def read_markers(
     """Read the markers of a board on which at least so many agree, and tell whether it is printed
     bright on dark; None if there is no such board."""
     layouts = list_layouts(pattern, grid_size)
-    count = None if grid_size is None else (grid_size[0] + 1) * (grid_size[1] + 1) // 2
+    count = None if grid_size is None else pattern.number_markers(grid_size).stop
     for is_inverted, reader in enumerate(readers):
         read = (
             reader.read_dictionary(pattern.dictionary, layouts, count, least)
@@ -122,14 +135,17 @@ def count_rows(markers: Markers[MarkerLayout]) -> int:
 
 def list_layouts(pattern: Charuco, grid_size: GridSize | None) -> list[MarkerLayout]:
     """List the layouts that agree with what is stated."""
+    first = pattern.first_marker or 0
     if grid_size is None:
         return [
-            layout for layout in MARKER_LAYOUTS if layout.first_dark or pattern.legacy is not False
+            replace(layout, first=first)
+            for layout in MARKER_LAYOUTS
+            if layout.first_dark or pattern.legacy is not False
         ]
     if pattern.legacy is not None:
-        return [MarkerLayout(grid_size[1] + 1, pattern.is_first_square_dark(grid_size))]
+        return [MarkerLayout(grid_size[1] + 1, pattern.is_first_square_dark(grid_size), first)]
     both = (True, False) if (grid_size[0] + 1) % 2 == 0 else (True,)
-    return [MarkerLayout(grid_size[1] + 1, dark) for dark in both]
+    return [MarkerLayout(grid_size[1] + 1, dark, first) for dark in both]
 
 
 def explain_missing_board(

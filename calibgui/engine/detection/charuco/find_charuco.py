@@ -118,13 +118,13 @@ def find_charuco(
     """Locate the inner corners of a ChArUco board in an image; see ``find_corners``."""
     grey = check_grey_levels(image)
     outline = None if roi is None else region.check_outline(roi)
-    readers = open_readers(grey, outline)
+    readers = open_readers(grey, outline, pattern, grid_size)
     fitted = _find_fitted_board(grey, pattern, grid_size, outline, readers, method)
     if fitted is None:
         raise explain_missing_board(pattern, readers, grid_size)
     board, fit = fitted
     corners = assemble_corners(grey, board.lattice, fit, outline, board.rejected, board.pattern)
-    if not board.first:
+    if not board.first or pattern.first_marker is not None:
         return corners
     return replace(corners, remark=f"The board's markers are numbered from {board.first} on.")
 
@@ -265,7 +265,7 @@ def _describe_board(
     layout, side = markers.layout, markers.side
     legacy = stated.legacy if stated.legacy is not None else not layout.first_dark
     marks = _list_marks(dictionary, layout, side, lattice.shape)
-    pattern = Charuco(dictionary, side, legacy)
+    pattern = Charuco(dictionary, side, legacy, stated.first_marker)
     return _FoundBoard(lattice, rejected, pattern, marks, layout.first)
 
 
@@ -323,7 +323,7 @@ def _list_stated_boards(
         for side in _SIDES if pattern.marker is None else (pattern.marker,):
             marks = _list_marks(dictionary, layout, side, grid_size)
             for first_dark in (layout.first_dark, not layout.first_dark):
-                described = Charuco(dictionary, side, not layout.first_dark)
+                described = Charuco(dictionary, side, not layout.first_dark, pattern.first_marker)
                 yield MarkedBoard(grid_size, first_dark, marks), described
 
 

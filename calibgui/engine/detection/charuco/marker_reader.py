@@ -71,19 +71,25 @@ class MarkerReader:
     """A reader of the markers of one image, from its coarsest size to its full size."""
 
     def __init__(
-        self, image: GreyImage, outline: Array | None, positive: MarkerReader | None = None
+        self,
+        image: GreyImage,
+        outline: Array | None,
+        positive: MarkerReader | None = None,
+        numbers: range | None = None,
     ) -> None:
         """
         Args:
             image: (h, w) 8-bit grey levels.
             outline: (4, 2) px, the region of interest; None for the whole image.
             positive: the reader of the image that `image` is the negative of, if it is one.
+            numbers: those of the markers to read, in steps of 1; None for all.
         """
         self._levels = [image]
         while max(self._levels[-1].shape) > MAX_COARSE_SIDE:
             self._levels.append(opencv.halve_image(self._levels[-1]))
         self._outline = None if outline is None else region.enlarge_outline(outline)
         self._positive = positive
+        self._numbers = numbers
         self._quads = QuadSearch(self._levels[-1])
         self._candidates: dict[int, MarkerCandidates] = {}
         self._samples: dict[int, MarkerCandidates] = {}
@@ -262,6 +268,9 @@ class MarkerReader:
             if self._outline is not None and len(numbers):
                 inside = are_inside(self._outline, corners.mean(axis=1))
                 numbers, corners = numbers[inside], corners[inside]
+            if self._numbers is not None:
+                wanted = (numbers >= self._numbers.start) & (numbers < self._numbers.stop)
+                numbers, corners = numbers[wanted], corners[wanted]
             self._read[depth, name] = numbers, corners
         return self._read[depth, name]
 

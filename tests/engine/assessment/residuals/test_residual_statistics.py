@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+import scipy
 
 from calibgui.engine.assessment.residuals import residual_statistics
 from calibgui.engine.calibration.calibrate import calibrate
@@ -124,3 +125,13 @@ def test_a_histogram_holds_all_values_where_most_are_zero() -> None:
     values = np.array([0.0, 0.0, 0.0, 0.2])
     assert residual_statistics.make_component_histogram(values).outside == 0
     assert residual_statistics.make_length_histogram(values).outside == 0
+
+
+@pytest.mark.parametrize("n", [30, 400, 20_000])
+@pytest.mark.parametrize("tails", [3, 30, None])
+def test_the_chance_of_a_fourth_moment_is_that_of_scipy(n: int, tails: int | None) -> None:
+    rng = np.random.default_rng(n)
+    values = rng.uniform(-1, 1, n) if tails is None else rng.standard_t(tails, n)
+    expected = scipy.stats.kurtosistest(values).pvalue
+    chance = residual_statistics.compute_kurtosis_chance(values)
+    assert chance == pytest.approx(expected, rel=1e-9, abs=1e-300)
