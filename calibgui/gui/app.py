@@ -47,7 +47,7 @@ def run(arguments: Sequence[str]) -> int:
     sys.excepthook = lambda kind, error, trace: _report(window, kind, error, trace)
     TerminationNotifier(lambda code: _end(window, code), window)
     window.open_up()
-    QTimer.singleShot(0, window, window.prepare)
+    QTimer.singleShot(0, window, window.preparation.start)
     if arguments:
         QTimer.singleShot(0, window, lambda: window.files.open_paths(arguments))
     code = app.exec()

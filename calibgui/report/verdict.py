@@ -56,8 +56,12 @@ def describe_reason(verdict: Verdict, result: Result) -> str:
     blurred = [] if verdict.findings else _find_blurred(result.used)
     if not blurred or verdict.grade is Grade.NOT_USABLE:
         return verdict.reason
-    are = "is" if len(blurred) == 1 else "are"
-    return f"{verdict.reason} {join_names(blurred)} {are} blurred, which does no harm here."
+    said = (
+        "is blurred, which does no harm here."
+        if len(blurred) == 1
+        else "are blurred, which does no harm here."
+    )
+    return f"{verdict.reason} {join_names(blurred)} {said}"
 
 
 def _find_blurred(views: Sequence[View]) -> list[str]:

@@ -563,10 +563,6 @@ Farben: quer zur Ebene; Rot ist von der Kamera weg.</translation>
         <source>Camera</source>
         <translation>Kamera</translation>
     </message>
-    <message>
-        <source>out of date</source>
-        <translation>veraltet</translation>
-    </message>
 </context>
 <context>
     <name>Canvas</name>
@@ -2389,8 +2385,8 @@ Links abgelegt kommen sie ins Projekt.</translation>
         <translation>Bekannte Kamera</translation>
     </message>
     <message>
-        <source>The camera of {0} ({1}) is held: Calibrate locates the board in each photograph with it. Set-up gives it up again.</source>
-        <translation>Die Kamera aus {0} ({1}) wird festgehalten: Kalibrieren verortet mit ihr das Brett in jedem Foto. Die Einrichtung gibt sie wieder auf.</translation>
+        <source>The camera of {0} ({1}) stays as it is: Calibrate only finds where the board was. To calibrate another, take it away in the Set-up.</source>
+        <translation>Die Kamera aus {0} ({1}) bleibt, wie sie ist: Kalibrieren findet nur, wo das Brett war. Um eine andere zu kalibrieren, sie in der Einrichtung entfernen.</translation>
     </message>
     <message>
         <source>Of {0} camera files it is the first.</source>
@@ -2667,8 +2663,8 @@ nur ihre Lagen angepasst</translation>
         <translation>aus einer Datei…</translation>
     </message>
     <message>
-        <source>With limits the inspector says PASS or FAIL, as for a fleet&apos;s cameras.</source>
-        <translation>Mit Grenzen sagt die Seitenleiste PASS oder FAIL, wie bei den Kameras einer Flotte.</translation>
+        <source>With limits the verdict says PASS or FAIL, as for a fleet&apos;s cameras.</source>
+        <translation>Mit Grenzen sagt das Urteil PASS oder FAIL, wie bei den Kameras einer Flotte.</translation>
     </message>
     <message>
         <source>Limits (*.toml)</source>
@@ -2864,10 +2860,6 @@ nur ihre Lagen angepasst</translation>
     <message>
         <source>Set-up</source>
         <translation>Einrichtung</translation>
-    </message>
-    <message>
-        <source>Compiling for speed, once</source>
-        <translation>Einmalig für Tempo übersetzen</translation>
     </message>
     <message>
         <source>The program has met an error again: {0}.</source>
@@ -3845,6 +3837,13 @@ Bretter sehen dort größer aus (Bilder 10 bis 12).</translation>
     </message>
 </context>
 <context>
+    <name>Preparation</name>
+    <message>
+        <source>Compiling for speed, once</source>
+        <translation type="unfinished">Einmalig für Tempo übersetzen</translation>
+    </message>
+</context>
+<context>
     <name>PrintDialog</name>
     <message>
         <source>Board to print</source>
@@ -4033,8 +4032,8 @@ Der Kreis: wie die Bretter geneigt waren; die Mitte ist zur Kamera hin, der Rand
         <translation>Pa&amp;pier</translation>
     </message>
     <message>
-        <source>What stands here is kept with the project. PDF needs the extra “report”.</source>
-        <translation>Was hier steht, wird mit dem Projekt gespeichert. PDF braucht das Extra „report“.</translation>
+        <source>What stands here is kept with the project. For PDF: pip install &apos;calibgui[report]&apos;.</source>
+        <translation>Was hier steht, wird im Projekt behalten. Für PDF: pip install &apos;calibgui[report]&apos;.</translation>
     </message>
     <message>
         <source>&amp;Save…</source>
@@ -4631,10 +4630,6 @@ Die Farben: wo die eigene Unsicherheit der Kalibrierung klein (dunkel) und groß
         <translation>Die Kalibrierung ist nicht fertig.</translation>
     </message>
     <message>
-        <source>Pixels are known too poorly.</source>
-        <translation>Pixel sind zu schlecht bekannt.</translation>
-    </message>
-    <message>
         <source>One view cannot be checked.</source>
         <translation>Eine Ansicht lässt sich nicht prüfen.</translation>
     </message>
@@ -4647,16 +4642,32 @@ Die Farben: wo die eigene Unsicherheit der Kalibrierung klein (dunkel) und groß
         <translation>{0} Ansichten sind zu wenige: {1} oder mehr machen, in alle Richtungen geneigt.</translation>
     </message>
     <message>
-        <source>Nothing needs to be done: pixels among corners are known to {0} px or better.</source>
-        <translation>Nichts zu tun: Pixel zwischen Ecken sind auf {0} px oder besser bekannt.</translation>
+        <source>The camera is not known well enough: add photographs.</source>
+        <translation>Die Kamera ist nicht gut genug bekannt: Fotos hinzufügen.</translation>
     </message>
     <message>
-        <source>The photographs show nothing wrong, but pixels are known to {0} px where they are known worst among corners: add views.</source>
-        <translation>An den Fotos ist nichts auszusetzen, aber wo Pixel zwischen Ecken am schlechtesten bekannt sind, sind es {0} px: Ansichten hinzufügen.</translation>
+        <source>Nothing needs to be done: the camera is known to {0} px.</source>
+        <translation>Es ist nichts zu tun: Die Kamera ist auf {0} px bekannt.</translation>
     </message>
     <message>
-        <source>Nothing is wrong among corners, where pixels are known to {0} px; beyond them they are known to {1} px: bring corners closer to the image&apos;s edge.</source>
-        <translation>Zwischen Ecken stimmt alles, Pixel sind dort auf {0} px bekannt; jenseits auf {1} px: Ecken näher an den Bildrand bringen.</translation>
+        <source>The camera is known to {0} px.</source>
+        <translation>Die Kamera ist auf {0} px bekannt.</translation>
+    </message>
+    <message>
+        <source>The photographs show nothing wrong, but the camera is known to {0} px only: add photographs.</source>
+        <translation>An den Fotos ist nichts auszusetzen, aber die Kamera ist nur auf {0} px bekannt: Fotos hinzufügen.</translation>
+    </message>
+    <message>
+        <source>Nothing is wrong where corners were seen: the camera is known to {0} px.</source>
+        <translation>Wo Ecken gesehen wurden, ist nichts auszusetzen: Die Kamera ist dort auf {0} px bekannt.</translation>
+    </message>
+    <message>
+        <source>Beyond them it is known to {0} px: hold the board closer to the image&apos;s edges.</source>
+        <translation>Außerhalb ist sie auf {0} px bekannt: das Brett näher an die Bildränder halten.</translation>
+    </message>
+    <message>
+        <source>Beyond them it is not known: hold the board closer to the image&apos;s edges.</source>
+        <translation>Außerhalb ist sie unbekannt: das Brett näher an die Bildränder halten.</translation>
     </message>
     <message>
         <source>Add views with the board tilted by {0} to {1} degrees in different directions and all over the image; six good ones are enough.</source>
@@ -4687,8 +4698,32 @@ Die Farben: wo die eigene Unsicherheit der Kalibrierung klein (dunkel) und groß
         <translation>Ihr Brett ist nicht maßhaltig gedruckt ({0} mm): seine Form wurde geschätzt; Fehler {1}-mal kleiner.</translation>
     </message>
     <message>
-        <source>The lens model does not follow this lens.</source>
-        <translation>Das Linsenmodell folgt dieser Linse nicht.</translation>
+        <source>The lens model {0} does not follow this lens.</source>
+        <translation>Das Linsenmodell {0} folgt dieser Linse nicht.</translation>
+    </message>
+    <message>
+        <source>{0} does not belong to the others.</source>
+        <translation>{0} gehört nicht zu den anderen.</translation>
+    </message>
+    <message>
+        <source>{0} do not belong to the others.</source>
+        <translation>{0} gehören nicht zu den anderen.</translation>
+    </message>
+    <message>
+        <source>{0} is blurred, which does no harm here.</source>
+        <translation>{0} ist unscharf, was hier nicht schadet.</translation>
+    </message>
+    <message>
+        <source>{0} are blurred, which does no harm here.</source>
+        <translation>{0} sind unscharf, was hier nicht schadet.</translation>
+    </message>
+    <message>
+        <source>The images were scaled, by the camera or a program.</source>
+        <translation>Die Bilder wurden skaliert, von der Kamera oder einem Programm.</translation>
+    </message>
+    <message>
+        <source>One view does not determine a camera, which leaves {0} unknown.</source>
+        <translation>Eine Ansicht bestimmt keine Kamera: {0} bleibt unbekannt.</translation>
     </message>
     <message>
         <source>The focal length differs between the views.</source>
@@ -5101,8 +5136,8 @@ Die Farben: wo die eigene Unsicherheit der Kalibrierung klein (dunkel) und groß
         <translation>Größe der Quadrate bestätigen</translation>
     </message>
     <message>
-        <source>Lengths hold: you have confirmed the one below.</source>
-        <translation>Längen gelten: Sie haben die untenstehende bestätigt.</translation>
+        <source>Lengths hold: you have confirmed {0:g} {1}.</source>
+        <translation>Längen gelten: {0:g} {1} sind bestätigt.</translation>
     </message>
     <message>
         <source>How far apart are the circles? {2}, {0} × {1}.</source>

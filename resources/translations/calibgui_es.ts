@@ -563,10 +563,6 @@ Colores: fuera del plano; rojo se aleja de la cámara.</translation>
         <source>Camera</source>
         <translation>Cámara</translation>
     </message>
-    <message>
-        <source>out of date</source>
-        <translation>anticuado</translation>
-    </message>
 </context>
 <context>
     <name>Canvas</name>
@@ -2389,8 +2385,8 @@ Soltadas a la izquierda entran en el proyecto.</translation>
         <translation>Cámara conocida</translation>
     </message>
     <message>
-        <source>The camera of {0} ({1}) is held: Calibrate locates the board in each photograph with it. Set-up gives it up again.</source>
-        <translation>Se fija la cámara de {0} ({1}): Calibrar ubica con ella el tablero en cada foto. Los Ajustes la sueltan.</translation>
+        <source>The camera of {0} ({1}) stays as it is: Calibrate only finds where the board was. To calibrate another, take it away in the Set-up.</source>
+        <translation>La cámara de {0} ({1}) queda como está: Calibrar solo busca dónde estaba el tablero. Para calibrar otra, quítela en Ajustes.</translation>
     </message>
     <message>
         <source>Of {0} camera files it is the first.</source>
@@ -2667,8 +2663,8 @@ ajustando solo sus poses</translation>
         <translation>de un archivo…</translation>
     </message>
     <message>
-        <source>With limits the inspector says PASS or FAIL, as for a fleet&apos;s cameras.</source>
-        <translation>Con límites, el inspector dice PASS o FAIL, como con las cámaras de una flota.</translation>
+        <source>With limits the verdict says PASS or FAIL, as for a fleet&apos;s cameras.</source>
+        <translation>Con límites, el veredicto dice PASS o FAIL, como con las cámaras de una flota.</translation>
     </message>
     <message>
         <source>Limits (*.toml)</source>
@@ -2864,10 +2860,6 @@ ajustando solo sus poses</translation>
     <message>
         <source>Set-up</source>
         <translation>Ajustes</translation>
-    </message>
-    <message>
-        <source>Compiling for speed, once</source>
-        <translation>Compilando para ir rápido, una sola vez</translation>
     </message>
     <message>
         <source>The program has met an error again: {0}.</source>
@@ -3845,6 +3837,13 @@ lejanos e inclinados parecen mayores ahí (figuras 10 a 12).</translation>
     </message>
 </context>
 <context>
+    <name>Preparation</name>
+    <message>
+        <source>Compiling for speed, once</source>
+        <translation type="unfinished">Compilando para ir rápido, una sola vez</translation>
+    </message>
+</context>
+<context>
     <name>PrintDialog</name>
     <message>
         <source>Board to print</source>
@@ -4033,8 +4032,8 @@ El círculo: cómo se inclinaron los tableros; el centro es de frente, el borde 
         <translation>&amp;Papel</translation>
     </message>
     <message>
-        <source>What stands here is kept with the project. PDF needs the extra “report”.</source>
-        <translation>Lo que figura aquí se guarda con el proyecto. PDF necesita el extra «report».</translation>
+        <source>What stands here is kept with the project. For PDF: pip install &apos;calibgui[report]&apos;.</source>
+        <translation>Lo que figura aquí se guarda con el proyecto. Para PDF: pip install &apos;calibgui[report]&apos;.</translation>
     </message>
     <message>
         <source>&amp;Save…</source>
@@ -4631,10 +4630,6 @@ Los colores: dónde es pequeña (oscuro) y grande la incertidumbre de la propia 
         <translation>La calibración no está terminada.</translation>
     </message>
     <message>
-        <source>Pixels are known too poorly.</source>
-        <translation>Los píxeles se conocen demasiado mal.</translation>
-    </message>
-    <message>
         <source>One view cannot be checked.</source>
         <translation>Una sola vista no se puede comprobar.</translation>
     </message>
@@ -4647,16 +4642,32 @@ Los colores: dónde es pequeña (oscuro) y grande la incertidumbre de la propia 
         <translation>{0} vistas son muy pocas: haga {1} o más, inclinadas en todas direcciones.</translation>
     </message>
     <message>
-        <source>Nothing needs to be done: pixels among corners are known to {0} px or better.</source>
-        <translation>No hay nada que hacer: los píxeles entre esquinas se conocen a {0} px o mejor.</translation>
+        <source>The camera is not known well enough: add photographs.</source>
+        <translation>La cámara no se conoce lo bastante bien: añada fotografías.</translation>
     </message>
     <message>
-        <source>The photographs show nothing wrong, but pixels are known to {0} px where they are known worst among corners: add views.</source>
-        <translation>Las fotos no muestran ningún fallo, pero donde peor se conocen los píxeles entre esquinas es a {0} px: añada vistas.</translation>
+        <source>Nothing needs to be done: the camera is known to {0} px.</source>
+        <translation>No hay que hacer nada: la cámara se conoce a {0} px.</translation>
     </message>
     <message>
-        <source>Nothing is wrong among corners, where pixels are known to {0} px; beyond them they are known to {1} px: bring corners closer to the image&apos;s edge.</source>
-        <translation>Entre esquinas no falla nada, los píxeles se conocen a {0} px; más allá a {1} px: acerque esquinas al borde de la imagen.</translation>
+        <source>The camera is known to {0} px.</source>
+        <translation>La cámara se conoce a {0} px.</translation>
+    </message>
+    <message>
+        <source>The photographs show nothing wrong, but the camera is known to {0} px only: add photographs.</source>
+        <translation>Las fotografías no muestran nada malo, pero la cámara solo se conoce a {0} px: añada fotografías.</translation>
+    </message>
+    <message>
+        <source>Nothing is wrong where corners were seen: the camera is known to {0} px.</source>
+        <translation>Donde se vieron esquinas no hay nada malo: la cámara se conoce a {0} px.</translation>
+    </message>
+    <message>
+        <source>Beyond them it is known to {0} px: hold the board closer to the image&apos;s edges.</source>
+        <translation>Fuera de ellas se conoce a {0} px: acerque el tablero a los bordes de la imagen.</translation>
+    </message>
+    <message>
+        <source>Beyond them it is not known: hold the board closer to the image&apos;s edges.</source>
+        <translation>Fuera de ellas no se conoce: acerque el tablero a los bordes de la imagen.</translation>
     </message>
     <message>
         <source>Add views with the board tilted by {0} to {1} degrees in different directions and all over the image; six good ones are enough.</source>
@@ -4687,8 +4698,32 @@ Los colores: dónde es pequeña (oscuro) y grande la incertidumbre de la propia 
         <translation>Su tablero no está impreso a medida ({0} mm): se estimó su forma; errores {1} veces menores.</translation>
     </message>
     <message>
-        <source>The lens model does not follow this lens.</source>
-        <translation>El modelo de lente no sigue esta lente.</translation>
+        <source>The lens model {0} does not follow this lens.</source>
+        <translation>El modelo de lente {0} no sigue a esta lente.</translation>
+    </message>
+    <message>
+        <source>{0} does not belong to the others.</source>
+        <translation>{0} no encaja con las demás.</translation>
+    </message>
+    <message>
+        <source>{0} do not belong to the others.</source>
+        <translation>{0} no encajan con las demás.</translation>
+    </message>
+    <message>
+        <source>{0} is blurred, which does no harm here.</source>
+        <translation>{0} está borrosa, lo que aquí no perjudica.</translation>
+    </message>
+    <message>
+        <source>{0} are blurred, which does no harm here.</source>
+        <translation>{0} están borrosas, lo que aquí no perjudica.</translation>
+    </message>
+    <message>
+        <source>The images were scaled, by the camera or a program.</source>
+        <translation>Las imágenes se escalaron, por la cámara o por un programa.</translation>
+    </message>
+    <message>
+        <source>One view does not determine a camera, which leaves {0} unknown.</source>
+        <translation>Una vista no determina una cámara: {0} queda sin conocer.</translation>
     </message>
     <message>
         <source>The focal length differs between the views.</source>
@@ -5101,8 +5136,8 @@ Los colores: dónde es pequeña (oscuro) y grande la incertidumbre de la propia 
         <translation>Confirmar el tamaño de los cuadros</translation>
     </message>
     <message>
-        <source>Lengths hold: you have confirmed the one below.</source>
-        <translation>Las longitudes valen: ha confirmado la de abajo.</translation>
+        <source>Lengths hold: you have confirmed {0:g} {1}.</source>
+        <translation>Las longitudes valen: ha confirmado {0:g} {1}.</translation>
     </message>
     <message>
         <source>How far apart are the circles? {2}, {0} × {1}.</source>

@@ -563,10 +563,6 @@ Colours: out of the plane; red is away from the camera.</source>
         <source>Camera</source>
         <translation>相机</translation>
     </message>
-    <message>
-        <source>out of date</source>
-        <translation>已过时</translation>
-    </message>
 </context>
 <context>
     <name>Canvas</name>
@@ -2389,8 +2385,8 @@ Dropped on the left they join the project.</source>
         <translation>已知相机</translation>
     </message>
     <message>
-        <source>The camera of {0} ({1}) is held: Calibrate locates the board in each photograph with it. Set-up gives it up again.</source>
-        <translation>已固定 {0} ({1}) 的相机：“标定”用它在每张照片中定位标定板。可在设置中取消。</translation>
+        <source>The camera of {0} ({1}) stays as it is: Calibrate only finds where the board was. To calibrate another, take it away in the Set-up.</source>
+        <translation>来自 {0}（{1}）的相机保持不变：标定只确定标定板的位置。若要标定其他相机，请在设置中将其移除。</translation>
     </message>
     <message>
         <source>Of {0} camera files it is the first.</source>
@@ -2667,8 +2663,8 @@ with only their poses fitted</source>
         <translation>来自文件…</translation>
     </message>
     <message>
-        <source>With limits the inspector says PASS or FAIL, as for a fleet&apos;s cameras.</source>
-        <translation>有限值时检查器显示 PASS 或 FAIL，与机群的相机一样。</translation>
+        <source>With limits the verdict says PASS or FAIL, as for a fleet&apos;s cameras.</source>
+        <translation>设定限值后，结论会给出 PASS 或 FAIL，与批量相机相同。</translation>
     </message>
     <message>
         <source>Limits (*.toml)</source>
@@ -2864,10 +2860,6 @@ with only their poses fitted</source>
     <message>
         <source>Set-up</source>
         <translation>设置</translation>
-    </message>
-    <message>
-        <source>Compiling for speed, once</source>
-        <translation>正在编译以提速，仅此一次</translation>
     </message>
     <message>
         <source>The program has met an error again: {0}.</source>
@@ -3845,6 +3837,13 @@ boards look larger there (figures 10 to 12).</source>
     </message>
 </context>
 <context>
+    <name>Preparation</name>
+    <message>
+        <source>Compiling for speed, once</source>
+        <translation type="unfinished">正在编译以提速，仅此一次</translation>
+    </message>
+</context>
+<context>
     <name>PrintDialog</name>
     <message>
         <source>Board to print</source>
@@ -4033,8 +4032,8 @@ The circle: how the boards were tilted; the middle is facing the camera, the rim
         <translation>纸张(&amp;P)</translation>
     </message>
     <message>
-        <source>What stands here is kept with the project. PDF needs the extra “report”.</source>
-        <translation>此处的内容随项目保存。PDF 需要附加组件“report”。</translation>
+        <source>What stands here is kept with the project. For PDF: pip install &apos;calibgui[report]&apos;.</source>
+        <translation>此处内容随项目保存。要输出 PDF：pip install &apos;calibgui[report]&apos;。</translation>
     </message>
     <message>
         <source>&amp;Save…</source>
@@ -4631,10 +4630,6 @@ The colours: where the calibration&apos;s own uncertainty is small (dark) and la
         <translation>标定没有完成。</translation>
     </message>
     <message>
-        <source>Pixels are known too poorly.</source>
-        <translation>像素的精度太差。</translation>
-    </message>
-    <message>
         <source>One view cannot be checked.</source>
         <translation>只有一个视图无法检查。</translation>
     </message>
@@ -4647,16 +4642,32 @@ The colours: where the calibration&apos;s own uncertainty is small (dark) and la
         <translation>{0} 个视图太少：请拍 {1} 个或更多，向各方向倾斜。</translation>
     </message>
     <message>
-        <source>Nothing needs to be done: pixels among corners are known to {0} px or better.</source>
-        <translation>无需任何操作：角点之间的像素已知到 {0} px 或更好。</translation>
+        <source>The camera is not known well enough: add photographs.</source>
+        <translation>相机的标定还不够准确：请添加照片。</translation>
     </message>
     <message>
-        <source>The photographs show nothing wrong, but pixels are known to {0} px where they are known worst among corners: add views.</source>
-        <translation>照片没有显示问题，但角点之间最差处的像素只知道到 {0} px：请添加视图。</translation>
+        <source>Nothing needs to be done: the camera is known to {0} px.</source>
+        <translation>无需处理：相机的误差为 {0} px。</translation>
     </message>
     <message>
-        <source>Nothing is wrong among corners, where pixels are known to {0} px; beyond them they are known to {1} px: bring corners closer to the image&apos;s edge.</source>
-        <translation>角点之间没有问题，像素已知到 {0} px；之外为 {1} px：请使角点更靠近图像边缘。</translation>
+        <source>The camera is known to {0} px.</source>
+        <translation>相机的误差为 {0} px。</translation>
+    </message>
+    <message>
+        <source>The photographs show nothing wrong, but the camera is known to {0} px only: add photographs.</source>
+        <translation>照片没有问题，但相机的误差仍有 {0} px：请添加照片。</translation>
+    </message>
+    <message>
+        <source>Nothing is wrong where corners were seen: the camera is known to {0} px.</source>
+        <translation>在拍到角点的地方没有问题：相机的误差为 {0} px。</translation>
+    </message>
+    <message>
+        <source>Beyond them it is known to {0} px: hold the board closer to the image&apos;s edges.</source>
+        <translation>在其之外误差为 {0} px：请将标定板靠近图像边缘。</translation>
+    </message>
+    <message>
+        <source>Beyond them it is not known: hold the board closer to the image&apos;s edges.</source>
+        <translation>在其之外误差未知：请将标定板靠近图像边缘。</translation>
     </message>
     <message>
         <source>Add views with the board tilted by {0} to {1} degrees in different directions and all over the image; six good ones are enough.</source>
@@ -4687,8 +4698,32 @@ The colours: where the calibration&apos;s own uncertainty is small (dark) and la
         <translation>您的标定板印刷不准确 ({0} mm)：已估计其形状；误差减小到 1/{1}。</translation>
     </message>
     <message>
-        <source>The lens model does not follow this lens.</source>
-        <translation>镜头模型与此镜头不符。</translation>
+        <source>The lens model {0} does not follow this lens.</source>
+        <translation>镜头模型 {0} 不适合这个镜头。</translation>
+    </message>
+    <message>
+        <source>{0} does not belong to the others.</source>
+        <translation>{0} 与其他照片不符。</translation>
+    </message>
+    <message>
+        <source>{0} do not belong to the others.</source>
+        <translation>{0} 与其他照片不符。</translation>
+    </message>
+    <message>
+        <source>{0} is blurred, which does no harm here.</source>
+        <translation>{0} 模糊，但在此无碍。</translation>
+    </message>
+    <message>
+        <source>{0} are blurred, which does no harm here.</source>
+        <translation>{0} 模糊，但在此无碍。</translation>
+    </message>
+    <message>
+        <source>The images were scaled, by the camera or a program.</source>
+        <translation>图像被相机或程序缩放过。</translation>
+    </message>
+    <message>
+        <source>One view does not determine a camera, which leaves {0} unknown.</source>
+        <translation>一张照片不足以确定相机：{0} 未知。</translation>
     </message>
     <message>
         <source>The focal length differs between the views.</source>
@@ -5101,8 +5136,8 @@ The colours: where the calibration&apos;s own uncertainty is small (dark) and la
         <translation>确认方格大小</translation>
     </message>
     <message>
-        <source>Lengths hold: you have confirmed the one below.</source>
-        <translation>长度成立：您已确认下面的值。</translation>
+        <source>Lengths hold: you have confirmed {0:g} {1}.</source>
+        <translation>长度有效：您已确认 {0:g} {1}。</translation>
     </message>
     <message>
         <source>How far apart are the circles? {2}, {0} × {1}.</source>

@@ -273,7 +273,7 @@ def measure(folder: Path, scratch: Path, trace: Trace | None) -> None:
     window.open_up()
     QTest.qWaitForWindowActive(window)
     user = User(window, trace)
-    user.do("the window by itself", window.prepare)
+    user.do("the window by itself", window.preparation.start)
     window.board.by_hand.click()  # what is read and what is searched are told apart
     user.do("opening, first thumbnails", lambda: window.files.open_paths([str(folder)]))
     user.do("scrolling", user.scroll)

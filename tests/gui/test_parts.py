@@ -372,7 +372,7 @@ def test_a_panel_that_cannot_be_built_is_tried_once(
 
     monkeypatch.setattr(full.need_analysis(), "build_next", fail)
     with qtbot.captureExceptions() as raised:
-        full._building.start(1)
+        full.preparation._building.start(1)
         qtbot.waitUntil(lambda: bool(raised))
         qtbot.wait(50)
     assert len(tried) == 1

@@ -62,7 +62,7 @@ def heartbeat(what: str) -> Iterator[None]:
 def prepare(window: MainWindow, qtbot: QtBot) -> None:
     """Import all that is needed, as after the window's first moments."""
     gc.unfreeze()
-    window.prepare()
+    window.preparation.start()
     qtbot.waitUntil(lambda: gc.get_freeze_count() > 0, timeout=30_000)
 
 

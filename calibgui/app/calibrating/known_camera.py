@@ -54,7 +54,7 @@ def locate_with_known(corner_set: CornerSet, known: KnownCamera) -> Result:
     Raises:
         CalibrationError: if no board is located, or the photographs cannot be the camera's.
     """
-    remarks = [f"The camera of {known.file} is held: nothing was calibrated."]
+    remarks = [f"The camera of {known.file} stays as it is: nothing was calibrated."]
     camera, covariance = known.camera, known.covariance
     if corner_set.size != camera.size:
         mode = guess_mode(camera.size, corner_set.size)

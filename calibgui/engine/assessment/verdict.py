@@ -345,30 +345,29 @@ def _grade(
         if is_poor or finding.cause in _UNTRUSTWORTHY:
             return Grade.NOT_USABLE, finding.message
     if is_poor:
-        return Grade.NOT_USABLE, "Pixels are known too poorly."
+        return Grade.NOT_USABLE, "The camera is not known well enough: add photographs."
     if findings and (count < MIN_VIEWS_TO_BE_GOOD or not error.worst_covered <= MAX_GOOD_PX):
         return Grade.USABLE, findings[0].message
     if count < MIN_VIEWS_TO_BE_GOOD:
         return Grade.USABLE, few
     if not error.worst_covered <= MAX_GOOD_PX:
         return Grade.USABLE, (
-            "The photographs show nothing wrong, but pixels are known to "
-            f"{format_two_digits(error.worst_covered)} px where they are known worst among "
-            "corners: add views."
+            "The photographs show nothing wrong, but the camera is known to "
+            f"{format_two_digits(error.worst_covered)} px only: add photographs."
         )
     if findings:
-        known = f"pixels among corners are known to {format_two_digits(error.worst_covered)} px"
-        little = f"or better. Of little effect: {findings[0].message}"
+        known = f"camera is known to {format_two_digits(error.worst_covered)} px."
+        little = f"Of little effect: {findings[0].message}"
         if error.median <= MAX_GOOD_PX:
-            return Grade.GOOD, f"Nothing needs to be done: {known} {little}"
-        return Grade.USABLE, f"{known.capitalize()} {little}"
+            return Grade.GOOD, f"Nothing needs to be done: the {known} {little}"
+        return Grade.USABLE, f"The {known} {little}"
     if error.worst <= MAX_GOOD_PX:
         return Grade.GOOD, "The photographs show nothing wrong."
     grade = Grade.GOOD if error.median <= MAX_GOOD_PX else Grade.USABLE
     return grade, (
-        "Nothing is wrong among corners, where pixels are known to "
-        f"{format_two_digits(error.worst_covered)} px; beyond them they are "
-        f"{_tell_how_known(error)}: bring corners closer to the image's edge."
+        "Nothing is wrong where corners were seen: the camera is known to "
+        f"{format_two_digits(error.worst_covered)} px. Beyond them it is "
+        f"{_tell_how_known(error)}: hold the board closer to the image's edges."
     )
 
 

@@ -8,7 +8,7 @@ from collections.abc import Callable
 import numpy as np
 from PySide6.QtCore import QPointF, QSize, Qt, Signal
 from PySide6.QtGui import QAction, QPolygonF
-from PySide6.QtWidgets import QHBoxLayout, QToolBar, QToolButton, QWidget
+from PySide6.QtWidgets import QToolBar, QToolButton, QWidget
 
 from calibgui.app.projects.project import Project
 from calibgui.dataset import Result, View, ViewStatus
@@ -26,6 +26,7 @@ from calibgui.gui.session.session import Session
 from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.actions import enable_action, make_action
 from calibgui.gui.widgets.icons import Icon, draw_icon
+from calibgui.gui.widgets.layouts import make_row
 from calibgui.gui.widgets.overlay import Overlay
 from calibgui.gui.widgets.picture import Levels, stretch_levels
 from calibgui.gui.widgets.wrapped_label import WrappedLabel
@@ -74,11 +75,7 @@ class ImagePage(QWidget):
         self.bar.addSeparator()
         self.bar.addWidget(self.layers_button)
         self._restyle()
-        layout = QHBoxLayout(self)
-        layout.setContentsMargins(0, 0, 0, 0)
-        layout.setSpacing(0)
-        layout.addWidget(self.bar)
-        layout.addWidget(self.canvas)
+        make_row(self.bar, self.canvas, of=self, spacing=0)
         self.canvas.hovered.connect(self._hovered)
         self.canvas.stepped.connect(session.select_next)
         self.canvas.picked.connect(lambda corner: session.select(session.image, corner))

@@ -6,16 +6,15 @@ from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QKeyEvent
 from PySide6.QtWidgets import (
     QFrame,
-    QHBoxLayout,
     QLabel,
     QPushButton,
     QSpinBox,
-    QVBoxLayout,
     QWidget,
 )
 
 from calibgui.engine.arrays import GridSize
 from calibgui.gui.widgets.buttons import Button, Kind
+from calibgui.gui.widgets.layouts import make_column, make_row
 from calibgui.gui.widgets.reserved_label import ReservedLabel
 
 _LINES = 3
@@ -30,17 +29,12 @@ class _Bar(QFrame):
         self.accept, self.leave = accept, leave
         self.setFrameShape(QFrame.Shape.NoFrame)
         self.words = ReservedLabel(_LINES)
-        self._rows = QVBoxLayout(self)
-        self._rows.setContentsMargins(0, 0, 0, 0)
-        self._rows.addWidget(self.words)
+        self._rows = make_column(self.words, of=self)
         self.hide()
 
     def add_row(self, *widgets: QWidget) -> None:
         """Add a row of widgets below the others."""
-        row = QHBoxLayout()
-        row.addStretch(1)
-        for widget in widgets:
-            row.addWidget(widget)
+        row = make_row(None, *widgets)
         self._rows.addLayout(row)
 
     def keyPressEvent(self, event: QKeyEvent) -> None:  # noqa: N802 - Qt's name
@@ -85,9 +79,9 @@ class RoiBar(_Bar):
     def show_board(self, grid_size: GridSize) -> None:
         """Show a board's size without announcing it."""
         for box, count in zip(self.counts, grid_size, strict=True):
-            box.blockSignals(True)
+            blocked = box.blockSignals(True)
             box.setValue(count)
-            box.blockSignals(False)
+            box.blockSignals(blocked)
 
 
 class CornerBar(_Bar):

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QColor, QKeyEvent, QPainter, QPaintEvent, QResizeEvent, QScreen
-from PySide6.QtWidgets import QHBoxLayout, QLabel, QWidget
+from PySide6.QtWidgets import QLabel, QWidget
 
 from calibgui.engine.boards import (
     Board,
@@ -16,6 +16,7 @@ from calibgui.engine.boards import (
 )
 from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.buttons import Button
+from calibgui.gui.widgets.layouts import make_row
 from calibgui.gui.widgets.number_box import NumberBox
 
 _RULER_MM = 100.0
@@ -50,12 +51,14 @@ class BoardScreen(QWidget):
         self.measured.valueChanged.connect(self._tell)
         self._bar = QWidget(self)
         self._bar.setAutoFillBackground(True)
-        row = QHBoxLayout(self._bar)
-        row.setContentsMargins(theme.MARGIN, theme.SPACING, theme.MARGIN, theme.SPACING)
-        row.addWidget(QLabel(self.tr("Measure the line above with a ruler:")))
-        row.addWidget(self.measured)
-        row.addWidget(self.words, 1)
-        row.addWidget(self.leave)
+        make_row(
+            QLabel(self.tr("Measure the line above with a ruler:")),
+            self.measured,
+            (self.words, 1),
+            self.leave,
+            of=self._bar,
+            margins=(theme.MARGIN, theme.SPACING, theme.MARGIN, theme.SPACING),
+        )
 
     @property
     def side_px(self) -> int:

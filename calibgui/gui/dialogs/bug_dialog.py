@@ -8,16 +8,15 @@ import traceback
 from PySide6.QtGui import QGuiApplication
 from PySide6.QtWidgets import (
     QDialog,
-    QDialogButtonBox,
     QPlainTextEdit,
-    QVBoxLayout,
     QWidget,
 )
 
 from calibgui.dataset import list_installed_versions
 from calibgui.gui.widgets import theme
-from calibgui.gui.widgets.actions import add_close_button
+from calibgui.gui.widgets.actions import make_buttons
 from calibgui.gui.widgets.buttons import Button, Kind
+from calibgui.gui.widgets.layouts import make_column
 from calibgui.gui.widgets.wrapped_label import WrappedLabel
 
 
@@ -44,14 +43,11 @@ class BugDialog(QDialog):
         self.details.setAccessibleName(self.tr("What to report"))
         self.details.setFont(theme.fixed_font())
         self.details.setLineWrapMode(QPlainTextEdit.LineWrapMode.NoWrap)
-        buttons = add_close_button(self)
         self.copy = Button(self.tr("&Copy"), Kind.MAIN)
-        buttons.addButton(self.copy, QDialogButtonBox.ButtonRole.ActionRole)
         self.copy.clicked.connect(
             lambda: QGuiApplication.clipboard().setText(self.details.toPlainText())
         )
-        layout = QVBoxLayout(self)
-        layout.addWidget(words)
-        layout.addWidget(self.details, 1)
-        layout.addWidget(buttons)
+        make_column(
+            words, (self.details, 1), make_buttons(self, self.copy), of=self, margins=theme.MARGIN
+        )
         self.resize(720, 420)

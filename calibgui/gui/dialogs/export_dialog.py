@@ -11,13 +11,10 @@ from PySide6.QtCore import Signal
 from PySide6.QtGui import QGuiApplication
 from PySide6.QtWidgets import (
     QDialog,
-    QDialogButtonBox,
     QFileDialog,
     QFormLayout,
-    QHBoxLayout,
     QListWidget,
     QPlainTextEdit,
-    QVBoxLayout,
     QWidget,
 )
 
@@ -28,9 +25,10 @@ from calibgui.formats.exporter import Exporter, ExportReport
 from calibgui.gui.jobs.job import Job
 from calibgui.gui.jobs.jobs import Jobs
 from calibgui.gui.widgets import theme
-from calibgui.gui.widgets.actions import add_close_button
+from calibgui.gui.widgets.actions import make_buttons
 from calibgui.gui.widgets.buttons import Button, Kind
 from calibgui.gui.widgets.kept_settings import keep, read_kept_text
+from calibgui.gui.widgets.layouts import make_column, make_row
 from calibgui.gui.widgets.save_names import ask_for_name
 from calibgui.gui.widgets.scrolling import make_thin
 from calibgui.gui.widgets.wrapped_label import WrappedLabel
@@ -87,31 +85,20 @@ class ExportDialog(QDialog):
         facts.addRow(self.tr("Loses"), self.loses)
         facts.addRow(self.tr("Camera"), self.note)
         facts.addRow(self.tr("Largest error"), self.error)
-        right = QVBoxLayout()
-        right.addLayout(facts)
-        right.addWidget(self.text, 1)
-        columns = QHBoxLayout()
-        columns.addWidget(self.formats)
-        columns.addLayout(right, 1)
+        right = make_column(facts, (self.text, 1))
+        columns = make_row(self.formats, (right, 1))
         self.copy = Button(self.tr("&Copy text"), takes_enter=False)
         self.save = Button(self.tr("&Save…"), Kind.MAIN)
         self.save_all = Button(self.tr("Save &all…"), takes_enter=False)
         self.save_all.setToolTip(
             self.tr("Every format in a folder, with a page that tells who reads which file")
         )
-        buttons = add_close_button(self)
-        buttons.addButton(self.copy, QDialogButtonBox.ButtonRole.ActionRole)
-        buttons.addButton(self.save_all, QDialogButtonBox.ButtonRole.ActionRole)
-        buttons.addButton(self.save, QDialogButtonBox.ButtonRole.ActionRole)
+        buttons = make_buttons(self, self.copy, self.save_all, self.save)
         self.copy.clicked.connect(self._copy)
         self.save.clicked.connect(self._save)
         self.save_all.clicked.connect(self._save_all)
-        layout = QVBoxLayout(self)
-        layout.addLayout(columns, 1)
-        last = QHBoxLayout()
-        last.addWidget(self.saved, 1)
-        last.addWidget(buttons)
-        layout.addLayout(last)
+        last = make_row((self.saved, 1), buttons)
+        make_column((columns, 1), last, of=self, margins=theme.MARGIN)
         self.resize(880, 520)
         self.formats.currentRowChanged.connect(self._chosen)
         last_saved = read_kept_text(_FORMAT)

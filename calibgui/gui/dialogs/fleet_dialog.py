@@ -11,11 +11,8 @@ from PySide6.QtGui import QImage
 from PySide6.QtWidgets import (
     QComboBox,
     QDialog,
-    QDialogButtonBox,
-    QHBoxLayout,
     QLabel,
     QLineEdit,
-    QVBoxLayout,
     QWidget,
 )
 
@@ -24,8 +21,9 @@ from calibgui.formats.camera_import import read_result_file
 from calibgui.gui.jobs.jobs import Jobs
 from calibgui.gui.panels.latest import Latest
 from calibgui.gui.widgets import theme
-from calibgui.gui.widgets.actions import add_close_button
+from calibgui.gui.widgets.actions import make_buttons
 from calibgui.gui.widgets.buttons import Button, Kind
+from calibgui.gui.widgets.layouts import make_column, make_row
 from calibgui.gui.widgets.picture import make_qimage, shrink_picture
 from calibgui.gui.widgets.tables import Column, Table, with_decimals
 from calibgui.gui.widgets.wrapped_label import WrappedLabel
@@ -91,20 +89,10 @@ class FleetDialog(QDialog):
         self.open_camera = Button(self.tr("&Open camera"), Kind.MAIN)
         self.open_camera.setEnabled(False)
         self.open_camera.clicked.connect(self._open_picked)
-        buttons = add_close_button(self)
-        buttons.addButton(self.open_camera, QDialogButtonBox.ButtonRole.ActionRole)
-        above = QHBoxLayout()
-        above.addWidget(self.words, 1)
-        above.addWidget(self.filter)
-        above.addWidget(self.kind)
-        below = QHBoxLayout()
-        below.addWidget(self.picture)
-        below.addWidget(self.reason, 1)
-        below.addWidget(buttons)
-        layout = QVBoxLayout(self)
-        layout.addLayout(above)
-        layout.addWidget(self.table, 1)
-        layout.addLayout(below)
+        buttons = make_buttons(self, self.open_camera)
+        above = make_row((self.words, 1), self.filter, self.kind)
+        below = make_row(self.picture, (self.reason, 1), buttons)
+        make_column(above, (self.table, 1), below, of=self, margins=theme.MARGIN)
         self._picked = 0
         if self.placed:
             self.table.select(0)

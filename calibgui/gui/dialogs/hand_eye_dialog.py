@@ -9,13 +9,10 @@ import numpy as np
 from PySide6.QtWidgets import (
     QComboBox,
     QDialog,
-    QDialogButtonBox,
     QFileDialog,
-    QHBoxLayout,
     QLabel,
     QLineEdit,
     QSplitter,
-    QVBoxLayout,
     QWidget,
 )
 
@@ -28,9 +25,10 @@ from calibgui.gui.jobs.jobs import Jobs
 from calibgui.gui.panels.latest import Latest
 from calibgui.gui.panels.parts.estimates import estimate_columns
 from calibgui.gui.widgets import theme
-from calibgui.gui.widgets.actions import add_close_button
+from calibgui.gui.widgets.actions import make_buttons
 from calibgui.gui.widgets.buttons import Button
 from calibgui.gui.widgets.elided import ElidedLabel
+from calibgui.gui.widgets.layouts import keep_place, make_column, make_row
 from calibgui.gui.widgets.save_names import ask_for_name
 from calibgui.gui.widgets.tables import Column, Table, with_digits
 from calibgui.gui.widgets.wrapped_label import WrappedLabel
@@ -101,34 +99,18 @@ class HandEyeDialog(QDialog):
         self._invite()
 
     def _lay_out(self) -> None:
-        above = QHBoxLayout()
-        above.addWidget(self.choose)
-        above.addWidget(self.file, 1)
-        above.addWidget(QLabel(self.tr("Camera")))
-        above.addWidget(self.mount)
-        above.addSpacing(theme.SPACING)
-        above.addWidget(QLabel(self.tr("Tool at")))
-        above.addWidget(self.tool)
-        above.addWidget(QLabel(self.tr("mm")))
+        camera, tool = QLabel(self.tr("Camera")), QLabel(self.tr("Tool at"))
+        point = make_row(tool, self.tool, QLabel(self.tr("mm")))
+        above = make_row(self.choose, (self.file, 1), camera, self.mount, point)
         self._shown = QSplitter()
         for table in (self.poses, self.errors):
             self._shown.addWidget(table)
         self._shown.setSizes([560, 440])
-        policy = self._shown.sizePolicy()
-        policy.setRetainSizeWhenHidden(True)
-        self._shown.setSizePolicy(policy)
-        buttons = add_close_button(self)
-        for button in (self.leave_out, self.save):
-            buttons.addButton(button, QDialogButtonBox.ButtonRole.ActionRole)
-        below = QHBoxLayout()
-        below.addWidget(self.said, 1)
-        below.addWidget(buttons)
-        layout = QVBoxLayout(self)
-        layout.addLayout(above)
-        layout.addWidget(self.headline)
-        layout.addWidget(self.words)
-        layout.addWidget(self._shown, 1)
-        layout.addLayout(below)
+        keep_place(self._shown)
+        below = make_row((self.said, 1), make_buttons(self, self.leave_out, self.save))
+        make_column(
+            above, self.headline, self.words, (self._shown, 1), below, of=self, margins=theme.MARGIN
+        )
 
     def _invite(self) -> None:
         """Ask for the poses, or for the side of a square first."""

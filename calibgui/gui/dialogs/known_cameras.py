@@ -39,8 +39,8 @@ def take_camera(session: Session, path: Path, *others: Path) -> None:
     )
     said = translate(
         "KnownCameras",
-        "The camera of {0} ({1}) is held: Calibrate locates the board in each photograph with it. "
-        "Set-up gives it up again.",
+        "The camera of {0} ({1}) stays as it is: Calibrate only finds where the board was. To "
+        "calibrate another, take it away in the Set-up.",
     ).format(known.file, known.title)
     left = (
         translate("KnownCameras", "Of {0} camera files it is the first.").format(len(others) + 1)

@@ -5,24 +5,22 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
-from PySide6.QtCore import QEvent, Qt, QUrl
+from PySide6.QtCore import Qt, QUrl
 from PySide6.QtGui import QDesktopServices, QImage, QResizeEvent
 from PySide6.QtWidgets import (
     QDialog,
-    QDialogButtonBox,
-    QHBoxLayout,
     QListWidget,
     QTextBrowser,
-    QVBoxLayout,
     QWidget,
 )
 
 from calibgui.app.outputs.manual import list_chapters, render_chapter, write_manual
 from calibgui.app.system.state_folder import find_state_folder
 from calibgui.gui.widgets import theme
-from calibgui.gui.widgets.actions import add_close_button
+from calibgui.gui.widgets.actions import make_buttons
 from calibgui.gui.widgets.buttons import Button
 from calibgui.gui.widgets.focus_ring import FocusRing
+from calibgui.gui.widgets.layouts import make_column, make_row
 from calibgui.gui.widgets.scrolling import make_thin
 
 
@@ -49,22 +47,16 @@ class ManualDialog(QDialog):
         self.browse = Button(self.tr("Open in the &browser"), takes_enter=False)
         self.browse.setToolTip(self.tr("All chapters as one page, to search and to print"))
         self.browse.clicked.connect(self._open_page)
-        buttons = add_close_button(self)
-        buttons.addButton(self.browse, QDialogButtonBox.ButtonRole.ActionRole)
-        columns = QHBoxLayout()
-        columns.addWidget(self.chapters)
-        columns.addWidget(self.text, 1)
-        layout = QVBoxLayout(self)
-        layout.addLayout(columns, 1)
-        layout.addWidget(buttons)
+        buttons = make_buttons(self, self.browse)
+        columns = make_row(self.chapters, (self.text, 1))
+        make_column((columns, 1), buttons, of=self, margins=theme.MARGIN)
         self.resize(1080, 680)
         self.chapters.currentRowChanged.connect(self._show_chapter)
+        theme.follow(self._restyle)
         self.chapters.setCurrentRow(0)
 
-    def changeEvent(self, event: QEvent) -> None:  # noqa: N802 - Qt's name
-        super().changeEvent(event)
-        if event.type() == QEvent.Type.PaletteChange and hasattr(self, "text"):
-            self._show_chapter(self.chapters.currentRow())
+    def _restyle(self) -> None:
+        self._show_chapter(self.chapters.currentRow())
 
     def _show_chapter(self, row: int) -> None:
         html = render_chapter(self._chapters[row], Path.as_uri)

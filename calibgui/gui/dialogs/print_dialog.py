@@ -8,12 +8,9 @@ from PySide6.QtSvg import QSvgRenderer
 from PySide6.QtWidgets import (
     QComboBox,
     QDialog,
-    QDialogButtonBox,
     QFormLayout,
-    QHBoxLayout,
     QLabel,
     QSpinBox,
-    QVBoxLayout,
     QWidget,
 )
 
@@ -31,8 +28,9 @@ from calibgui.engine.boards import AprilGrid, Board, Pattern
 from calibgui.engine.errors import CalibrationError
 from calibgui.gui.settings.pattern_choice import PatternChoice
 from calibgui.gui.widgets import theme
-from calibgui.gui.widgets.actions import add_close_button
+from calibgui.gui.widgets.actions import make_buttons
 from calibgui.gui.widgets.buttons import Button, Kind
+from calibgui.gui.widgets.layouts import make_column, make_row
 from calibgui.gui.widgets.number_box import NumberBox
 from calibgui.gui.widgets.save_names import ask_for_name
 from calibgui.gui.widgets.wrapped_label import WrappedLabel
@@ -89,10 +87,7 @@ class PrintDialog(QDialog):
         self.paper.setCurrentText(choose_paper(board))
         self.words = WrappedLabel()
         self.preview = _Preview()
-        squares = QHBoxLayout()
-        squares.addWidget(self.rows)
-        squares.addWidget(QLabel("×"))
-        squares.addWidget(self.cols)
+        squares = make_row(self.rows, QLabel("×"), self.cols)
         form = QFormLayout()
         form.addRow(self.pattern)
         form.addRow(self.counted, squares)
@@ -103,28 +98,23 @@ class PrintDialog(QDialog):
             self.tr("An odd and an even number of squares\nlets every view find the same origin.")
         )
         form.addRow(self.odd_and_even)
-        buttons = add_close_button(self)
         self.save = Button(self.tr("&Save…"), Kind.MAIN)
         self.show_on_screen = Button(self.tr("Show on this scr&een"))
-        for button in (self.save, self.show_on_screen):
-            buttons.addButton(button, QDialogButtonBox.ButtonRole.ActionRole)
         self.save.clicked.connect(self._ask_and_save)
         self.show_on_screen.setToolTip(
             self.tr("As large as the screen holds it: a screen is flat, and needs no printer")
         )
         self.show_on_screen.clicked.connect(self._show_on_screen)
-        middle = QHBoxLayout()
-        middle.addLayout(form)
-        middle.addWidget(self.preview, 1)
-        layout = QVBoxLayout(self)
-        layout.addLayout(middle, 1)
-        layout.addWidget(buttons)
+        middle = make_row(form, (self.preview, 1))
+        buttons = make_buttons(self, self.save, self.show_on_screen)
+        make_column((middle, 1), buttons, of=self, margins=theme.MARGIN)
         for box in (self.rows, self.cols, self.square):
             box.valueChanged.connect(self._refresh)
         self.pattern.changed.connect(self._refresh)
         self.pattern.listed.connect(self._take_list)
         self.pattern.failed.connect(lambda error: self.words.setText(str(error)))
         self.paper.currentIndexChanged.connect(self._refresh)
+        theme.follow(self._refresh)
         self.resize(760, 440)
         self._refresh()
 
@@ -177,7 +167,7 @@ class PrintDialog(QDialog):
             page, text, colour = None, str(error), colours.bad
         self.preview.show_sheet(page)
         self.words.setText(text)
-        self.words.setStyleSheet(f"color: {colour}")
+        theme.set_text_colour(self.words, colour)
         self.save.setEnabled(page is not None)
 
     def _ask_and_save(self) -> None:

@@ -9,11 +9,8 @@ from PySide6.QtCore import Signal
 from PySide6.QtWidgets import (
     QComboBox,
     QDialog,
-    QDialogButtonBox,
     QFormLayout,
-    QHBoxLayout,
     QLineEdit,
-    QVBoxLayout,
     QWidget,
 )
 
@@ -23,8 +20,10 @@ from calibgui.dataset import Result
 from calibgui.dataset.details import Details
 from calibgui.gui.jobs.job import Job
 from calibgui.gui.session.session import Session
-from calibgui.gui.widgets.actions import add_close_button
+from calibgui.gui.widgets import theme
+from calibgui.gui.widgets.actions import make_buttons
 from calibgui.gui.widgets.buttons import Button, Kind
+from calibgui.gui.widgets.layouts import make_column, make_row
 from calibgui.gui.widgets.narrow_combo import NarrowCombo
 from calibgui.gui.widgets.save_names import ask_for_name
 from calibgui.gui.widgets.wrapped_label import WrappedLabel
@@ -71,7 +70,6 @@ class ReportDialog(QDialog):
             name: QLineEdit(getattr(known, name), placeholderText=self.tr("not stated"))
             for name in self._list_labels()
         }
-        columns = QHBoxLayout()
         labels = list(self._list_labels().items())
         half = (len(labels) + 1) // 2
         forms = QFormLayout(), QFormLayout()
@@ -80,23 +78,19 @@ class ReportDialog(QDialog):
             forms[k // half].addRow(label, self.boxes[name])
         forms[0].insertRow(0, self.tr("&Layout"), self.layout_choice)
         forms[1].insertRow(0, self.tr("Pa&per"), self.paper)
-        for form in forms:
-            columns.addLayout(form, 1)
+        columns = make_row(*((form, 1) for form in forms))
         self.words = WrappedLabel(
             age
-            or self.tr("What stands here is kept with the project. PDF needs the extra “report”.")
+            or self.tr(
+                "What stands here is kept with the project. For PDF: "
+                "pip install 'calibgui[report]'."
+            )
         )
         self.save = Button(self.tr("&Save…"), Kind.MAIN)
-        buttons = add_close_button(self)
-        buttons.addButton(self.save, QDialogButtonBox.ButtonRole.ActionRole)
+        buttons = make_buttons(self, self.save)
         self.save.clicked.connect(self._save)
-        column = QVBoxLayout(self)
-        column.addLayout(columns)
-        column.addStretch(1)
-        last = QHBoxLayout()
-        last.addWidget(self.words, 1)
-        last.addWidget(buttons)
-        column.addLayout(last)
+        last = make_row((self.words, 1), buttons)
+        make_column(columns, None, last, of=self, margins=theme.MARGIN)
         self.resize(820, self.sizeHint().height())
 
     def _list_labels(self) -> dict[str, str]:

@@ -12,13 +12,10 @@ from PySide6.QtGui import QColor
 from PySide6.QtWidgets import (
     QComboBox,
     QDialog,
-    QDialogButtonBox,
     QFileDialog,
-    QHBoxLayout,
     QLabel,
     QLineEdit,
     QSplitter,
-    QVBoxLayout,
     QWidget,
 )
 
@@ -39,8 +36,9 @@ from calibgui.gui.jobs.jobs import Jobs
 from calibgui.gui.panels.latest import Latest
 from calibgui.gui.panels.parts.estimates import estimate_columns
 from calibgui.gui.widgets import theme
-from calibgui.gui.widgets.actions import add_close_button
+from calibgui.gui.widgets.actions import make_buttons
 from calibgui.gui.widgets.buttons import Button
+from calibgui.gui.widgets.layouts import keep_place, make_column, make_row
 from calibgui.gui.widgets.plots import Plot
 from calibgui.gui.widgets.save_names import ask_for_name
 from calibgui.gui.widgets.tab_bar import TabWidget
@@ -102,27 +100,20 @@ class SeriesDialog(QDialog):
         self.at.setAccessibleName(self.tr("Value at which the camera is shown"))
         self.at.setMaximumWidth(_DATE_CHARACTERS * self.fontMetrics().averageCharWidth())
         self.at.textChanged.connect(self._show_camera)
-        self.format = QComboBox()
+        self.format = QComboBox(sizeAdjustPolicy=QComboBox.SizeAdjustPolicy.AdjustToContents)
         self.format.setAccessibleName(self.tr("Format"))
         self.export = Button(self.tr("&Export…"), takes_enter=False)
         self.export.clicked.connect(self._ask_and_export)
         self.said = WrappedLabel()
         self._lay_out()
+        theme.follow(self._draw)
         self.resize(1000, 620)
         self._clear(self.tr("Add the result.json of each setting of one camera: three or more."))
 
     def _lay_out(self) -> None:
-        above = QHBoxLayout()
-        above.addWidget(self.add)
-        above.addWidget(QLabel(self.tr("by")))
-        above.addWidget(self.scalar)
-        above.addWidget(self.table_of_values)
-        above.addStretch(1)
+        above = make_row(self.add, QLabel(self.tr("by")), self.scalar, self.table_of_values, None)
         drawing = QWidget()
-        right = QVBoxLayout(drawing)
-        right.setContentsMargins(0, 0, 0, 0)
-        right.addWidget(self.parameter)
-        right.addWidget(self.plot, 1)
+        make_column(self.parameter, (self.plot, 1), of=drawing)
         tabs = TabWidget()
         tabs.addTab(self.results, self.tr("Results"))
         tabs.addTab(self.camera, self.tr("Camera at a value"))
@@ -130,23 +121,17 @@ class SeriesDialog(QDialog):
         self._found.addWidget(tabs)
         self._found.addWidget(drawing)
         self._found.setSizes([540, 460])
-        policy = self._found.sizePolicy()
-        policy.setRetainSizeWhenHidden(True)
-        self._found.setSizePolicy(policy)
-        buttons = add_close_button(self)
-        buttons.addButton(self.export, QDialogButtonBox.ButtonRole.ActionRole)
-        below = QHBoxLayout()
-        below.addWidget(QLabel(self.tr("Camera at")))
-        below.addWidget(self.at)
-        below.addWidget(QLabel(self.tr("as")))
-        below.addWidget(self.format)
-        below.addWidget(self.said, 1)
-        below.addWidget(buttons)
-        layout = QVBoxLayout(self)
-        layout.addLayout(above)
-        layout.addWidget(self.words)
-        layout.addWidget(self._found, 1)
-        layout.addLayout(below)
+        keep_place(self._found)
+        buttons = make_buttons(self, self.export)
+        below = make_row(
+            QLabel(self.tr("Camera at")),
+            self.at,
+            QLabel(self.tr("as")),
+            self.format,
+            (self.said, 1),
+            buttons,
+        )
+        make_column(above, self.words, (self._found, 1), below, of=self, margins=theme.MARGIN)
 
     @property
     def quantity(self) -> Scalar:

@@ -17,7 +17,7 @@ from PySide6.QtCore import (
     Signal,
 )
 from PySide6.QtGui import QAction, QActionGroup, QColor, QPainter, QPaintEvent
-from PySide6.QtWidgets import QVBoxLayout, QWidget
+from PySide6.QtWidgets import QWidget
 
 from calibgui.app.projects.project import change_views, remove_views
 from calibgui.dataset import Result, View
@@ -27,6 +27,7 @@ from calibgui.gui.images.image_model import Criterion, ImageModel, Role
 from calibgui.gui.session.session import Session
 from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.actions import enable_action, make_action
+from calibgui.gui.widgets.layouts import make_column
 
 Index = QModelIndex | QPersistentModelIndex
 
@@ -88,9 +89,9 @@ class FilmStrip(QWidget):
             away.connect(lambda: session.hover(""))
         self.list.setContextMenuPolicy(Qt.ContextMenuPolicy.ActionsContextMenu)
         self.list.setAccessibleName(self.tr("Images"))
-        layout = QVBoxLayout(self)
-        layout.setContentsMargins(theme.SPACING, theme.SPACING // 2, theme.SPACING, 0)
-        layout.addWidget(self.list)
+        layout = make_column(
+            self.list, of=self, margins=(theme.SPACING, theme.SPACING // 2, theme.SPACING, 0)
+        )
         self.setFixedHeight(layout.sizeHint().height())
         self.exclude_above = self.list.words
         self.exclude_above.setToolTip(

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import ClassVar, Generic, TypeVar
 
 from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QApplication, QHBoxLayout, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QApplication, QWidget
 
 from calibgui.dataset import Result
 from calibgui.gui.jobs.job import Job
@@ -13,6 +13,7 @@ from calibgui.gui.panels.latest import Latest
 from calibgui.gui.panels.panel import Panel
 from calibgui.gui.panels.services import Services
 from calibgui.gui.widgets.buttons import Button
+from calibgui.gui.widgets.layouts import make_row
 from calibgui.gui.widgets.wrapped_label import WrappedLabel
 
 Found = TypeVar("Found")
@@ -67,16 +68,9 @@ class OnDemandPanel(Panel, Generic[Found]):
     def _lay_out(self, content: QWidget, *buttons: QWidget) -> None:
         """Lay the panel out; `content`, and buttons above it, are shown when something is found."""
         self._shown_if_found = (content, *buttons)
-        bar = QHBoxLayout()
-        bar.addWidget(self.run)
-        bar.addStretch(1)
-        for button in buttons:
-            bar.addWidget(button)
-        layout = QVBoxLayout(self.body)
-        layout.addLayout(bar)
-        layout.addWidget(self.words)
-        layout.addWidget(content, 1)
-        layout.addStretch()  # while there is no content: room for it would have to be scrolled
+        bar = make_row(self.run, None, *buttons)
+        # While there is no content, room for it would have to be scrolled.
+        self._fill_body(bar, self.words, (content, 1), None)
 
     def _start(self) -> None:
         result = self._result

@@ -5,13 +5,14 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import ClassVar
 
-from PySide6.QtCore import QT_TRANSLATE_NOOP, QEvent, Qt, Signal
+from PySide6.QtCore import QT_TRANSLATE_NOOP, Qt, Signal
 from PySide6.QtGui import QShowEvent
 from PySide6.QtWidgets import QStackedLayout, QWidget
 
 from calibgui.dataset import Result
 from calibgui.gui.panels.services import Services
 from calibgui.gui.widgets import theme
+from calibgui.gui.widgets.layouts import Part, make_column
 from calibgui.gui.widgets.wrapped_label import WrappedLabel
 
 
@@ -56,11 +57,16 @@ class Panel(QWidget):
         self._selected = (-1, -1)
         self._stale = self._behind = False
         self._empty = WrappedLabel(self.tr(self.hint))
-        self._empty.setAlignment(Qt.AlignmentFlag.AlignCenter)
-        self._empty.setMargin(3 * theme.SPACING)
+        self._empty.setAlignment(Qt.AlignmentFlag.AlignTop)
+        self._empty.setMargin(theme.SPACING)
         self._stack = QStackedLayout(self)
         self._stack.addWidget(self._empty)
         self._stack.addWidget(self.body)
+        theme.follow(self._restyle)
+
+    def _fill_body(self, *parts: Part) -> None:
+        """Let the body have these parts, from top to bottom."""
+        make_column(*parts, of=self.body, margins=theme.SPACING)
 
     def offer_results(self, results: Mapping[str, Result]) -> None:
         """Offer the project's results by name, the oldest first; most panels need but one."""
@@ -97,11 +103,6 @@ class Panel(QWidget):
         super().showEvent(event)
         self._update()
 
-    def changeEvent(self, event: QEvent) -> None:  # noqa: N802 - Qt's name
-        super().changeEvent(event)
-        if event.type() == QEvent.Type.PaletteChange:
-            self._refresh_now()
-
     def _update(self) -> None:
         if self._result is None or self._stack.currentIndex() == 0 or not self.isVisible():
             return
@@ -115,6 +116,10 @@ class Panel(QWidget):
         """Show the result anew, after a choice of the user's."""
         self._stale = True
         self._update()
+
+    def _restyle(self) -> None:
+        """Take the present colours; by default everything is drawn anew."""
+        self._refresh_now()
 
     def _pick(self, k: int, corner: int = -1) -> None:
         """Announce what the user pointed at: calibrated view k and a corner."""

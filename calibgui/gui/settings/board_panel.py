@@ -10,7 +10,6 @@ from PySide6.QtWidgets import (
     QCheckBox,
     QComboBox,
     QFormLayout,
-    QHBoxLayout,
     QLabel,
     QSpinBox,
     QWidget,
@@ -33,6 +32,7 @@ from calibgui.engine.images import Field
 from calibgui.gui.session.session import Session
 from calibgui.gui.settings.pattern_choice import PatternChoice
 from calibgui.gui.widgets import theme
+from calibgui.gui.widgets.layouts import INDENTED, make_row
 from calibgui.gui.widgets.narrow_combo import NarrowCombo
 from calibgui.gui.widgets.number_box import NumberBox
 from calibgui.gui.widgets.pattern_texts import name_points
@@ -128,17 +128,11 @@ class BoardPanel(QWidget):
         self.pattern = PatternChoice(self.tr("read from the images"))
         self.counted, self.side = QLabel(), QLabel()
         self.counted.setMinimumWidth(self.pattern.label.minimumWidth())  # fields begin alike
-        corners = QHBoxLayout()
-        corners.addWidget(self.rows, 1)
-        corners.addWidget(QLabel("×"))
-        corners.addWidget(self.cols, 1)
-        side = QHBoxLayout()
-        side.addWidget(self.square, 1)
-        side.addWidget(QLabel("±"))
-        side.addWidget(self.square_sigma, 1)
-        side.addWidget(self.unit)
+        corners = make_row((self.rows, 1), QLabel("×"), (self.cols, 1))
+        side = make_row((self.square, 1), QLabel("±"), (self.square_sigma, 1), self.unit)
         form = self._form = QFormLayout(self)
-        form.setContentsMargins(theme.SPACING, 0, 0, theme.SPACING)
+        form.setSpacing(theme.SPACING)
+        form.setContentsMargins(*INDENTED)
         form.addRow(self.pattern)
         form.addRow(self.counted, corners)
         form.addRow("", self.inferred)

@@ -7,13 +7,14 @@ from PySide6.QtWidgets import (
     QCheckBox,
     QFileDialog,
     QFormLayout,
-    QHBoxLayout,
     QWidget,
 )
 
 from calibgui.engine.boards import BoardShape, BoardShapeModel, BoardShapePrior
 from calibgui.engine.errors import CalibrationError
 from calibgui.formats.board_shape_json import read_board_shape
+from calibgui.gui.widgets import theme
+from calibgui.gui.widgets.layouts import make_row
 from calibgui.gui.widgets.narrow_combo import NarrowCombo
 from calibgui.gui.widgets.number_box import NumberBox
 
@@ -87,10 +88,9 @@ class BoardShapeChoice(QWidget):
                 "of it. Every ± counts it, and few views can then carry a free board."
             )
         )
-        row = QHBoxLayout()
-        row.addWidget(self.in_plane, 1)
-        row.addWidget(self.out_of_plane, 1)
+        row = make_row((self.in_plane, 1), (self.out_of_plane, 1))
         form = QFormLayout(self)
+        form.setSpacing(theme.SPACING)
         form.setContentsMargins(0, 0, 0, 0)
         form.addRow(self.tr("Boar&d is"), self.model)
         form.addRow(self.known, row)
@@ -121,13 +121,8 @@ class BoardShapeChoice(QWidget):
         self.model.setCurrentIndex(chosen)
         self.known.setChecked(prior is not None)
         if prior is not None:
-            for box, value in (
-                (self.in_plane, prior.in_plane),
-                (self.out_of_plane, prior.out_of_plane),
-            ):
-                box.blockSignals(True)
-                box.setValue(value)
-                box.blockSignals(False)
+            self.in_plane.show_value(prior.in_plane)
+            self.out_of_plane.show_value(prior.out_of_plane)
         self._enable()
 
     def _make_length(self, value: float, unit: str, tip: str) -> NumberBox:

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from PySide6.QtCore import Signal
-from PySide6.QtWidgets import QHBoxLayout, QLabel, QWidget
+from PySide6.QtWidgets import QLabel, QWidget
 
 from calibgui.dataset import KnownCamera
-from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.buttons import Button, Kind
 from calibgui.gui.widgets.elided import elide_name
+from calibgui.gui.widgets.layouts import make_row
 from calibgui.report.lens_models import get_lens_title
 
 _NAME_LENGTH = 22
@@ -29,11 +29,7 @@ class KnownCameraChoice(QWidget):
         self.name = QLabel()
         self.button = Button(kind=Kind.LINK)
         self.button.clicked.connect(self._click)
-        row = QHBoxLayout(self)
-        row.setContentsMargins(0, 0, 0, 0)
-        row.setSpacing(theme.SPACING)
-        row.addWidget(self.name, 1)
-        row.addWidget(self.button)
+        make_row((self.name, 1), self.button, of=self)
         self.show_known(None)
 
     def show_known(self, known: KnownCamera | None) -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from functools import partial
 
-from PySide6.QtWidgets import QFileDialog, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QFileDialog, QWidget
 
 from calibgui.app.projects.project import set_limits
 from calibgui.app.system.limit_presets import find_camera_limits, list_presets
@@ -12,12 +12,13 @@ from calibgui.dataset.limits import Limits
 from calibgui.engine.errors import CalibrationError
 from calibgui.gui.session.session import Session
 from calibgui.gui.widgets import theme
+from calibgui.gui.widgets.layouts import INDENTED, make_column
 from calibgui.gui.widgets.narrow_combo import NarrowCombo
 from calibgui.gui.widgets.wrapped_label import WrappedLabel
 
 
 class LimitsChoice(QWidget):
-    """Edits the limits of the project, by which the inspector says PASS or FAIL.
+    """Edits the limits of the project, by which the verdict says PASS or FAIL.
 
     Args:
         session: whose project it is.
@@ -34,11 +35,13 @@ class LimitsChoice(QWidget):
         self.words = WrappedLabel()
         self.words.setFont(theme.make_font(theme.CAPTION))
         self.words.setForegroundRole(self.words.palette().ColorRole.PlaceholderText)
-        column = QVBoxLayout(self)
-        column.setContentsMargins(theme.SPACING, 0, 0, theme.SPACING)
-        column.setSpacing(theme.SPACING // 2)
-        column.addWidget(self.choice)
-        column.addWidget(self.words)
+        make_column(
+            self.choice,
+            self.words,
+            of=self,
+            margins=INDENTED,
+            spacing=theme.SPACING // 2,
+        )
         self.choice.activated.connect(lambda _: self._choose())
         session.changed.connect(lambda *_: self._refresh())
         self._refresh()
@@ -54,7 +57,7 @@ class LimitsChoice(QWidget):
         said = [] if limits is None else self._list_demands(limits)
         self.words.setText(
             "\n".join(said)
-            or self.tr("With limits the inspector says PASS or FAIL, as for a fleet's cameras.")
+            or self.tr("With limits the verdict says PASS or FAIL, as for a fleet's cameras.")
         )
 
     def _choose(self) -> None:

@@ -10,7 +10,6 @@ from PySide6.QtWidgets import (
     QComboBox,
     QFileDialog,
     QFormLayout,
-    QHBoxLayout,
     QLabel,
     QSpinBox,
     QWidget,
@@ -31,7 +30,9 @@ from calibgui.engine.boards import (
 )
 from calibgui.engine.errors import CalibrationError
 from calibgui.formats.circle_list import read_circle_list
+from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.buttons import Button
+from calibgui.gui.widgets.layouts import make_row
 from calibgui.gui.widgets.number_box import NumberBox
 from calibgui.gui.widgets.pattern_texts import list_pattern_texts
 
@@ -130,12 +131,9 @@ class PatternChoice(QWidget):
         self.origin.setToolTip(
             self.tr("Row and column of the board's first corner on the whole PuzzleBoard pattern.")
         )
-        beside = QHBoxLayout(self.origin)
-        beside.setContentsMargins(0, 0, 0, 0)
-        beside.addWidget(self.first_row, 1)
-        beside.addWidget(QLabel("×"))
-        beside.addWidget(self.first_col, 1)
+        make_row((self.first_row, 1), QLabel("×"), (self.first_col, 1), of=self.origin)
         self.form = QFormLayout(self)
+        self.form.setSpacing(theme.SPACING)
         self.form.setContentsMargins(0, 0, 0, 0)
         self.label = QLabel(self.tr("Pattern"))
         """The first label; the fields begin where the widest one of any pattern ends."""
@@ -206,20 +204,20 @@ class PatternChoice(QWidget):
         if isinstance(pattern, Charuco):
             self.dictionary.setCurrentIndex(self.dictionary.findData(pattern.dictionary))
             self.layout_used.setCurrentIndex(self.layout_used.findData(pattern.legacy))
-            _show(self.marker, (pattern.marker or 0.0) * side)
+            self.marker.show_value((pattern.marker or 0.0) * side)
         if isinstance(pattern, ListedCircles):
             text = self.tr("Choose a file…")
             if pattern.places is not None:
                 text = self.tr("{0} circles…").format(len(pattern.places))
             self.layout_file.setText(text)
         if isinstance(pattern, Circles | ListedCircles):
-            _show(self.diameter, (pattern.diameter or 0.0) * side)
+            self.diameter.show_value((pattern.diameter or 0.0) * side)
         if isinstance(pattern, AprilGrid | TaggedCheckerboard):
             self.family.setCurrentIndex(self.family.findData(pattern.family))
             self.border.setCurrentIndex(self.border.findData(pattern.border))
             self.order.setCurrentIndex(self.order.findData(pattern.from_top))
         if isinstance(pattern, AprilGrid):
-            _show(self.spacing, pattern.spacing or 0.0)
+            self.spacing.show_value(pattern.spacing or 0.0)
             self.corner_squares.setCurrentIndex(
                 self.corner_squares.findData(pattern.corner_squares)
             )
@@ -291,14 +289,6 @@ class PatternChoice(QWidget):
         if pattern != self._pattern:
             self.show_pattern(pattern, self._side)
             self.changed.emit()
-
-
-def _show(box: NumberBox, value: float) -> None:
-    """Show a value without a signal."""
-    box.blockSignals(True)
-    if abs(box.value() - value) > 10.0 ** -box.decimals() / 2:
-        box.setValue(value)
-    box.blockSignals(False)
 
 
 def _make_choice(tip: str, *choices: tuple[str, Any]) -> QComboBox:

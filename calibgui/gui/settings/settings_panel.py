@@ -11,7 +11,6 @@ from PySide6.QtWidgets import (
     QGridLayout,
     QLabel,
     QLineEdit,
-    QVBoxLayout,
     QWidget,
 )
 
@@ -40,6 +39,7 @@ from calibgui.gui.settings.method_choice import (
     takes_weights,
 )
 from calibgui.gui.widgets import theme
+from calibgui.gui.widgets.layouts import INDENTED, make_column
 from calibgui.gui.widgets.narrow_combo import NarrowCombo
 from calibgui.report.lens_models import describe_lens_model, get_lens_title
 
@@ -156,11 +156,13 @@ class SettingsPanel(QWidget):
         model = QFormLayout()
         model.addRow(known, self.known)
         model.addRow(lens, self.model)
-        column = QVBoxLayout(self.lens)
-        column.setContentsMargins(theme.SPACING, 0, 0, theme.SPACING)
-        column.addLayout(model)
-        column.addWidget(self.board_shape)
-        column.addWidget(self.improve)
+        make_column(
+            model,
+            self.board_shape,
+            self.improve,
+            of=self.lens,
+            margins=INDENTED,
+        )
         how = QFormLayout()
         how.addRow(self.tr("Method"), self.method)
         how.addRow(label, self.cost)
@@ -169,13 +171,16 @@ class SettingsPanel(QWidget):
         self._grid.addWidget(QLabel(self.tr("Estimate")), 0, 0)
         last = QFormLayout()
         last.addRow(held, self.values)
-        column = QVBoxLayout(self.experts)
-        column.setContentsMargins(theme.SPACING, 0, 0, theme.SPACING)
-        column.addLayout(how)
-        for box in (self.robust, self.weigh, self.again):
-            column.addWidget(box)
-        column.addLayout(self._grid)
-        column.addLayout(last)
+        make_column(
+            how,
+            self.robust,
+            self.weigh,
+            self.again,
+            self._grid,
+            last,
+            of=self.experts,
+            margins=INDENTED,
+        )
 
     def _arrange_boxes(self, names: Sequence[str]) -> None:
         """Show the boxes of these parameters, in this order, and no others."""

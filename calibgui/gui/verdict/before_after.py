@@ -8,7 +8,7 @@ import textwrap
 import numpy as np
 from PySide6.QtCore import Signal, SignalInstance
 from PySide6.QtGui import QResizeEvent
-from PySide6.QtWidgets import QHBoxLayout, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QWidget
 
 from calibgui.engine.assessment import CameraDifference, Verdict, compare_cameras
 from calibgui.engine.numbers import format_two_digits
@@ -20,6 +20,7 @@ from calibgui.gui.verdict.remedy_runner import CarriedOut
 from calibgui.gui.verdict.texts import describe_grade
 from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.buttons import Button, Kind
+from calibgui.gui.widgets.layouts import make_column, make_row
 from calibgui.gui.widgets.scrolling import make_scrollable
 from calibgui.gui.widgets.sheet import Sheet
 from calibgui.gui.widgets.tables import Column, Table, with_decimals
@@ -68,23 +69,12 @@ class BeforeAndAfter(Sheet):
         self.back = Button(self.tr("&Take back"))
         self.keep.clicked.connect(lambda: self._answer(self.kept))
         self.back.clicked.connect(lambda: self._answer(self.taken_back))
-        head = QHBoxLayout()
-        head.addWidget(self.title, 1)
-        head.addWidget(self.back)
-        head.addWidget(self.keep)
-        tables = QVBoxLayout()
-        tables.addWidget(self.errors)
-        tables.addWidget(self.parameters, 1)
+        head = make_row((self.title, 1), self.back, self.keep)
+        tables = make_column(self.errors, (self.parameters, 1))
         inside = QWidget()
         inside.setMinimumHeight(_LEAST_HEIGHT)
-        sides = QHBoxLayout(inside)
-        sides.setContentsMargins(0, 0, 0, 0)
-        sides.addLayout(tables)
-        sides.addWidget(self.map, 1)
-        layout = QVBoxLayout(self)
-        layout.setContentsMargins(*[theme.SPACING] * 4)
-        layout.addLayout(head)
-        layout.addWidget(make_scrollable(inside), 1)
+        make_row(tables, (self.map, 1), of=inside)
+        make_column(head, (make_scrollable(inside), 1), of=self, margins=theme.SPACING)
         # Work that goes on keeps what was done.
         session.changed.connect(lambda _, after: self._close_for_other(after))
 

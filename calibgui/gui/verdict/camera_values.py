@@ -5,8 +5,8 @@ from __future__ import annotations
 from functools import partial
 from html import escape
 
-from PySide6.QtCore import QEvent, Qt, Signal
-from PySide6.QtWidgets import QHBoxLayout, QLabel, QMenu, QVBoxLayout, QWidget
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtWidgets import QLabel, QMenu, QWidget
 
 from calibgui.app.projects.project import Project
 from calibgui.dataset import Result
@@ -16,6 +16,7 @@ from calibgui.gui.verdict.done_list import make_heading
 from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.buttons import Button, Kind
 from calibgui.gui.widgets.glossary import explain
+from calibgui.gui.widgets.layouts import make_column, make_row
 from calibgui.gui.widgets.narrow_combo import NarrowCombo
 from calibgui.report.numbers import format_with_sigma
 
@@ -47,7 +48,6 @@ class CameraValues(QWidget):
         self.results.setAccessibleName(self.tr("Result"))
         self.results.setToolTip(self.tr("Every calibration keeps its result under a name"))
         self.results.activated.connect(lambda k: session.show_result(self.results.itemText(k)))
-        self.state = QLabel()
         self.more = Button(self.tr("manage"), Kind.LINK)
         self.more.setToolTip(self.tr("Rename, delete or compare results"))
         menu = QMenu(self.more)
@@ -65,38 +65,29 @@ class CameraValues(QWidget):
             self.tr("Or drop them here: they check the camera, and join no project")
         )
         self.check.clicked.connect(self.check_wanted)
-        head = QHBoxLayout()
-        head.setSpacing(theme.SPACING)
-        head.addWidget(make_heading(self.tr("Camera")))
-        head.addStretch(1)
-        head.addWidget(self.state)
-        head.addWidget(self.more)
-        column = QVBoxLayout(self)
-        column.setContentsMargins(0, 0, 0, 0)
-        column.setSpacing(theme.SPACING // 2)
-        column.addLayout(head)
-        column.addWidget(self.results)
-        column.addWidget(self.values)
-        column.addWidget(self.all)
-        column.addWidget(self.check)
-        column.addStretch(1)
+        heading = make_heading(self.tr("Camera"))
+        head = make_row(heading, (self.results, 1), None, self.more)
+        parts = head, self.values, self.all, self.check, None
+        make_column(*parts, of=self, spacing=theme.SPACING // 2)
         session.changed.connect(self._project_changed)
         session.result_changed.connect(self._show)
+        theme.follow(self._restyle)
         self._show(session.result)
 
     def _project_changed(self, before: Project, after: Project) -> None:
         if before.results is not after.results:
             self._list_results()
-        self._show_state()
 
     def _show(self, result: Result | None) -> None:
         self._list_results()
-        self._show_state()
         rows = [] if result is None else _list_rows(result)
         self.values.setText(_format_html(rows))
         self.values.setAccessibleName(", ".join(" ".join(row) for row in rows))
         self.values.setToolTip("\n".join(filter(None, (explain(row[0]) for row in rows))))
         self.setVisible(result is not None)
+
+    def _restyle(self) -> None:
+        self._show(self._session.result)
 
     def _list_results(self) -> None:
         names, shown = list(self._session.project.results), self._session.result_name
@@ -109,17 +100,6 @@ class CameraValues(QWidget):
                 self.compare.addAction(name, partial(self.compare_wanted.emit, name))
         self.compare.setEnabled(len(names) > 1)
         self.results.setVisible(len(names) > 1)
-
-    def _show_state(self) -> None:
-        age = self._session.describe_age(self._session.result)
-        self.state.setText(self.tr("out of date") if age else "")
-        self.state.setToolTip(age)
-        theme.set_text_colour(self.state, theme.current().warning)
-
-    def changeEvent(self, event: QEvent) -> None:  # noqa: N802 - Qt's name
-        super().changeEvent(event)
-        if event.type() == QEvent.Type.PaletteChange and hasattr(self, "all"):
-            self._show(self._session.result)
 
 
 def _list_rows(result: Result) -> list[tuple[str, str, str]]:

@@ -7,12 +7,10 @@ from dataclasses import replace
 from typing import assert_never
 
 import numpy as np
-from PySide6.QtCore import QEvent, Qt
+from PySide6.QtCore import Qt
 from PySide6.QtWidgets import (
     QFileDialog,
-    QHBoxLayout,
     QLabel,
-    QVBoxLayout,
     QWidget,
 )
 
@@ -28,6 +26,7 @@ from calibgui.gui.session.session import Session
 from calibgui.gui.verdict.grade_icon import GradeIcon, get_colour
 from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.buttons import Button
+from calibgui.gui.widgets.layouts import make_column, make_row
 from calibgui.gui.widgets.number_box import NumberBox
 from calibgui.gui.widgets.sheet import Sheet
 from calibgui.gui.widgets.wrapped_label import WrappedLabel
@@ -74,20 +73,15 @@ class CheckSheet(Sheet):
         self.close_button.clicked.connect(self.leave)
         label = QLabel(self.tr("&Limit"))
         label.setBuddy(self.limit)
-        top = QHBoxLayout()
-        top.setSpacing(theme.SPACING)
-        top.addWidget(self.icon)
-        top.addWidget(self.headline, 1)
-        for widget in (label, self.limit, self.others, self.close_button):
-            top.addWidget(widget)
-        column = QVBoxLayout(self)
-        column.setContentsMargins(theme.MARGIN, 12, theme.MARGIN, 12)
-        column.setSpacing(theme.SPACING)
-        column.addLayout(top)
-        column.addWidget(self.words)
-        column.addWidget(self.details)
+        top = make_row(
+            self.icon, (self.headline, 1), label, self.limit, self.others, self.close_button
+        )
+        make_column(
+            top, self.words, self.details, of=self, margins=(theme.MARGIN, 12, theme.MARGIN, 12)
+        )
         self.closed.connect(self._work.cancel)
         session.result_changed.connect(lambda _: self.leave())
+        theme.follow(self._show)
 
     def ask_for_photographs(self) -> None:
         """Check with photographs of the user's choice."""
@@ -190,8 +184,3 @@ class CheckSheet(Sheet):
         column = self.layout()
         assert column is not None
         return column.heightForWidth(width)
-
-    def changeEvent(self, event: QEvent) -> None:  # noqa: N802 - Qt's name
-        super().changeEvent(event)
-        if event.type() == QEvent.Type.PaletteChange and hasattr(self, "close_button"):
-            self._show()

@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QColor, QPainter, QPaintEvent
-from PySide6.QtWidgets import QHBoxLayout, QLabel, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QHBoxLayout, QLabel, QWidget
 
 from calibgui.app.calibrating.settings import DEFAULT_MODEL
 from calibgui.dataset import Result, ViewStatus
@@ -18,6 +18,7 @@ from calibgui.gui.verdict.sentences import translate_sentences
 from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.buttons import Button, Kind
 from calibgui.gui.widgets.elided import elide_name
+from calibgui.gui.widgets.layouts import make_column
 from calibgui.gui.widgets.reserved_label import ReservedLabel
 from calibgui.report.lens_models import get_short_lens_title
 from calibgui.report.summary import describe_outliers
@@ -58,11 +59,7 @@ class DoneList(QWidget):
         self._shown: tuple[Result | None, str] | None = None
         self.rows: list[_Row] = []
         self.heading = make_heading(self.tr("What was done"))
-        self._column = QVBoxLayout(self)
-        self._column.setContentsMargins(0, 0, 0, 0)
-        self._column.setSpacing(0)
-        self._column.addWidget(self.heading)
-        self._column.addStretch(1)
+        self._column = make_column(self.heading, None, of=self, spacing=0)
         session.changed.connect(lambda *_: self._refresh())
         session.result_changed.connect(lambda _: self._refresh())
         self._refresh()

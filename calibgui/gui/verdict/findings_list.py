@@ -9,10 +9,8 @@ from collections.abc import Mapping, Sequence
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import (
     QGridLayout,
-    QHBoxLayout,
     QLabel,
     QToolButton,
-    QVBoxLayout,
     QWidget,
 )
 
@@ -23,6 +21,7 @@ from calibgui.gui.verdict.texts import describe_button
 from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.buttons import Button
 from calibgui.gui.widgets.elided import ElidedLabel
+from calibgui.gui.widgets.layouts import make_column, make_row
 from calibgui.gui.widgets.scrolling import make_scrollable
 from calibgui.gui.widgets.sheet import Sheet
 from calibgui.gui.widgets.wrapped_label import WrappedLabel
@@ -49,12 +48,9 @@ class FindingsList(Sheet):
         self.rows: list[FindingRow] = []
         self.glass: GlassRow | None = None
         self._body = QWidget()
-        self._column = QVBoxLayout(self._body)
-        self._column.setContentsMargins(theme.SPACING, 0, theme.SPACING, theme.SPACING)
-        self._column.setSpacing(0)
-        layout = QVBoxLayout(self)
-        layout.setContentsMargins(1, 0, 1, 2)
-        layout.addWidget(make_scrollable(self._body))
+        margins = theme.SPACING, 0, theme.SPACING, theme.SPACING
+        self._column = make_column(of=self._body, spacing=0, margins=margins)
+        make_column(make_scrollable(self._body), of=self, margins=(1, 0, 1, 2))
 
     def show_verdict(
         self, verdict: Verdict, names: Sequence[str], condition: str, glass: Mapping[str, float]
@@ -167,8 +163,9 @@ class GlassRow(QWidget):
             ).format(GLASS.in_plane, GLASS.out_of_plane, list_gains(narrower))
         )
         self.button = Button(self.tr("It is of glass"))
-        row = QHBoxLayout(self)
-        row.setContentsMargins(0, theme.SPACING // 2, 0, theme.SPACING // 2)
-        row.setSpacing(theme.SPACING)
-        row.addWidget(self.what, 1)
-        row.addWidget(self.button)
+        make_row(
+            (self.what, 1),
+            self.button,
+            of=self,
+            margins=(0, theme.SPACING // 2, 0, theme.SPACING // 2),
+        )

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from functools import partial
 
-from PySide6.QtCore import QEvent
 from PySide6.QtGui import QResizeEvent
 
 from calibgui.dataset import Result
@@ -39,6 +38,7 @@ class LimitsRow(ReservedLabel):
         self.setAccessibleName(self.tr("Limits"))
         session.result_changed.connect(lambda _: self._measure())
         session.judged.connect(self._measure)
+        theme.follow(self._show)
         self._measure()
 
     def _measure(self) -> None:
@@ -82,8 +82,3 @@ class LimitsRow(ReservedLabel):
         super().resizeEvent(event)
         if event.size().width() != event.oldSize().width():
             self._fit()
-
-    def changeEvent(self, event: QEvent) -> None:  # noqa: N802 - Qt's name
-        super().changeEvent(event)
-        if event.type() == QEvent.Type.PaletteChange and hasattr(self, "broken"):
-            self._show()

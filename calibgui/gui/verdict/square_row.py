@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from PySide6.QtWidgets import QHBoxLayout, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QWidget
 
 from calibgui.app.projects.lengths import confirm_lengths, set_square
 from calibgui.app.projects.project import Project
@@ -11,6 +11,7 @@ from calibgui.engine.boards import AprilGrid, Pattern
 from calibgui.gui.session.session import Session
 from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.buttons import Button, Kind
+from calibgui.gui.widgets.layouts import keep_place, make_column, make_row
 from calibgui.gui.widgets.number_box import NumberBox
 from calibgui.gui.widgets.pattern_texts import list_pattern_texts
 from calibgui.gui.widgets.reserved_label import ReservedLabel
@@ -41,20 +42,15 @@ class SquareRow(QWidget):
         self.square.valueChanged.connect(lambda _: self._name_button(self._session.project))
         self.square.lineEdit().returnPressed.connect(self.answer)
         self.confirm.clicked.connect(self.answer)
-        for widget in (self.square, self.confirm):
-            policy = widget.sizePolicy()
-            policy.setRetainSizeWhenHidden(True)
-            widget.setSizePolicy(policy)
-        answer = QHBoxLayout()
-        answer.setSpacing(theme.SPACING)
-        answer.addWidget(self.square)
-        answer.addWidget(self.confirm)
-        answer.addStretch(1)
-        column = self._column = QVBoxLayout(self)
-        column.setContentsMargins(0, 0, 0, theme.SPACING // 2)
-        column.setSpacing(theme.SPACING // 2)
-        column.addWidget(self.counted)
-        column.addLayout(answer)
+        keep_place(self.square, self.confirm)
+        answer = make_row(self.square, self.confirm, None)
+        self._column = make_column(
+            self.counted,
+            answer,
+            of=self,
+            margins=(0, 0, 0, theme.SPACING // 2),
+            spacing=theme.SPACING // 2,
+        )
         session.changed.connect(lambda _, after: self._show(after))
         self._show(session.project)
 
@@ -92,16 +88,15 @@ class SquareRow(QWidget):
         self.counted.setText(self._ask(project))
         self.square.setAccessibleName(self._name_side(project.pattern))
         if not self.square.hasFocus():
-            self.square.blockSignals(True)
-            self.square.setValue(project.square / project.unit.mm)
-            self.square.blockSignals(False)
+            self.square.show_value(project.square / project.unit.mm)
         self.square.setSuffix(f" {project.unit}")
         self._name_button(project)
 
     def _ask(self, project: Project) -> str:
         """Return the question, with what is known of the board, or that it was answered."""
         if project.lengths_confirmed:
-            return self.tr("Lengths hold: you have confirmed the one below.")
+            text = self.tr("Lengths hold: you have confirmed {0:g} {1}.")
+            return text.format(project.square / project.unit.mm, project.unit)
         pattern, board = project.pattern, project.board
         if not pattern.has_squares:
             known = self.tr("How far apart are the circles? {2}, {0} × {1}.")

@@ -8,8 +8,8 @@ from functools import partial
 from pathlib import PurePath
 from typing import assert_never
 
-from PySide6.QtCore import QEvent, Signal
-from PySide6.QtWidgets import QHBoxLayout, QLabel, QSizePolicy, QVBoxLayout, QWidget
+from PySide6.QtCore import Signal
+from PySide6.QtWidgets import QLabel, QSizePolicy, QWidget
 
 from calibgui.app.calibrating.true_board import measure_gain_of_glass
 from calibgui.app.projects.project import Project
@@ -35,6 +35,7 @@ from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.buttons import Button, Kind
 from calibgui.gui.widgets.elided import elide_name
 from calibgui.gui.widgets.fit_text import describe_fit
+from calibgui.gui.widgets.layouts import make_column, make_row
 from calibgui.gui.widgets.lengths import state_condition
 from calibgui.gui.widgets.pattern_texts import list_pattern_texts
 from calibgui.gui.widgets.reserved_label import ReservedLabel
@@ -43,15 +44,15 @@ from calibgui.report.verdict import describe_reason
 
 _PLACES = "CoveragePanel"
 """The panel that shows where to hold the board."""
-_LINES, _LINES_IF_HIGH = 2, 3
+_LINES, _LINES_IF_ROOMY = 2, 3
 """Lines that are reserved for the reason, so that another verdict moves nothing below."""
 _LINES_OF_QUESTION = 2
 """Lines that are reserved for the question how long the squares are."""
-_LOW, _HIGH = 600, 800
-"""Heights of the inspector below which the picture of the sensor is lower, and from which the
-reason has another line, device-independent px."""
-_HEIGHT, _HEIGHT_IF_LOW = 196, 120
-"""Heights of the picture, device-independent px."""
+ROOMY = 690
+"""Height of the inspector above which the reason has another line, device-independent px."""
+_LEAST_HEIGHT, _HEIGHT, _REST = 120, 180, 494
+"""Least and usual height of the picture, and that of all else in an inspector without remedies,
+device-independent px."""
 _NAME_LENGTH = 16
 """Letters of a name that have room on a button in the least width."""
 
@@ -112,35 +113,29 @@ class VerdictBar(QWidget):
         self.unfold.toggled.connect(self.findings.setVisible)
         self.comparison: QWidget | None = None
         self._lay_out()
-        self.fit_height(_LOW)
+        self.fit_height(ROOMY)
         self.remedy_runner.began.connect(self._show_buttons)
         self.remedy_runner.ended.connect(self._show_buttons)
         self.remedy_runner.done.connect(self._compare)
         session.result_changed.connect(self._judge)
         session.changed.connect(lambda *_: self._show_age())
+        theme.follow(self._restyle)
         self._judge(session.result)
 
     def _lay_out(self) -> None:
-        top = QHBoxLayout()
-        top.setSpacing(theme.SPACING)
-        top.addWidget(self.icon)
-        top.addWidget(self.headline, 1)
+        top = make_row(self.icon, (self.headline, 1))
         self.action_row = QWidget()
         """What can be done about the verdict; it stands where the inspector has room."""
-        buttons = QHBoxLayout(self.action_row)
-        buttons.setContentsMargins(0, 0, 0, 0)
-        buttons.setSpacing(theme.SPACING)
-        buttons.addWidget(self.button)
-        buttons.addWidget(self.unfold)
-        buttons.addStretch(1)
-        column = QVBoxLayout(self)
-        column.setContentsMargins(0, 0, 0, 0)
-        column.setSpacing(theme.SPACING // 2)
-        column.addLayout(top)
-        column.addWidget(self.reason)
-        column.addWidget(self.square)
-        column.addWidget(self.figures)
-        column.addWidget(self.limits)
+        make_row(self.button, self.unfold, None, of=self.action_row)
+        make_column(
+            top,
+            self.reason,
+            self.square,
+            self.figures,
+            self.limits,
+            of=self,
+            spacing=theme.SPACING // 2,
+        )
         self.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Fixed)
 
     def show_running(self, running: bool) -> None:
@@ -152,8 +147,10 @@ class VerdictBar(QWidget):
 
     def fit_height(self, of_inspector: int) -> None:
         """Leave room to what is below in an inspector that is not high."""
-        self.reason.reserve(_LINES if of_inspector < _HIGH else _LINES_IF_HIGH)
-        self.figures.setFixedHeight(_HEIGHT_IF_LOW if of_inspector < _LOW else _HEIGHT)
+        self.reason.reserve(_LINES_IF_ROOMY if of_inspector > ROOMY else _LINES)
+        self.figures.setFixedHeight(min(max(of_inspector - _REST, _LEAST_HEIGHT), _HEIGHT))
+        if (layout := self.layout()) is not None:
+            layout.activate()  # whoever is being resized asks at once how high all is by now
 
     def _judge(self, result: Result | None) -> None:
         """Find out what the shown result is worth, beside the window, once nothing better comes.
@@ -375,11 +372,6 @@ class VerdictBar(QWidget):
             self.comparison = BeforeAndAfter(self._desk, self._session)
             self.comparison.taken_back.connect(self.remedy_runner.take_back)
         self.comparison.show_carried_out(carried_out)
-
-    def changeEvent(self, event: QEvent) -> None:  # noqa: N802 - Qt's name
-        super().changeEvent(event)
-        if event.type() == QEvent.Type.PaletteChange and hasattr(self, "square"):
-            self._restyle()
 
     def _restyle(self) -> None:
         """Colour the words, by palettes: a style sheet would style all that is in the bar."""

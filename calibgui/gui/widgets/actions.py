@@ -7,7 +7,7 @@ from typing import Any, cast
 
 from PySide6.QtCore import QCoreApplication, QSize, Qt
 from PySide6.QtGui import QAction, QKeySequence
-from PySide6.QtWidgets import QDialog, QDialogButtonBox, QWidget
+from PySide6.QtWidgets import QDialog, QDialogButtonBox, QPushButton, QWidget
 
 from calibgui.gui.widgets.buttons import Button
 
@@ -83,12 +83,15 @@ def find_copier(window: QWidget, name: str) -> QAction | None:
     return max(shown, key=rank, default=None)
 
 
-def add_close_button(dialog: QDialog) -> QDialogButtonBox:
-    """A row of buttons with one that closes `dialog`; Enter is left to the others."""
+def make_buttons(dialog: QDialog, *others: QPushButton) -> QDialogButtonBox:
+    """Make the last row of a dialog: these buttons, and one that closes it, which leaves Enter to
+    them."""
     buttons = QDialogButtonBox()
     close = Button(QCoreApplication.translate("actions", "Close"), takes_enter=False)
     buttons.addButton(close, QDialogButtonBox.ButtonRole.RejectRole)
     buttons.rejected.connect(dialog.reject)
+    for button in others:
+        buttons.addButton(button, QDialogButtonBox.ButtonRole.ActionRole)
     return buttons
 
 

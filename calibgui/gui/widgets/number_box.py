@@ -20,6 +20,13 @@ class NumberBox(QDoubleSpinBox):
         super().__init__(**properties)
         self.setLocale(QLocale.c())
 
+    def show_value(self, value: float) -> None:
+        """Show a value without announcing it; what is typed stays where it is the same, rounded."""
+        if abs(self.value() - value) > 10.0 ** -self.decimals() / 2:
+            blocked = self.blockSignals(True)
+            self.setValue(value)
+            self.blockSignals(blocked)
+
     def validate(self, text: str, place: int) -> tuple[QValidator.State, str, int]:
         """Tell whether a text is a number, a comma in it replaced."""
         return super().validate(text.replace(",", "."), place)

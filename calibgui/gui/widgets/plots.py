@@ -9,7 +9,7 @@ from typing import Any, cast
 
 import numpy as np
 import pyqtgraph as pg
-from PySide6.QtCore import QCoreApplication, QEvent, QPoint, QRectF, QSize, Qt
+from PySide6.QtCore import QCoreApplication, QPoint, QRectF, QSize, Qt
 from PySide6.QtGui import (
     QAction,
     QColor,
@@ -102,6 +102,7 @@ class Plot(pg.GraphicsView):  # type: ignore[misc]  # pyqtgraph is not typed
             self.addAction(action)
             self._menu.addAction(action)
         self._restyle()
+        theme.follow(self._restyle)
 
     @property
     def box(self) -> pg.ViewBox:
@@ -226,11 +227,6 @@ class Plot(pg.GraphicsView):  # type: ignore[misc]  # pyqtgraph is not typed
     def contextMenuEvent(self, event: QContextMenuEvent) -> None:  # noqa: N802 - Qt's name
         self._menu.popup(event.globalPos())
         event.accept()
-
-    def changeEvent(self, event: QEvent) -> None:  # noqa: N802 - Qt's name
-        super().changeEvent(event)
-        if event.type() == QEvent.Type.PaletteChange and hasattr(self, "_menu"):
-            self._restyle()
 
     def _restyle(self) -> None:
         colours = theme.current()

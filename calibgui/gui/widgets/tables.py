@@ -15,10 +15,9 @@ from PySide6.QtCore import (
     QItemSelectionModel,
     QModelIndex,
     QPoint,
-    QRect,
-    QSize,
     QSortFilterProxyModel,
     Qt,
+    QTimer,
     Signal,
 )
 from PySide6.QtGui import (
@@ -27,7 +26,6 @@ from PySide6.QtGui import (
     QColor,
     QGuiApplication,
     QKeySequence,
-    QPainter,
     QResizeEvent,
     QShowEvent,
     QStandardItemModel,
@@ -48,6 +46,7 @@ from calibgui.gui.widgets.actions import COPY_TABLE
 from calibgui.gui.widgets.glossary import explain, list_terms
 from calibgui.gui.widgets.save_names import ask_for_name
 from calibgui.gui.widgets.scrolling import make_thin
+from calibgui.gui.widgets.table_titles import MEASURED_ROWS, Titles
 
 _SORT_ROLE = Qt.ItemDataRole.UserRole
 
@@ -133,8 +132,10 @@ class _Model(QStandardItemModel):
         self._sortable: set[int] = set()
         """Columns whose cells have the values that rows are sorted by."""
         role = Qt.ItemDataRole
+        self._filled = 0
+        """Rows whose cells have their texts."""
+        self.fill_more()
         for place, column in enumerate(columns):
-            self._fill_cells(place, column)
             self._colour_texts(place, column)
             self._set_heading(place, column.tip or explain(column.title), role.ToolTipRole)
             if len(column.values) and isinstance(column.values[0], _NUMBER_TYPES):
@@ -167,13 +168,28 @@ class _Model(QStandardItemModel):
             ink = QBrush(column.ink(value))
             self.setData(self.index(row, place), ink, Qt.ItemDataRole.ForegroundRole)
 
-    def _fill_cells(self, place: int, column: Column) -> None:
-        """Fill the cells of a column.
+    def fill_more(self) -> bool:
+        """Fill the cells of the next rows; return whether there are any after them.
 
-        Every call into Qt costs a microsecond or two, and a table may have thousands of cells.
+        Every call into Qt costs some microseconds, and all cells of hundreds of rows at once would
+        be felt.
         """
-        role = Qt.ItemDataRole
-        for row, (value, tip) in enumerate(zip(column.values, self._list_tips(place), strict=True)):
+        rows = range(self._filled, min(self._filled + MEASURED_ROWS, self.rowCount()))
+        blocked = self.blockSignals(True)  # told cell by cell, the order would be asked each time
+        for place, column in enumerate(self.columns):
+            self._fill_cells(place, column, rows[: max(len(column.values) - rows.start, 0)])
+        self.blockSignals(blocked)
+        if rows:
+            last = self.index(rows[-1], self.columnCount() - 1)
+            self.dataChanged.emit(self.index(rows[0], 0), last)
+        self._filled = rows.stop
+        return rows.stop < self.rowCount()
+
+    def _fill_cells(self, place: int, column: Column, rows: range) -> None:
+        """Fill the cells of a column in these rows."""
+        role, tips = Qt.ItemDataRole, self._list_tips(place, rows)
+        for row, tip in zip(rows, tips, strict=True):
+            value = column.values[row]
             cell: dict[int, Any] = {role.DisplayRole: column.text(value)}
             if tip:
                 cell[role.ToolTipRole] = tip
@@ -208,14 +224,16 @@ class _Model(QStandardItemModel):
         for place in range(self.columnCount()):
             self.setData(self.index(row, place), ground, Qt.ItemDataRole.BackgroundRole)
 
-    def _list_tips(self, place: int) -> list[str]:
-        """List the tooltips of a column's cells."""
+    def _list_tips(self, place: int, rows: range) -> list[str]:
+        """List the tooltips of a column's cells in these rows."""
         column = self.columns[place]
-        own = column.tips or [""] * len(column.values)
         terms = list_terms() if place == 0 else {}
         return [
-            self._marked.get(row) or tip or column.tip or terms.get(value, "")
-            for row, (value, tip) in enumerate(zip(column.values, own, strict=True))
+            self._marked.get(row)
+            or (column.tips[row] if column.tips else "")
+            or column.tip
+            or terms.get(column.values[row], "")
+            for row in rows
         ]
 
 
@@ -229,12 +247,10 @@ _NUMBER_TYPES = (int, float, np.number)
 """Types of numbers."""
 _NUMBERS = Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter
 """Place of numbers in their cells."""
-_MORE = 40
+_MORE = 100
 """Room that a column gets beyond its contents at most, device-independent px."""
 _LEGIBLE = 8
 """Characters of the first column that are shown however narrow the table is."""
-_INSET = 3
-"""Room beside a title, as beside the texts below it, device-independent px."""
 _TINT = 60
 """Opacity of the accent behind a row that the cursor is over, of 255."""
 
@@ -271,46 +287,6 @@ class _Order(QSortFilterProxyModel):
             model.make_sortable(column)
 
 
-_MEASURED_ROWS = 100
-"""Rows below those in sight whose texts have room in the columns as well, at least."""
-
-
-class _Titles(QHeaderView):
-    """Titles of columns; only the one that the rows are sorted by has room for its arrow."""
-
-    def __init__(self, parent: QWidget) -> None:
-        super().__init__(Qt.Orientation.Horizontal, parent)
-        self.setFont(theme.make_font(theme.CAPTION))
-        self.setSectionsClickable(True)
-        self.setHighlightSections(False)  # every row is selected as a whole
-        # Measuring thousands of rows would be felt; a table of values is measured whole.
-        self.setResizeContentsPrecision(_MEASURED_ROWS)
-        # The table measures its columns when that is due: Qt would at every change.
-        self.setSectionResizeMode(QHeaderView.ResizeMode.Fixed)
-
-    def paintSection(self, painter: QPainter, rect: QRect, column: int) -> None:  # noqa: N802
-        """Paint a title over a line, with an arrow if the rows are sorted by its column."""
-        model, colours = self.model(), theme.current()
-        role, side = Qt.ItemDataRole, Qt.Orientation.Horizontal
-        place = model.headerData(column, side, role.TextAlignmentRole) or Qt.AlignmentFlag.AlignLeft
-        text = model.headerData(column, side, role.DisplayRole)
-        if column == self.sortIndicatorSection():
-            is_falling = self.sortIndicatorOrder() is Qt.SortOrder.DescendingOrder
-            text = f"{'▴▾'[is_falling]} {text}"
-        painter.setPen(QColor(colours.muted))
-        flags = int(Qt.AlignmentFlag(place) | Qt.AlignmentFlag.AlignVCenter)
-        painter.drawText(rect.adjusted(_INSET, 0, -_INSET, -1), flags, text)
-        painter.fillRect(rect.x(), rect.bottom(), rect.width(), 1, QColor(colours.line))
-
-    def sectionSizeFromContents(self, column: int) -> QSize:  # noqa: N802 - Qt's name
-        size = super().sectionSizeFromContents(column)
-        if column != self.sortIndicatorSection():
-            metric, style = QStyle.PixelMetric, self.style()
-            arrow = style.pixelMetric(metric.PM_HeaderMarkSize, None, self)
-            size -= QSize(arrow + style.pixelMetric(metric.PM_HeaderMargin, None, self), 0)
-        return size
-
-
 class Table(QTableView):
     """Rows of numbers, sorted by a click on a column's title."""
 
@@ -322,10 +298,17 @@ class Table(QTableView):
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._model = _Model()
+        self._filling = QTimer(self, interval=0)
+        self._filling.timeout.connect(self._fill_more)
+        self._measured_at = -1
+        """Place of the scroll bar at which the texts were measured last; -1 for none."""
+        self._widths: list[int] = []
+        """Widths of the columns that their texts need there."""
         self._order = _Order(self)
         self._order.setSourceModel(self._model)
-        self.setHorizontalHeader(_Titles(self))
+        self.setHorizontalHeader(Titles(self))
         self.setModel(self._order)
+        theme.follow(self._restyle)
         self.setMouseTracking(True)
         self.entered.connect(lambda at: self.hovered.emit(self._order.mapToSource(at).row()))
         self.viewportEntered.connect(lambda: self.hovered.emit(-1))
@@ -341,7 +324,7 @@ class Table(QTableView):
         self.setTextElideMode(Qt.TextElideMode.ElideMiddle)
         self.verticalHeader().hide()
         self.verticalHeader().setDefaultSectionSize(self.fontMetrics().height() + theme.SPACING)
-        self.horizontalHeader().sortIndicatorChanged.connect(self._fit)
+        self.horizontalHeader().sortIndicatorChanged.connect(self._fit_anew)
         self.setTabKeyNavigation(False)
         self.selectionModel().currentRowChanged.connect(self._current_changed)
         self._menu = QMenu(self)
@@ -365,10 +348,15 @@ class Table(QTableView):
         reasons = marked if isinstance(marked, dict) else dict.fromkeys(marked, "")
         self._model = _Model(columns, reasons)
         self._order.setSourceModel(self._model)
+        self._filling.start()
         self.setAccessibleName(
             self.tr("Table of {0}").format(", ".join(c.title for c in columns if not c.hidden))
         )
-        self._fit()
+        self._fit_anew()
+
+    def _fill_more(self) -> None:
+        if not self._model.fill_more():
+            self._filling.stop()
 
     def filter_rows(self, rows: Collection[int] | None) -> None:
         """Show these rows only, counted as in `Column.values`; all of them for None."""
@@ -436,10 +424,8 @@ class Table(QTableView):
         super().leaveEvent(event)
         self.hovered.emit(-1)
 
-    def changeEvent(self, event: QEvent) -> None:  # noqa: N802 - Qt's name
-        super().changeEvent(event)
-        if event.type() == QEvent.Type.PaletteChange and hasattr(self, "_model"):
-            self._model.tint()
+    def _restyle(self) -> None:
+        self._model.tint()
 
     def showEvent(self, event: QShowEvent) -> None:  # noqa: N802 - Qt's name
         super().showEvent(event)
@@ -453,6 +439,23 @@ class Table(QTableView):
         if event.size().height() != event.oldSize().height() and chosen.isValid():
             self.scrollTo(chosen)  # it was selected before the table had its height
 
+    def _fit_anew(self) -> None:
+        """Measure the texts again, and fit the columns."""
+        self._measured_at = -1
+        self._fit()
+
+    def _give_natural_widths(self) -> None:
+        """Give columns the widths that the texts in sight need; a new width of the table is no
+        reason to measure them again."""
+        header, at = self.horizontalHeader(), self.verticalScrollBar().value()
+        if at == self._measured_at:
+            for place, width in enumerate(self._widths):
+                header.resizeSection(place, width)
+            return
+        header.resizeSections(QHeaderView.ResizeMode.ResizeToContents)
+        self._measured_at = at
+        self._widths = [header.sectionSize(place) for place in range(header.count())]
+
     def _fit(self) -> None:
         """Spare the user sideways scrolling: leave columns out, then narrow the first one.
 
@@ -465,7 +468,7 @@ class Table(QTableView):
             return
         title = _join_heading(columns[0])
         self._model.set_title(0, title)
-        header.resizeSections(QHeaderView.ResizeMode.ResizeToContents)
+        self._give_natural_widths()
         room = self.viewport().width()
         for place, column in enumerate(columns):
             if column.optional and header.length() > room:

@@ -6,12 +6,12 @@ colour blindness tell apart; later views have other hues, and another symbol eve
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from enum import StrEnum
-from types import SimpleNamespace
 from typing import assert_never
 
-from PySide6.QtCore import Qt
+from PySide6.QtCore import QObject, Qt, Signal
 from PySide6.QtGui import QColor, QFont, QFontDatabase, QFontInfo, QGuiApplication, QPalette, QPen
 from PySide6.QtWidgets import QApplication, QWidget
 
@@ -144,15 +144,19 @@ MUTED_MARK = QColor("#ffffff")
 HALO = QColor(0, 0, 0, 150)
 
 
-_shown = SimpleNamespace(theme=LIGHT)
+class _Shown(QObject):
+    changed = Signal()
+    theme: Theme = LIGHT
+
+
+_shown = _Shown()
 """The theme that `apply` has shown last. What is painted asks for it all the time, and would wait
 for the interpreter at each question to Qt while another thread computes."""
 
 
 def current() -> Theme:
     """The theme that the application shows."""
-    theme: Theme = _shown.theme
-    return theme
+    return _shown.theme
 
 
 def chosen() -> Scheme:
@@ -199,6 +203,18 @@ def apply(app: QApplication, scheme: Scheme) -> None:
     for role in (QPalette.ColorRole.Window, QPalette.ColorRole.Button):  # behind headings
         rows.setColor(role, QColor(theme.base))
     app.setPalette(rows, "QAbstractItemView")  # type: ignore[arg-type]
+    _shown.changed.emit()
+
+
+def follow(restyle: Callable[[], object]) -> None:
+    """Call a widget's method whenever the colours have changed, for as long as there is the widget.
+
+    Raises:
+        TypeError: if it is no method of a widget, whose end would not be known.
+    """
+    if not isinstance(getattr(restyle, "__self__", None), QObject):
+        raise TypeError("only a widget's method ends with the widget")
+    _shown.changed.connect(restyle)
 
 
 def follow_system(app: QApplication) -> None:

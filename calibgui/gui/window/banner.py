@@ -5,13 +5,14 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from types import MappingProxyType
 
-from PySide6.QtCore import QEvent, Qt
+from PySide6.QtCore import Qt
 from PySide6.QtGui import QResizeEvent
-from PySide6.QtWidgets import QFrame, QGridLayout, QHBoxLayout, QPushButton, QToolButton, QWidget
+from PySide6.QtWidgets import QFrame, QGridLayout, QPushButton, QToolButton, QWidget
 
 from calibgui.engine.errors import CalibrationError
 from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.buttons import Button
+from calibgui.gui.widgets.layouts import make_row
 from calibgui.gui.widgets.wrapped_label import WrappedLabel
 
 _NARROW = 640
@@ -38,15 +39,14 @@ class Banner(QFrame):
         self.dismiss.setAccessibleName(self.dismiss.toolTip())
         self.dismiss.clicked.connect(self._end)
         self._choices = QWidget()
-        self._row = QHBoxLayout(self._choices)
-        self._row.setContentsMargins(0, 0, 0, 0)
-        self._row.addStretch(1)
+        self._row = make_row(None, of=self._choices)
         self._grid = QGridLayout(self)
         self._grid.setColumnStretch(0, 1)
         self._grid.addWidget(self.text, 0, 0)
         self._grid.addWidget(self._choices, 0, 1)
         self._grid.addWidget(self.dismiss, 0, 2, Qt.AlignmentFlag.AlignTop)
         self._failure = False
+        theme.follow(self._restyle)
         self._kept: dict[str, Mapping[str, Callable[[], None]]] = {}
         """Open questions with their choices, and messages, that come back; the latest is last."""
         self.hide()
@@ -114,11 +114,6 @@ class Banner(QFrame):
             self._grid.addWidget(self._choices, 1, 0, 1, 3)
         else:
             self._grid.addWidget(self._choices, 0, 1)
-
-    def changeEvent(self, event: QEvent) -> None:  # noqa: N802 - Qt's name
-        super().changeEvent(event)
-        if event.type() == QEvent.Type.PaletteChange and hasattr(self, "_failure"):
-            self._restyle()
 
     def _restyle(self) -> None:
         colours = theme.current()

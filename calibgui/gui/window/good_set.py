@@ -15,12 +15,13 @@ from PySide6.QtGui import (
     QShowEvent,
     QTransform,
 )
-from PySide6.QtWidgets import QGridLayout, QLabel, QSizePolicy, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QGridLayout, QLabel, QSizePolicy, QWidget
 
 from calibgui.app.photographs.image_store import read_thumbnail
 from calibgui.app.system.resources import find_resource
 from calibgui.gui.jobs.jobs import PICTURE, Jobs
 from calibgui.gui.widgets import theme
+from calibgui.gui.widgets.layouts import make_column
 from calibgui.gui.widgets.picture import make_qimage, shrink_picture
 from calibgui.gui.widgets.wrapped_label import WrappedLabel
 
@@ -40,9 +41,9 @@ class DropPlace(QWidget):
         super().__init__()
         self.setMinimumHeight(_HEIGHT)
         words = WrappedLabel(text)
-        row = QVBoxLayout(self)
-        row.setContentsMargins(_BOARD.width() + 3 * theme.MARGIN, 12, theme.MARGIN, 12)
-        row.addWidget(words)
+        make_column(
+            words, of=self, margins=(_BOARD.width() + 3 * theme.MARGIN, 12, theme.MARGIN, 12)
+        )
 
     def paintEvent(self, event: QPaintEvent) -> None:  # noqa: N802, ARG002 - Qt's name
         colours, painter = theme.current(), QPainter(self)

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import QEvent, Qt
+from PySide6.QtCore import Qt
 from PySide6.QtGui import QColor, QPainter, QPaintEvent, QResizeEvent
-from PySide6.QtWidgets import QGridLayout, QHBoxLayout, QLabel, QSizePolicy, QWidget
+from PySide6.QtWidgets import QGridLayout, QLabel, QSizePolicy, QWidget
 
 from calibgui.app.projects.project import Project
 from calibgui.engine.assessment import Grade
@@ -13,6 +13,7 @@ from calibgui.gui.verdict.grade_icon import GradeIcon
 from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.buttons import Button, Kind
 from calibgui.gui.widgets.elided import ElidedLabel
+from calibgui.gui.widgets.layouts import make_row
 from calibgui.gui.widgets.pattern_texts import list_pattern_texts
 from calibgui.gui.window.mode_bar import ModeBar
 
@@ -49,18 +50,9 @@ class Header(QWidget):
         self.icon.hide()
         about = QWidget()
         about.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
-        row = QHBoxLayout(about)
-        row.setContentsMargins(0, 0, 0, 0)
-        row.setSpacing(theme.SPACING)
-        row.addWidget(self.name)
-        row.addWidget(self.summary, 1)
+        make_row(self.name, (self.summary, 1), of=about)
         buttons = QWidget()
-        ends = QHBoxLayout(buttons)
-        ends.setContentsMargins(0, 0, 0, 0)
-        ends.setSpacing(theme.SPACING)
-        ends.addStretch(1)
-        for widget in (self.icon, self.grade, self.setup, self.report, self.export):
-            ends.addWidget(widget)
+        make_row(None, self.icon, self.grade, self.setup, self.report, self.export, of=buttons)
         self._buttons = buttons
         self._grid = QGridLayout(self)
         self._grid.setContentsMargins(theme.MARGIN, 0, theme.MARGIN - 2, 0)
@@ -74,6 +66,7 @@ class Header(QWidget):
         self._fold(folded=False)
         self._restyle()
         session.changed.connect(lambda _, after: self._show(after))
+        theme.follow(self._restyle)
         self._show(session.project)
 
     def show_grade(self, grade: Grade | None, text: str) -> None:
@@ -136,11 +129,6 @@ class Header(QWidget):
             self._grid.setRowMinimumHeight(0, _HEIGHT)
             self._grid.setRowMinimumHeight(1, _HEIGHT if folded else 0)
             self.setFixedHeight((2 if folded else 1) * _HEIGHT)
-
-    def changeEvent(self, event: QEvent) -> None:  # noqa: N802 - Qt's name
-        super().changeEvent(event)
-        if event.type() == QEvent.Type.PaletteChange and hasattr(self, "summary"):
-            self._restyle()
 
     def _restyle(self) -> None:
         self.name.setFont(theme.make_font(bold=True))

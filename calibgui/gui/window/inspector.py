@@ -9,11 +9,9 @@ from PySide6.QtGui import QColor, QPainter, QPaintEvent, QResizeEvent
 from PySide6.QtWidgets import (
     QBoxLayout,
     QGridLayout,
-    QHBoxLayout,
     QLabel,
     QPushButton,
     QStackedWidget,
-    QVBoxLayout,
     QWidget,
 )
 
@@ -21,15 +19,14 @@ from calibgui.gui.canvas.image_page import ImagePage
 from calibgui.gui.session.session import Session
 from calibgui.gui.verdict.camera_values import CameraValues
 from calibgui.gui.verdict.done_list import DoneList
-from calibgui.gui.verdict.verdict_bar import VerdictBar
+from calibgui.gui.verdict.verdict_bar import ROOMY, VerdictBar
 from calibgui.gui.widgets import theme
+from calibgui.gui.widgets.layouts import make_column, make_row
 from calibgui.gui.widgets.scrolling import make_scrollable
 from calibgui.gui.window.progress import Progress
 
 _BAR = 8
 """Room for a scroll bar in the margin, device-independent px."""
-_HIGH_ENOUGH = 700
-"""Height beside the desk for which the verdict is as it is below the strip."""
 
 
 class Inspector(QWidget):
@@ -61,20 +58,15 @@ class Inspector(QWidget):
         self._lists = QBoxLayout(QBoxLayout.Direction.TopToBottom)
         self._lists.setContentsMargins(0, 0, _BAR, 0)
         self._lists.setSpacing(theme.MARGIN)
-        first = QVBoxLayout()
-        first.setSpacing(theme.SPACING)
-        first.addWidget(verdict.action_row)
-        first.addWidget(self.done)
+        first = make_column(verdict.action_row, self.done)
         self._lists.addLayout(first)
         self._lists.addWidget(self.camera, 1)
         inside = QWidget()
         inside.setLayout(self._lists)
         tools = QWidget()
-        words = QVBoxLayout(tools)
-        words.setContentsMargins(0, 0, _BAR, 0)
-        for bar in (page.marker.roi_bar, page.marker.corner_bar):
-            words.addWidget(bar)
-        words.addStretch(1)
+        make_column(
+            page.marker.roi_bar, page.marker.corner_bar, None, of=tools, margins=(0, 0, _BAR, 0)
+        )
         self._lower = QStackedWidget()
         area = make_scrollable(inside)
         self._bar = area.verticalScrollBar()
@@ -83,10 +75,7 @@ class Inspector(QWidget):
         self._lower.addWidget(tools)
         page.tool_changed.connect(self._lower.setCurrentIndex)
         self._foot = QWidget()
-        foot = QHBoxLayout(self._foot)
-        foot.setContentsMargins(0, 0, _BAR, 0)
-        foot.addWidget(progress, 1)
-        foot.addWidget(calibrate)
+        make_row((progress, 1), calibrate, of=self._foot, margins=(0, 0, _BAR, 0))
         self._hint = self._make_hint()
         self._grid = QGridLayout(self)
         verdict.setContentsMargins(0, 0, _BAR, 0)
@@ -100,7 +89,7 @@ class Inspector(QWidget):
             return
         self._is_row = is_row
         if is_row:
-            self._verdict.fit_height(_HIGH_ENOUGH)
+            self._verdict.fit_height(ROOMY)
         direction = QBoxLayout.Direction
         self._lists.setDirection(direction.LeftToRight if is_row else direction.TopToBottom)
         self._lists.setStretch(0, int(is_row))

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import gc
-from importlib import import_module
 from itertools import pairwise
 from traceback import extract_tb
 from typing import TYPE_CHECKING
@@ -11,19 +9,15 @@ from typing import TYPE_CHECKING
 import shiboken6
 from PySide6.QtCore import QEvent, Qt, QTimer
 from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDragLeaveEvent, QDropEvent
-from PySide6.QtWidgets import QApplication, QMainWindow, QStackedWidget, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QMainWindow, QStackedWidget, QWidget
 
 from calibgui.app.projects.recent import list_recent
-from calibgui.app.system.kernel_preparation import compile_kernels, prepare_solver
 from calibgui.dataset import Result
 from calibgui.engine.calibration import Cost
 from calibgui.engine.errors import CalibrationError
-from calibgui.engine.kernels import are_all_kept
 from calibgui.gui.canvas.image_page import ImagePage
 from calibgui.gui.dialogs.files import Files
 from calibgui.gui.images.film_strip import FilmStrip
-from calibgui.gui.jobs import qt_names
-from calibgui.gui.jobs.job import nothing
 from calibgui.gui.panels.modes import Mode, Page, describe_mode, name_mode
 from calibgui.gui.session.calibrator import Calibrator
 from calibgui.gui.session.detector import Detector
@@ -37,6 +31,7 @@ from calibgui.gui.verdict.verdict_bar import VerdictBar
 from calibgui.gui.widgets.actions import show_dialog
 from calibgui.gui.widgets.buttons import Button
 from calibgui.gui.widgets.kept_settings import keep, read_kept_bytes
+from calibgui.gui.widgets.layouts import make_column
 from calibgui.gui.widgets.overlay import Overlay
 from calibgui.gui.window.banner import Banner
 from calibgui.gui.window.body import Body
@@ -47,6 +42,7 @@ from calibgui.gui.window.menus import Menus
 from calibgui.gui.window.offers import Offers
 from calibgui.gui.window.own_pages import OwnPages
 from calibgui.gui.window.palette import Palette
+from calibgui.gui.window.preparation import Preparation
 from calibgui.gui.window.progress import Progress
 from calibgui.gui.window.setup_sheet import SetupSheet
 from calibgui.gui.window.tour import Parts, Tour
@@ -82,8 +78,6 @@ class MainWindow(QMainWindow):
         self._empty = True
         self._bugs: set[tuple[object, ...]] = set()
         """Bugs that were shown: what was raised, and where."""
-        self._building = QTimer(self, interval=_PAUSE)
-        self._building.timeout.connect(self._build_ahead)
         self._at = (self.session.document, 0)
         self.welcome = Welcome(self.session.jobs)
         self.pages = QStackedWidget()
@@ -105,6 +99,7 @@ class MainWindow(QMainWindow):
             self.session, self.verdict, self.page, self.progress, self.calibrate
         )
         self.body = Body(self.pages, self.images, self.inspector)
+        self.preparation = Preparation(self, self.session, self.images, self._build_next_panel)
         self._lay_out()
         self._connect()
         self._make_menus()
@@ -126,11 +121,7 @@ class MainWindow(QMainWindow):
         self.pages.addWidget(self.welcome)
         self.pages.addWidget(self.page)
         centre = self._centre = QWidget()
-        column = QVBoxLayout(centre)
-        column.setContentsMargins(0, 0, 0, 0)
-        column.setSpacing(0)
-        column.addWidget(self.header)
-        column.addWidget(self.body, 1)
+        make_column(self.header, (self.body, 1), of=centre, spacing=0)
         self.setCentralWidget(centre)
         stops = (
             self.header.modes,
@@ -235,9 +226,9 @@ class MainWindow(QMainWindow):
 
     def _bring_up(self, mode: Mode) -> None:
         """Show the mode of a panel that has come to the front by its name."""
-        self.header.modes.blockSignals(True)
+        blocked = self.header.modes.blockSignals(True)
         self.header.modes.show_mode(mode)
-        self.header.modes.blockSignals(False)
+        self.header.modes.blockSignals(blocked)
         if not self._empty:
             self.pages.setCurrentWidget(self.need_analysis())
 
@@ -324,49 +315,8 @@ class MainWindow(QMainWindow):
             _FRAME, self, lambda: analysis.show_beginning() if self.calibrator.running else None
         )
 
-    def prepare(self) -> None:
-        """Import beside the main thread what will be needed: detectors, SciPy, panels, solver; then
-        compile kernels, once after an installation.
-
-        Once there is a result, the panels on it are built before they are asked for.
-
-        What is there by then stays: going through it at every full collection of garbage would
-        stop the window for longer than a frame.
-        """
-
-        def load() -> None:
-            if self.isVisible():  # it may have been closed meanwhile
-                self.session.jobs.start("", lambda _: _load_ahead(), loaded)
-
-        def loaded(are_kernels_kept: bool) -> None:
-            gc.freeze()
-            if not are_kernels_kept and self.isVisible():
-                self.session.jobs.start(
-                    self.tr("Compiling for speed, once"),
-                    lambda job: compile_kernels(job.advance, job.cancelling),
-                    failed=nothing,  # the readable functions go on
-                    is_about_document=False,
-                )
-
-        qt_names.make_classes(self, load)
-        self.session.result_changed.connect(lambda _: self._building.start())
-        strip = self.images.list.horizontalScrollBar()
-        for in_use in (self.session.selected, self.session.hovered, strip.valueChanged):
-            in_use.connect(lambda *_: self._put_off_building())
-
-    def _put_off_building(self) -> None:
-        """Build the next panel only after a pause: who scrolls would see the strip stand still."""
-        if self._building.isActive():
-            self._building.start()
-
-    def _build_ahead(self) -> None:
-        """Build one panel that was not shown yet, unless somebody works."""
-        working = any(job.is_about_document for job in self.session.jobs.running)
-        busy = working or QApplication.mouseButtons()
-        if self.analysis is not None and not busy:
-            self._building.stop()  # so that a panel that cannot be built is not tried for ever
-            if self.analysis.build_next():
-                self._building.start()
+    def _build_next_panel(self) -> bool:
+        return self.analysis is not None and self.analysis.build_next()
 
     def _result_changed(self, result: Result | None) -> None:
         if result is not None and self.analysis is None:
@@ -491,31 +441,14 @@ class MainWindow(QMainWindow):
         event.accept()
 
 
-def _load_ahead() -> bool:
-    """Import what is needed soon; return whether all kernels are compiled, and load them then."""
-    for name in _NEEDED_SOON:
-        import_module(name)
-    if is_kept := are_all_kept():
-        prepare_solver()
-    return is_kept
-
-
 def _accept_copy(event: QDropEvent) -> None:
     """Accept dropped files as copies: a program that moves files might delete the originals."""
     event.setDropAction(Qt.DropAction.CopyAction)
     event.accept()
 
 
-_NEEDED_SOON = (
-    "calibgui.engine.detection.find_corners",
-    "calibgui.engine.redetection.redetect_corners",
-    "calibgui.gui.panels.analysis",
-)
-"""Modules that are imported beside the main thread once the window is open."""
 _FRAME = 16
 """Time between two pictures on the screen, ms."""
-_PAUSE = 150
-"""Time between two panels that are built ahead, ms: what the user does comes between them."""
 _SHARE_OF_SCREEN = 0.8
 _SMALL_SCREEN = 1600
 """Width of a screen below which the window fills it, px."""

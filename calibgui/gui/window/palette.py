@@ -12,11 +12,11 @@ from PySide6.QtWidgets import (
     QToolButton,
     QTreeWidget,
     QTreeWidgetItem,
-    QVBoxLayout,
     QWidget,
 )
 
 from calibgui.gui.widgets import theme
+from calibgui.gui.widgets.layouts import make_column
 from calibgui.gui.widgets.scrolling import make_thin
 from calibgui.gui.widgets.wrapped_label import WrappedLabel
 from calibgui.gui.window.menus import Menus, strip_mnemonic
@@ -62,10 +62,7 @@ class Palette(QDialog):
         self.about = WrappedLabel()
         self.about.setMinimumHeight(2 * self.about.fontMetrics().lineSpacing())
         self.about.setAlignment(Qt.AlignmentFlag.AlignTop)
-        layout = QVBoxLayout(self)
-        layout.addWidget(self.search)
-        layout.addWidget(self.list, 1)
-        layout.addWidget(self.about)
+        make_column(self.search, (self.list, 1), self.about, of=self, margins=theme.SPACING)
         self.search.textChanged.connect(self._fill)
         self.search.returnPressed.connect(self._run_current)
         self.list.itemActivated.connect(self._run_current)

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import QEvent, QSize
-from PySide6.QtWidgets import QHBoxLayout, QProgressBar, QToolButton, QVBoxLayout, QWidget
+from PySide6.QtCore import QSize
+from PySide6.QtWidgets import QProgressBar, QToolButton, QWidget
 
 from calibgui.gui.jobs.job import Job
 from calibgui.gui.jobs.jobs import Jobs
+from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.elided import ElidedLabel
 from calibgui.gui.widgets.icons import Icon, draw_icon
+from calibgui.gui.widgets.layouts import keep_place, make_column, make_row
 
 _BAR_HEIGHT, _BUTTON_HEIGHT, _ICON_SIDE = 8, 16, 10
 """Heights of the bar, the button and what is drawn on it, px: with the label above they are as high
@@ -30,34 +32,23 @@ class Progress(QWidget):
         self.bar.setFixedHeight(_BAR_HEIGHT)
         self.bar.setTextVisible(False)
         self.cancel = QToolButton()
-        self.cancel.setIcon(draw_icon(Icon.CROSS))
         self.cancel.setIconSize(QSize(_ICON_SIDE, _ICON_SIDE))
         self.cancel.setAutoRaise(True)
         self.cancel.setFixedHeight(_BUTTON_HEIGHT)
         self.cancel.setToolTip(self.tr("Stop this; what is finished stays (Shift+F9)"))
         self.cancel.setAccessibleName(self.tr("Stop"))
         self.cancel.clicked.connect(self.end_shown)
-        column = QVBoxLayout(self)
-        column.setContentsMargins(0, 0, 0, 0)
-        column.setSpacing(0)
-        column.addStretch(1)
-        column.addWidget(self.label)  # as wide as there is room: it may be a whole sentence
-        below = QHBoxLayout()
-        below.addWidget(self.bar, 1)
-        below.addWidget(self.cancel)
-        column.addLayout(below)
-        column.addStretch(1)
-        for widget in (self, self.cancel):
-            keeping = widget.sizePolicy()
-            keeping.setRetainSizeWhenHidden(True)  # what stands beside it must not move
-            widget.setSizePolicy(keeping)
+        below = make_row((self.bar, 1), self.cancel)
+        # The label is as wide as there is room: it may be a whole sentence.
+        make_column(None, self.label, below, None, of=self, spacing=0)
+        keep_place(self, self.cancel)
         jobs.changed.connect(self._refresh)
+        theme.follow(self._restyle)
+        self._restyle()
         self._refresh()
 
-    def changeEvent(self, event: QEvent) -> None:  # noqa: N802 - Qt's name
-        super().changeEvent(event)
-        if event.type() == QEvent.Type.PaletteChange and hasattr(self, "cancel"):
-            self.cancel.setIcon(draw_icon(Icon.CROSS))
+    def _restyle(self) -> None:
+        self.cancel.setIcon(draw_icon(Icon.CROSS))
 
     def _shown(self) -> Job | None:
         """Return the oldest job to tell of, one that works on the document if there is any."""

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from PySide6.QtWidgets import QVBoxLayout, QWidget
+from PySide6.QtWidgets import QWidget
 
 from calibgui.gui.settings.board_panel import BoardPanel
 from calibgui.gui.settings.limits_choice import LimitsChoice
 from calibgui.gui.settings.settings_panel import SettingsPanel
 from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.buttons import Button, Kind
+from calibgui.gui.widgets.layouts import make_column
 from calibgui.gui.widgets.scrolling import make_scrollable
 from calibgui.gui.widgets.sheet import Sheet
 
@@ -28,10 +29,7 @@ class SetupSheet(Sheet):
         self, desk: QWidget, board: BoardPanel, settings: SettingsPanel, limits: LimitsChoice
     ) -> None:
         super().__init__(desk, _WIDTH, fills=True)
-        inside = QWidget()
-        column = QVBoxLayout(inside)
-        column.setContentsMargins(theme.MARGIN, theme.SPACING, theme.MARGIN, theme.MARGIN)
-        column.setSpacing(theme.SPACING // 2)
+        parts: list[QWidget] = []
         self.folds: list[Button] = []
         for title, tip, part, is_open in (
             (self.tr("Board"), self.tr("What is photographed"), board, True),
@@ -40,16 +38,14 @@ class SetupSheet(Sheet):
             (self.tr("For experts"), self.tr("How to calibrate"), settings.experts, False),
         ):
             self.folds.append(_make_fold(title, tip, part, is_open))
-            column.addWidget(self.folds[-1])
-            column.addWidget(part)
-        column.addStretch(1)
+            parts += [self.folds[-1], part]
+        inside, around = QWidget(), (theme.MARGIN, theme.SPACING, theme.MARGIN, theme.MARGIN)
+        make_column(*parts, None, of=inside, spacing=theme.SPACING // 2, margins=around)
         labels = board.pattern.label, board.counted, *settings.labels
         width = max(max(each.minimumWidth(), each.sizeHint().width()) for each in labels)
         for each in labels:  # the fields of all parts begin alike
             each.setMinimumWidth(width)
-        layout = QVBoxLayout(self)
-        layout.setContentsMargins(1, 0, 0, 0)
-        layout.addWidget(make_scrollable(inside))
+        make_column(make_scrollable(inside), of=self, margins=(1, 0, 0, 0))
 
 
 def _make_fold(title: str, tip: str, part: QWidget, is_open: bool) -> Button:

@@ -6,10 +6,11 @@ from typing import NamedTuple
 
 from PySide6.QtCore import QEvent, QObject, QPoint, QRect, QRectF, Qt
 from PySide6.QtGui import QColor, QKeyEvent, QPainter, QPaintEvent, QPen
-from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QFrame, QLabel, QWidget
 
 from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.buttons import Button, Kind
+from calibgui.gui.widgets.layouts import make_column, make_row
 from calibgui.gui.widgets.wrapped_label import WrappedLabel
 
 _WIDTH, _GAP = 300, 12
@@ -57,16 +58,10 @@ class Tour(QFrame):
         self.next_button = Button("", Kind.MAIN)
         self.leave_button.clicked.connect(self.leave)
         self.next_button.clicked.connect(self._go_on)
-        below = QHBoxLayout()
-        below.addWidget(self._count, 1)
-        below.addWidget(self.leave_button)
-        below.addWidget(self.next_button)
-        column = self._column = QVBoxLayout(self)
-        column.setContentsMargins(theme.MARGIN, 12, theme.MARGIN, 12)
-        column.setSpacing(theme.SPACING)
-        column.addWidget(self._title)
-        column.addWidget(self._words)
-        column.addLayout(below)
+        below = make_row((self._count, 1), self.leave_button, self.next_button)
+        self._column = make_column(
+            self._title, self._words, below, of=self, margins=(theme.MARGIN, 12, theme.MARGIN, 12)
+        )
         host.installEventFilter(self)
         self.show()
         self._show()

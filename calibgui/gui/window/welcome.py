@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
-from PySide6.QtCore import QEvent, QPointF, QSize, Qt, Signal, SignalInstance
+from PySide6.QtCore import QPointF, QSize, Qt, Signal, SignalInstance
 from PySide6.QtGui import QIcon, QImage, QPainter, QPixmap, QResizeEvent
 from PySide6.QtWidgets import (
     QCommandLinkButton,
@@ -23,6 +23,7 @@ from calibgui.gui.jobs.jobs import Jobs
 from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.focus_ring import FocusRing
 from calibgui.gui.widgets.icons import Icon, draw_icon
+from calibgui.gui.widgets.layouts import make_column
 from calibgui.gui.widgets.picture import make_qimage, shrink_picture
 from calibgui.gui.widgets.scrolling import make_calm
 from calibgui.gui.window.good_set import (
@@ -100,18 +101,15 @@ class Welcome(QScrollArea):
             ),
         ]
         self._restyle()
+        theme.follow(self._restyle)
         self.good_set = GoodSet(jobs)
         self._recent_part = QWidget()
-        self._list = _make_column(self._recent_part, _RECENT_WIDTH)
-        self._list.addWidget(make_heading(self.tr("Recent projects and folders")))
-        self._list.addStretch(1)
+        heading = make_heading(self.tr("Recent projects and folders"))
+        self._list = _fill_part(self._recent_part, _RECENT_WIDTH, heading)
         self.recent: list[QCommandLinkButton] = []
         """Buttons that open what was opened lately, the newest first."""
         begin = QWidget()
-        column = _make_column(begin, _WIDTH)
-        for widget in (title, drop, *self.buttons):
-            column.addWidget(widget)
-        column.addStretch(1)
+        _fill_part(begin, _WIDTH, title, drop, *self.buttons)
         body = QWidget()
         self._grid = QGridLayout(body)
         self._grid.setContentsMargins(theme.MARGIN, theme.MARGIN, theme.MARGIN, theme.MARGIN)
@@ -184,11 +182,6 @@ class Welcome(QScrollArea):
             return
         button.setIcon(_centre(shrink_picture(picture, _PICTURE, self.devicePixelRatio())))
 
-    def changeEvent(self, event: QEvent) -> None:  # noqa: N802 - Qt's name
-        super().changeEvent(event)
-        if event.type() == QEvent.Type.PaletteChange and hasattr(self, "buttons"):
-            self._restyle()
-
     def _restyle(self) -> None:
         """Draw the icons in the theme's colour."""
         icons = Icon.FOLDER, Icon.CAMERA, Icon.PICTURE, Icon.BOARD, Icon.PLAY, Icon.PRINTER
@@ -227,11 +220,8 @@ def _read_picture(pictured: tuple[QCommandLinkButton, str]) -> QImage:
     return make_qimage(read_thumbnail(pictured[1]).grey)
 
 
-def _make_column(widget: QWidget, width: int) -> QVBoxLayout:
-    """Return the layout of a part of the page, of a width that it keeps where there is room."""
-    widget.setMaximumWidth(width)
-    widget.setMinimumWidth(min(width, _LEAST))
-    column = QVBoxLayout(widget)
-    column.setContentsMargins(0, 0, 0, 0)
-    column.setSpacing(theme.SPACING)
-    return column
+def _fill_part(part: QWidget, width: int, *widgets: QWidget) -> QVBoxLayout:
+    """Fill a part of the page, of a width that it keeps where there is room."""
+    part.setMaximumWidth(width)
+    part.setMinimumWidth(min(width, _LEAST))
+    return make_column(*widgets, None, of=part)

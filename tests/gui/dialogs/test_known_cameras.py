@@ -81,7 +81,7 @@ def test_boards_are_located_with_a_dropped_camera(
         np.testing.assert_allclose(pose.tvec, found.pose.tvec, rtol=1e-9)
         np.testing.assert_allclose(covariance, found.covariance, rtol=1e-9)
     assert window.verdict.headline.text() == "KNOWN CAMERA"
-    assert f"The camera of {file} is held" in window.verdict.reason.text()
+    assert f"The camera of {file} stays as it is" in window.verdict.reason.text()
     assert window.verdict.button.isHidden()
 
 

@@ -87,11 +87,11 @@ def test_several_images_are_excluded_and_removed_by_keys(
     qtbot.keyClick(view, Qt.Key.Key_Space)
     assert full.session.document.undo_label == "Exclude 3 images"
     assert listed(full, Role.STATUS)[1] == "excluded"
-    assert full.inspector.camera.state.text() == "out of date"
+    reason = full.verdict.reason
+    assert reason.text().startswith("Out of date, as images")
     theme.apply(qapp, theme.Scheme.DARK)
     qapp.processEvents()
-    state = full.inspector.camera.state
-    assert state.palette().color(state.foregroundRole()).name() == theme.current().warning
+    assert reason.palette().color(reason.foregroundRole()).name() == theme.current().warning
     assert len(full.images.chosen) == 3, "an edit keeps the selection"
     qtbot.keyClick(view, Qt.Key.Key_Space)
     assert all(v.enabled for v in full.session.project.views)
@@ -100,7 +100,7 @@ def test_several_images_are_excluded_and_removed_by_keys(
     for _ in range(3):
         full.session.document.undo()
     assert len(listed(full)) == 7
-    assert full.inspector.camera.state.text() == ""
+    assert "Out of date" not in reason.text()
 
 
 def test_what_is_heard_of_an_image_holds_its_error(full: MainWindow) -> None:

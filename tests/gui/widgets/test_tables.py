@@ -189,3 +189,15 @@ def test_what_is_scrolled_to_is_read_whole(qtbot: QtBot) -> None:
     table.show()
     text = table.fontMetrics().horizontalAdvance(values[-1])
     assert table.horizontalHeader().sectionSize(1) > text
+
+
+def test_hundreds_of_rows_are_filled_in_slices(qtbot: QtBot) -> None:
+    table = Table()
+    qtbot.addWidget(table)
+    names = [f"view {k}" for k in range(250)]
+    table.show_columns([Column("view", names), Column("RMS", [0.1 * k for k in range(250)])])
+    assert shown(table)[:100] == names[:100]
+    assert shown(table)[-1] is None, "the last come later"
+    qtbot.waitUntil(lambda: shown(table)[-1] is not None)
+    assert shown(table) == names
+    assert table.as_csv().count("\n") == 251

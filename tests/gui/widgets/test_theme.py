@@ -8,6 +8,7 @@ from types import SimpleNamespace
 import cv2
 import numpy as np
 import pytest
+import shiboken6
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QColor, QGuiApplication, QImage, QPainter
 from PySide6.QtWidgets import (
@@ -99,3 +100,28 @@ def test_lines_of_plots_are_as_wide_on_a_fine_screen(monkeypatch: pytest.MonkeyP
         painter.end()
         lit = sum(image.pixelColor(30, y).lightnessF() for y in range(60))
         assert lit == pytest.approx(2 * ratio, abs=0.6)
+
+
+class Follower(QWidget):
+    """Notes the ground at each change."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.grounds: list[str] = []
+        theme.follow(self.note)
+
+    def note(self) -> None:
+        self.grounds.append(theme.current().base)
+
+
+def test_what_follows_the_colours_is_told_as_long_as_it_exists(qapp: QApplication) -> None:
+    follower = Follower()
+    try:
+        theme.apply(qapp, theme.Scheme.DARK)
+        assert follower.grounds == [theme.DARK.base]
+        shiboken6.delete(follower)
+    finally:
+        theme.apply(qapp, theme.Scheme.LIGHT)
+    assert follower.grounds == [theme.DARK.base]
+    with pytest.raises(TypeError, match="method"):
+        theme.follow(lambda: None)

@@ -6,9 +6,11 @@ from collections.abc import Iterator
 
 import pytest
 from PySide6.QtCore import QPoint
+from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
 from calibgui.engine.errors import CalibrationError
+from calibgui.gui.widgets import theme
 from calibgui.gui.window.banner import Banner
 from calibgui.gui.window.main_window import MainWindow
 
@@ -77,3 +79,12 @@ def test_a_first_message_of_two_lines_is_not_cut(window: MainWindow, qtbot: QtBo
     window.show_failure(CalibrationError("There is no such folder.", "Check its spelling."))
     text = window.banner.text
     qtbot.waitUntil(lambda: text.height() >= text.heightForWidth(text.width()) > 0)
+
+
+def test_the_banner_takes_other_colours(banner: Banner, qapp: QApplication) -> None:
+    banner.show_text("Something is to be said.")
+    try:
+        theme.apply(qapp, theme.Scheme.DARK)
+        assert theme.DARK.warning_base in banner.styleSheet()
+    finally:
+        theme.apply(qapp, theme.Scheme.LIGHT)

@@ -483,3 +483,13 @@ def test_an_open_sheet_follows_a_switch_of_the_theme(full: MainWindow, qapp: QAp
             assert shown == theme.current().text, scheme
     finally:
         theme.apply(qapp, theme.Scheme.LIGHT)
+
+
+def test_the_verdict_has_its_height_after_every_resize(full: MainWindow, qtbot: QtBot) -> None:
+    bar = full.verdict
+    sizes = ((1280, 720), (1366, 768), (1280, 720), (960, 1000), (1366, 768), (1920, 1080))
+    for width, height in sizes:
+        full.resize(width, height)
+        qtbot.wait(50)
+        assert bar.height() >= bar.sizeHint().height(), (width, height)
+        assert bar.figures.geometry().bottom() < bar.height()

@@ -15,22 +15,22 @@ from calibgui.app.projects.project_file import write_project
 from calibgui.gui.panels.evidence.board_shape import BoardShapePanel
 from calibgui.gui.panels.evidence.coverage import CoveragePanel
 from calibgui.gui.panels.panel import Panel
-from calibgui.gui.window import main_window
+from calibgui.gui.window import preparation
 from calibgui.gui.window.main_window import MainWindow
 from calibgui.gui.window.menus import Menus
 from tests.app import examples
 
 
 def test_every_module_that_is_imported_soon_exists() -> None:
-    missing = [name for name in main_window._NEEDED_SOON if find_spec(name) is None]
+    missing = [name for name in preparation._NEEDED_SOON if find_spec(name) is None]
     assert missing == []
-    assert len(main_window._NEEDED_SOON) > 2
+    assert len(preparation._NEEDED_SOON) > 2
 
 
 def test_panels_are_built_one_by_one_in_pauses(full: MainWindow, qtbot: QtBot) -> None:
     full.need_analysis().show_panel(BoardShapePanel)
     panels = full.need_analysis().findChildren(Panel)
-    full.prepare()
+    full.preparation.start()
     full.session.show_result(next(iter(full.session.project.results)))
     for count in (len(panels) + 1, len(panels) + 2):
         qtbot.waitUntil(lambda: len(full.need_analysis().findChildren(Panel)) >= count)  # noqa: B023
@@ -40,9 +40,9 @@ def test_panels_are_built_one_by_one_in_pauses(full: MainWindow, qtbot: QtBot) -
 def test_no_panel_is_built_while_somebody_looks_through_the_images(
     full: MainWindow, qtbot: QtBot
 ) -> None:
-    full.prepare()
+    full.preparation.start()
     full.session.show_result(next(iter(full.session.project.results)))
-    pause = full._building
+    pause = full.preparation._building
     pause.setTimerType(Qt.TimerType.PreciseTimer)
     pause.setInterval(60_000)
     bar = full.images.list.horizontalScrollBar()
@@ -94,11 +94,11 @@ def test_kernels_that_are_not_kept_are_compiled_while_the_window_can_be_used(
     are_kept: bool, window: MainWindow, qtbot: QtBot, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     asked: list[str] = []
-    monkeypatch.setattr(main_window, "_load_ahead", lambda: are_kept)
-    monkeypatch.setattr(main_window, "compile_kernels", lambda *_: asked.append("compile"))
+    monkeypatch.setattr(preparation, "_load_ahead", lambda: are_kept)
+    monkeypatch.setattr(preparation, "compile_kernels", lambda *_: asked.append("compile"))
     loaded: list[None] = []
-    monkeypatch.setattr(main_window.gc, "freeze", lambda: loaded.append(None))
-    window.prepare()
+    monkeypatch.setattr(preparation.gc, "freeze", lambda: loaded.append(None))
+    window.preparation.start()
     qtbot.waitUntil(lambda: bool(loaded) and not window.session.jobs.running)
     assert asked == ([] if are_kept else ["compile"])
 

@@ -194,7 +194,7 @@ def diagnose_degeneracy(
     """
     K, n = len(originals), compute_normals(state.R)
     tilt = "the board tilted by 20 to 45 degrees"
-    consequence = f", which leaves {', '.join(lost)} undetermined." if lost else "."
+    consequence = f", which leaves {', '.join(lost)} unknown." if lost else "."
     if not originals.any():
         kind = Degeneracy.ONE_VIEW if K == 1 else Degeneracy.COPIES
         cause = (

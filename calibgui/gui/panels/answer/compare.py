@@ -7,7 +7,7 @@ from functools import partial
 
 import numpy as np
 from PySide6.QtCore import QT_TRANSLATE_NOOP
-from PySide6.QtWidgets import QComboBox, QHBoxLayout, QLabel, QVBoxLayout
+from PySide6.QtWidgets import QComboBox, QLabel
 
 from calibgui.app.calibrating.calibration import shorten_names
 from calibgui.app.outputs.previews import undistort_alike
@@ -20,6 +20,7 @@ from calibgui.gui.panels.parts.difference_map import DifferenceMap
 from calibgui.gui.panels.parts.divided_images import DividedImages
 from calibgui.gui.panels.parts.estimates import estimate_columns
 from calibgui.gui.panels.services import Services
+from calibgui.gui.widgets.layouts import make_row
 from calibgui.gui.widgets.narrow_combo import NarrowCombo
 from calibgui.gui.widgets.reserved_label import ReservedLabel
 from calibgui.gui.widgets.tab_bar import TabWidget
@@ -68,14 +69,8 @@ class ComparePanel(Panel):
             self.tabs.addTab(widget, name)
         self.tabs.currentChanged.connect(self._show_image)
         against = QLabel(self.tr("and"))
-        above = QHBoxLayout()
-        above.addWidget(self.left, 1)
-        above.addWidget(against)
-        above.addWidget(self.right, 1)
-        layout = QVBoxLayout(self.body)
-        layout.addLayout(above)
-        layout.addWidget(self.words)
-        layout.addWidget(self.tabs, 1)
+        above = make_row((self.left, 1), against, (self.right, 1))
+        self._fill_body(above, self.words, (self.tabs, 1))
 
     def _make_choice(self, name: str) -> QComboBox:
         choice = NarrowCombo()
@@ -151,6 +146,9 @@ class ComparePanel(Panel):
             partial(self._show_difference, b, rows),
             self._fail,
         )
+
+    def _restyle(self) -> None:
+        """Whatever has colours follows them by itself."""
 
     def _show_parameters(self, rows: Sequence[ParameterChange]) -> None:
         names = self.names

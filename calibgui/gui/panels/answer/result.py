@@ -7,7 +7,7 @@ from html import escape
 
 import numpy as np
 from PySide6.QtCore import QT_TRANSLATE_NOOP
-from PySide6.QtWidgets import QFrame, QTextBrowser, QVBoxLayout
+from PySide6.QtWidgets import QFrame, QTextBrowser
 
 from calibgui.dataset import Result
 from calibgui.dataset.judging import recall_verdict
@@ -49,6 +49,7 @@ class ResultPanel(Panel):
     def __init__(self, services: Services) -> None:
         super().__init__(services)
         self._work = Latest(services.jobs, self)
+        self._sentences: Sequence[Sentence] = ()
         self.words = QTextBrowser()
         self.words.setAccessibleName(self.tr("Summary"))
         self.words.setFrameShape(QFrame.Shape.NoFrame)
@@ -65,14 +66,14 @@ class ResultPanel(Panel):
             (self.correlations, self.tr("Correlations")),
         ):
             self.tabs.addTab(widget, name)
-        layout = QVBoxLayout(self.body)
-        layout.addWidget(self.tabs)
+        self._fill_body(self.tabs)
 
     def _refresh(self, result: Result) -> None:
         calibration = result.calibration
         names = calibration.camera.names
         # Those of another result would be read as this one's.
         self._work.cancel()
+        self._sentences = ()
         self.words.setPlainText(self.tr("What this result is worth is being found out."))
         if is_held(calibration):
             self.words.setPlainText("\n".join(calibration.warnings))
@@ -117,9 +118,18 @@ class ResultPanel(Panel):
             self._work.start(
                 "",
                 lambda job: describe_calibration(result, job.check),
-                lambda sentences: self.words.setHtml(_format_html(sentences)),
+                self._say,
                 self.failed.emit,
             )
+
+    def _say(self, sentences: Sequence[Sentence]) -> None:
+        self._sentences = sentences
+        self._restyle()
+
+    def _restyle(self) -> None:
+        """Take the present colours for the marks; all else has none of its own."""
+        if self._sentences:
+            self.words.setHtml(_format_html(self._sentences))
 
     def _remarks(self, result: Result, names: Sequence[str]) -> list[str]:
         """Return a remark on each parameter; empty for most."""

@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 from PySide6.QtCore import QT_TRANSLATE_NOOP, QPointF
-from PySide6.QtWidgets import QHBoxLayout, QLabel, QVBoxLayout
+from PySide6.QtWidgets import QLabel
 
 from calibgui.dataset import Result
 from calibgui.engine.numbers import format_two_digits
@@ -17,6 +17,7 @@ from calibgui.gui.panels.parts.contours import Contours
 from calibgui.gui.panels.parts.heat import CORNERS, HeatMap, surround_places
 from calibgui.gui.panels.services import Services
 from calibgui.gui.widgets import theme
+from calibgui.gui.widgets.layouts import make_row
 from calibgui.gui.widgets.lengths import describe_condition
 from calibgui.gui.widgets.number_box import NumberBox
 from calibgui.gui.widgets.point_cloud import PointCloud
@@ -60,14 +61,11 @@ class UncertaintyPanel(Panel):
         self.limit.setToolTip(
             self.tr("The uncertainty that you can live with: the red line goes around it.")
         )
-        bar = QHBoxLayout()
-        for text, box in ((self.tr("P&oints"), self.distance), (self.tr("Limi&t"), self.limit)):
+        labels = QLabel(self.tr("P&oints")), QLabel(self.tr("Limi&t"))
+        for label, box in zip(labels, (self.distance, self.limit), strict=True):
             box.setKeyboardTracking(False)
-            label = QLabel(text)
             label.setBuddy(box)
-            bar.addWidget(label)
-            bar.addWidget(box)
-        bar.addStretch(1)
+        bar = make_row(labels[0], self.distance, labels[1], self.limit, None)
         self.distance.valueChanged.connect(self._refresh_now)
         self.limit.valueChanged.connect(self._draw_limit)
         self.words = ReservedLabel(5)
@@ -87,12 +85,7 @@ class UncertaintyPanel(Panel):
         self.corners = PointCloud(size=2)
         self.plot.addItem(self.corners)
         self.under_cursor = QLabel()
-        layout = QVBoxLayout(self.body)
-        layout.addLayout(bar)
-        layout.addWidget(self.words)
-        layout.addWidget(self.plot, 1)
-        layout.addWidget(self.under_cursor)
-        layout.addStretch()
+        self._fill_body(bar, self.words, (self.plot, 1), self.under_cursor, None)
 
     def _refresh(self, result: Result) -> None:
         self.found = None
@@ -106,6 +99,9 @@ class UncertaintyPanel(Panel):
             self._show,
             lambda error: self.words.setText(str(error)),
         )
+
+    def _restyle(self) -> None:
+        """Whatever has colours follows them by itself."""
 
     def _show(self, found: ProjectionUncertainty) -> None:
         self.found = found

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from PySide6.QtCore import QT_TRANSLATE_NOOP
-from PySide6.QtWidgets import QComboBox, QHBoxLayout, QSpinBox, QVBoxLayout
+from PySide6.QtWidgets import QComboBox, QSpinBox
 
 from calibgui.app.calibrating.calibration import shorten_names
 from calibgui.app.outputs.previews import Grey, transform_image
@@ -18,6 +18,7 @@ from calibgui.gui.panels.parts.divided_images import DividedImages
 from calibgui.gui.panels.services import Services
 from calibgui.gui.widgets.buttons import Button
 from calibgui.gui.widgets.elided import elide_name
+from calibgui.gui.widgets.layouts import make_row
 from calibgui.gui.widgets.narrow_combo import NarrowCombo
 from calibgui.gui.widgets.reserved_label import ReservedLabel
 
@@ -76,19 +77,9 @@ class UndistortPanel(Panel):
         self.save_all.clicked.connect(lambda: self._save(self._list_all()))
         self.images = DividedImages(self.tr("as taken"), self.tr("undistorted"))
         self.lost, self.words = ReservedLabel(3), ReservedLabel(2)
-        above = QHBoxLayout()
-        above.addWidget(self.way, 3)
-        above.addWidget(self.view, 2)
-        above.addWidget(self.angle)
-        below = QHBoxLayout()
-        below.addWidget(self.words, 1)
-        below.addWidget(self.save_one)
-        below.addWidget(self.save_all)
-        layout = QVBoxLayout(self.body)
-        layout.addLayout(above)
-        layout.addWidget(self.images, 1)
-        layout.addWidget(self.lost)
-        layout.addLayout(below)
+        above = make_row((self.way, 3), (self.view, 2), self.angle)
+        below = make_row((self.words, 1), self.save_one, self.save_all)
+        self._fill_body(above, (self.images, 1), self.lost, below)
         self._enable_choices()
 
     def _make_ways(self) -> QComboBox:
@@ -165,6 +156,9 @@ class UndistortPanel(Panel):
 
     def _refresh(self, result: Result) -> None:
         """Nothing but what `_select` shows depends on the result."""
+
+    def _restyle(self) -> None:
+        """Whatever has colours follows them by itself."""
 
     def _select(self, k: int, corner: int) -> None:  # noqa: ARG002 - the image is shown whole
         assert self._result is not None

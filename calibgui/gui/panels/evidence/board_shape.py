@@ -6,7 +6,7 @@ import numpy as np
 import pyqtgraph as pg
 import scipy
 from PySide6.QtCore import QT_TRANSLATE_NOOP, QPointF, QRectF
-from PySide6.QtWidgets import QHBoxLayout, QLabel, QVBoxLayout
+from PySide6.QtWidgets import QLabel
 
 from calibgui.dataset import Result
 from calibgui.engine.arrays import Array
@@ -18,6 +18,7 @@ from calibgui.gui.panels.parts.arrows import trace_arrows
 from calibgui.gui.panels.services import Services
 from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.buttons import Button
+from calibgui.gui.widgets.layouts import make_row
 from calibgui.gui.widgets.lengths import describe_condition, name_unit, state_condition
 from calibgui.gui.widgets.plots import ColourBar, Plot
 from calibgui.gui.widgets.save_names import ask_for_name
@@ -69,14 +70,8 @@ class BoardShapePanel(Panel):
         self.plot.addItem(self.key)
         self.plot.scene().sigMouseMoved.connect(self._hover)
         self.under_cursor = QLabel()
-        below = QHBoxLayout()
-        below.addWidget(self.under_cursor, 1)
-        below.addWidget(self.save)
-        layout = QVBoxLayout(self.body)
-        layout.addWidget(self.words)
-        layout.addWidget(self.plot, 1)
-        layout.addLayout(below)
-        layout.addStretch()
+        below = make_row((self.under_cursor, 1), self.save)
+        self._fill_body(self.words, (self.plot, 1), below, None)
 
     @property
     def board_shape(self) -> BoardShape:

@@ -8,7 +8,6 @@ import numpy as np
 import pyqtgraph as pg
 import scipy
 from PySide6.QtCore import QT_TRANSLATE_NOOP, QRectF, Qt
-from PySide6.QtWidgets import QVBoxLayout
 
 from calibgui.dataset import Result
 from calibgui.dataset.sensor_coverage import count_corners_per_cell
@@ -85,11 +84,9 @@ class CoveragePanel(Panel):
         self._planned: Result | None = None
         for plot in (self.tilts, self.distances):
             plot.picked.connect(self._pick)
-        layout = QVBoxLayout(self.body)
-        layout.addWidget(self.advice)
-        plots = (self.density, 3), (self.distances, 2), (self.tilts, 2)
-        layout.addWidget(Split(820, *plots), 1)
-        layout.addStretch()  # of a high card: the map is no higher than its width allows
+        plots = Split(820, (self.density, 3), (self.distances, 2), (self.tilts, 2))
+        # In a high card room is left: the map is no higher than its width allows.
+        self._fill_body(self.advice, (plots, 1), None)
 
     def _refresh(self, result: Result) -> None:
         size = result.calibration.camera.size

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pyqtgraph as pg
-from PySide6.QtCore import QT_TRANSLATE_NOOP, Qt
-from PySide6.QtWidgets import QVBoxLayout
+from PySide6.QtCore import QT_TRANSLATE_NOOP
 
 from calibgui.dataset import Result
 from calibgui.engine.assessment import Histogram, make_component_histogram, make_length_histogram
@@ -14,6 +13,7 @@ from calibgui.gui.panels.panel import Panel
 from calibgui.gui.panels.parts.split import Split
 from calibgui.gui.panels.services import Services
 from calibgui.gui.widgets import theme
+from calibgui.gui.widgets.layouts import make_row
 from calibgui.gui.widgets.plots import Plot
 
 _SAMPLES = 300
@@ -100,9 +100,8 @@ class HistogramsPanel(Panel):
                     "not flat or a wrong model."
                 )
             )
-        layout = QVBoxLayout(self.body)
-        layout.addWidget(self.plane, 0, Qt.AlignmentFlag.AlignLeft)
-        layout.addWidget(Split(820, *((plot, 1) for plot in self.plots)), 1)
+        choice, plots = make_row(self.plane, None), Split(820, *((plot, 1) for plot in self.plots))
+        self._fill_body(choice, (plots, 1))
 
     def _refresh(self, result: Result) -> None:
         residuals = np.concatenate(self.plane.residuals(result.calibration))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 from PySide6.QtCore import QT_TRANSLATE_NOOP
-from PySide6.QtWidgets import QComboBox, QHBoxLayout, QVBoxLayout
+from PySide6.QtWidgets import QComboBox
 
 from calibgui.app.calibrating.calibration import shorten_names
 from calibgui.dataset import Result
@@ -14,6 +14,7 @@ from calibgui.gui.panels.services import Services
 from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.buttons import Button
 from calibgui.gui.widgets.elided import elide_name
+from calibgui.gui.widgets.layouts import make_row
 from calibgui.gui.widgets.lengths import describe_condition, state_condition
 from calibgui.gui.widgets.reserved_label import ReservedLabel
 from calibgui.report.coverage import measure_attitudes
@@ -55,14 +56,8 @@ class PosesPanel(Panel):
         self.space.hovered.connect(self._point_at)
         self.home.clicked.connect(self.space.go_home)
         self.words = ReservedLabel(2)
-        bar = QHBoxLayout()
-        bar.addWidget(self.centre)
-        bar.addStretch(1)
-        bar.addWidget(self.home)
-        layout = QVBoxLayout(self.body)
-        layout.addLayout(bar)
-        layout.addWidget(self.space, 1)
-        layout.addWidget(self.words)
+        bar = make_row(self.centre, None, self.home)
+        self._fill_body(bar, (self.space, 1), self.words)
 
     def _refresh(self, result: Result) -> None:
         self._attitudes = measure_attitudes(result.calibration, result.observations())

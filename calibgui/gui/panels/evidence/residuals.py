@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from html import escape
 
-from PySide6.QtCore import QT_TRANSLATE_NOOP, Qt
-from PySide6.QtWidgets import QVBoxLayout
+from PySide6.QtCore import QT_TRANSLATE_NOOP
 
 from calibgui.app.calibrating.calibration import shorten_names
 from calibgui.dataset import Result
@@ -23,6 +22,7 @@ from calibgui.gui.panels.latest import Latest
 from calibgui.gui.panels.panel import Panel
 from calibgui.gui.panels.parts.scatter import ResidualScatter
 from calibgui.gui.panels.services import Services
+from calibgui.gui.widgets.layouts import make_row
 from calibgui.gui.widgets.reserved_label import ReservedLabel
 from calibgui.report.boards import name_point
 from calibgui.report.numbers import format_count
@@ -57,10 +57,8 @@ class ResidualsPanel(Panel):
         self.scatter.setToolTip(self.tr("Click a point to see its corner in the image."))
         self.scatter.picked.connect(self._pick)
         self.verdict = ReservedLabel(3)
-        layout = QVBoxLayout(self.body)
-        layout.addWidget(self.verdict)
-        layout.addWidget(self.plane, 0, Qt.AlignmentFlag.AlignLeft)
-        layout.addWidget(self.scatter, 1)
+        choice = make_row(self.plane, None)
+        self._fill_body(self.verdict, choice, (self.scatter, 1))
 
     def _refresh(self, result: Result) -> None:
         self._examine(result)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import lru_cache
 from itertools import islice
 from typing import NamedTuple
 
@@ -170,11 +171,16 @@ class SceneView(QWidget):
         self.axis_numbers = self._paint_axes(painter)
         # What is pointed at shows through all that stands before it.
         placed = self._place_polygons()
-        for item, corners in sorted(placed, key=lambda pair: self._rank(pair[0].polygon.view)):
-            is_smooth = len(self._drawn) <= _SMOOTHED or self._rank(item.polygon.view) > 0
-            painter.setRenderHint(QPainter.RenderHint.Antialiasing, is_smooth)
-            self._paint_polygon(painter, item, corners)
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing, len(self._drawn) <= _SMOOTHED)
+        painter.setBrush(Qt.BrushStyle.NoBrush)
+        for item, corners in placed:
+            if not self._rank(item.polygon.view):
+                painter.setPen(self._choose_outline(item))
+                painter.drawPolygon(corners)
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        for item, corners in sorted(placed, key=lambda pair: self._rank(pair[0].polygon.view)):
+            if rank := self._rank(item.polygon.view):
+                self._paint_chosen(painter, item, corners, rank)
         ground = QColor(theme.current().base)
         ground.setAlpha(_GROUND)
         for number in self.axis_numbers:  # over the boards, which stand before most of them
@@ -224,20 +230,24 @@ class SceneView(QWidget):
         places = iter(self.to_widget(np.concatenate([item.points for item in self._drawn])))
         return [(item, list(islice(places, len(item.points)))) for item in self._drawn]
 
-    def _paint_polygon(
-        self, painter: QPainter, item: DrawnPolygon, points: Sequence[QPointF]
+    def _choose_outline(self, item: DrawnPolygon) -> QColor:
+        """Choose the colour of an outline: mixed with the ground, not translucent, as those are
+        drawn in a third of the time."""
+        view = item.polygon.view
+        colour = QColor(theme.current().muted) if view < 0 else self._colours[view]
+        return mix_outline(colour, self._opacity(item.depth))
+
+    def _paint_chosen(
+        self, painter: QPainter, item: DrawnPolygon, points: Sequence[QPointF], rank: int
     ) -> None:
-        view, colours = item.polygon.view, theme.current()
-        rank = self._rank(view)
-        colour = QColor(colours.muted) if view < 0 else self._colours[view]
-        # Mixed with the ground, not translucent: those are drawn in a third of the time.
-        outline = colour if rank else mix_outline(colour, self._opacity(item.depth))
+        """Paint what is selected or under the cursor."""
+        colour = self._colours[item.polygon.view]
         inside = QColor(colour)
         inside.setAlpha((0, 70, 140)[rank])
-        painter.setPen(QPen(outline, (1.0, 1.8, 2.5)[rank]))
-        painter.setBrush(inside if rank else Qt.BrushStyle.NoBrush)
+        painter.setPen(QPen(colour, (1.0, 1.8, 2.5)[rank]))
+        painter.setBrush(inside)
         painter.drawPolygon(points)
-        if item.polygon.kind is PolygonKind.BOARD and rank:
+        if item.polygon.kind is PolygonKind.BOARD:
             self._paint_board_axes(painter, points)
 
     def _opacity(self, depth: float) -> float:
@@ -385,7 +395,13 @@ class SceneView(QWidget):
 def mix_outline(colour: QColor, opacity: float) -> QColor:
     """Return the colour of an outline of a view's colour that shows on the ground."""
     colours = theme.current()
-    return _mix(_mix(colour, colours.text, _HUE), colours.base, opacity)
+    return _mix_outline(colour.rgb(), colours.text, colours.base, round(opacity, 2))
+
+
+@lru_cache(maxsize=10_000)
+def _mix_outline(colour: int, text: str, base: str, opacity: float) -> QColor:
+    """Return the colour of `mix_outline`; kept, as hundreds are painted at each turn."""
+    return _mix(_mix(QColor(colour), text, _HUE), base, opacity)
 
 
 def _mix(colour: QColor, ground: str, share: float) -> QColor:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import numpy as np
 from PySide6.QtCore import QT_TRANSLATE_NOOP
-from PySide6.QtWidgets import QVBoxLayout
 
 from calibgui.dataset import Result
 from calibgui.engine.calibration import Cost, Iteration, Status
@@ -38,9 +37,7 @@ class ConvergencePanel(Panel):
         self._curve = self.plot.plot(symbol="o", symbolSize=7)
         self._iterations: list[Iteration] = []
         self._unit = ""
-        layout = QVBoxLayout(self.body)
-        layout.addWidget(self.words)
-        layout.addWidget(self.plot, 1)
+        self._fill_body(self.words, (self.plot, 1))
 
     def start(self, cost: Cost) -> None:
         """A calibration that minimises `cost` begins: forget the last one's iterations."""

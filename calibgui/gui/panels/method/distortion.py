@@ -6,7 +6,7 @@ import numpy as np
 import pyqtgraph as pg
 import scipy
 from PySide6.QtCore import QT_TRANSLATE_NOOP, QPointF
-from PySide6.QtWidgets import QCheckBox, QComboBox, QHBoxLayout, QLabel, QVBoxLayout
+from PySide6.QtWidgets import QCheckBox, QComboBox, QLabel
 
 from calibgui.dataset import Result
 from calibgui.engine.arrays import Array, BoolArray, Size
@@ -20,6 +20,7 @@ from calibgui.gui.panels.parts.contours import Contours
 from calibgui.gui.panels.parts.heat import HeatMap, image_rectangle
 from calibgui.gui.panels.services import Services
 from calibgui.gui.widgets import theme
+from calibgui.gui.widgets.layouts import make_row
 from calibgui.gui.widgets.levels import choose_levels
 
 _CELLS = 160
@@ -69,16 +70,8 @@ class DistortionPanel(Panel):
             self.plot.addItem(mark)
         self.under_cursor = QLabel()
         legend = QLabel(self.tr("+ array's centre   × principal point   → gradient"))
-        bar = QHBoxLayout()
-        bar.addWidget(self.part)
-        bar.addWidget(self.masked)
-        bar.addStretch(1)
-        layout = QVBoxLayout(self.body)
-        layout.addLayout(bar)
-        layout.addWidget(self.plot, 1)
-        layout.addWidget(self.under_cursor)
-        layout.addWidget(legend)
-        layout.addStretch()
+        bar = make_row(self.part, self.masked, None)
+        self._fill_body(bar, (self.plot, 1), self.under_cursor, legend, None)
 
     def displacement(self, uv: Array) -> Displacement:
         """The chosen part of the displacement at pixels (..., 2)."""

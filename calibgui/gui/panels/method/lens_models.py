@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from PySide6.QtCore import QT_TRANSLATE_NOOP
-from PySide6.QtWidgets import QVBoxLayout, QWidget
+from PySide6.QtWidgets import QWidget
 
 from calibgui.app.calibrating.lens_comparison import compare_lenses_again
 from calibgui.dataset import Result
@@ -13,6 +13,7 @@ from calibgui.gui.panels.method.lens_tables import LensTables
 from calibgui.gui.panels.on_demand import OnDemandPanel, have_same_views
 from calibgui.gui.panels.services import Services
 from calibgui.gui.widgets.buttons import Button
+from calibgui.gui.widgets.layouts import make_column
 from calibgui.gui.widgets.reserved_label import ReservedLabel
 from calibgui.report.boards import name_point
 from calibgui.report.lens_choice import LensRow, describe_lens_choice, list_lens_rows
@@ -55,10 +56,7 @@ class LensModelsPanel(OnDemandPanel[LensChoice]):
         self.tables.picked.connect(self._show_row)
         self.remarks = ReservedLabel(6)
         compared = QWidget()
-        layout = QVBoxLayout(compared)
-        layout.setContentsMargins(0, 0, 0, 0)
-        layout.addWidget(self.tables, 1)
-        layout.addWidget(self.remarks)
+        make_column((self.tables, 1), self.remarks, of=compared)
         self._lay_out(compared, self.use)
 
     def _missing(self, result: Result) -> str:

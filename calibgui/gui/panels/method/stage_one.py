@@ -9,7 +9,6 @@ from typing import Any
 
 import numpy as np
 from PySide6.QtCore import QT_TRANSLATE_NOOP
-from PySide6.QtWidgets import QVBoxLayout
 
 from calibgui.app.calibrating.calibration import shorten_names
 from calibgui.dataset import Result
@@ -75,8 +74,7 @@ class StageOnePanel(Panel):
         )
         self._current = self.aspects.plot(pen=None, symbol="o", symbolSize=13, symbolBrush=None)
         plots = Split(400, (self.equation, 1), (self.aspects, 1))
-        layout = QVBoxLayout(self.body)
-        layout.addWidget(Split(640, (self.table, 3), (plots, 2)))
+        self._fill_body(Split(640, (self.table, 3), (plots, 2)))
 
     def _refresh(self, result: Result) -> None:
         self._rows = tuple(result.calibration.stage_one)

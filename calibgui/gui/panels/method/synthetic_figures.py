@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pyqtgraph as pg
-from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QComboBox, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QComboBox, QWidget
 
 from calibgui.app.calibrating.synthetic import SyntheticCheck
 from calibgui.engine.assessment import (
@@ -18,6 +17,7 @@ from calibgui.gui.panels.parts.estimates import estimate_columns
 from calibgui.gui.panels.parts.scatter import ResidualScatter
 from calibgui.gui.panels.parts.split import Split
 from calibgui.gui.widgets import theme
+from calibgui.gui.widgets.layouts import make_column, make_row
 from calibgui.gui.widgets.plots import Plot
 from calibgui.gui.widgets.tables import Column, Table, with_decimals, with_digits
 from calibgui.report.comparison import compare_parameters
@@ -84,8 +84,7 @@ class Scatters(QWidget):
         super().__init__()
         self.plots: tuple[ResidualScatter, ...] = ()
         """The two plots, once there is something to show: to make them takes a while."""
-        self._layout = QVBoxLayout(self)
-        self._layout.setContentsMargins(0, 0, 0, 0)
+        self._layout = make_column(of=self)
 
     def show_check(self, check: SyntheticCheck) -> None:
         """Show the residuals on the reference plane."""
@@ -126,9 +125,8 @@ class Histograms(QWidget):
         self.plots: tuple[HistogramPlot, ...] = ()
         """The two plots, once there is something to show: to make them takes a while."""
         self._check: SyntheticCheck | None = None
-        self._layout = QVBoxLayout(self)
-        self._layout.setContentsMargins(0, theme.SPACING, 0, 0)
-        self._layout.addWidget(self.component, 0, Qt.AlignmentFlag.AlignLeft)
+        choice = make_row(self.component, None)
+        self._layout = make_column(choice, of=self, margins=(0, theme.SPACING, 0, 0))
 
     def show_check(self, check: SyntheticCheck) -> None:
         """Show the component that is chosen."""

@@ -6,7 +6,7 @@ from typing import Protocol
 
 import numpy as np
 from PySide6.QtCore import QPointF, Qt
-from PySide6.QtWidgets import QStackedWidget, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QStackedWidget, QWidget
 
 from calibgui.engine.arrays import Array, BoolArray, Size
 from calibgui.engine.numbers import format_two_digits
@@ -14,6 +14,7 @@ from calibgui.gui.panels.parts.contours import Contours
 from calibgui.gui.panels.parts.heat import CORNERS, HeatMap, surround_places
 from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.elided import ElidedLabel
+from calibgui.gui.widgets.layouts import make_column
 from calibgui.gui.widgets.levels import choose_levels
 from calibgui.gui.widgets.point_cloud import PointCloud
 from calibgui.gui.widgets.wrapped_label import WrappedLabel
@@ -67,17 +68,11 @@ class DifferenceMap(QWidget):
         self.reason.setAlignment(Qt.AlignmentFlag.AlignCenter)
         self.reason.setMargin(theme.SPACING)
         drawn = QWidget()
-        layout = QVBoxLayout(drawn)
-        layout.setContentsMargins(0, 0, 0, 0)
-        layout.addWidget(self.plot, 1)
-        layout.addWidget(self.under_cursor)
-        layout.addStretch()
+        make_column((self.plot, 1), self.under_cursor, None, of=drawn)
         self._stack = QStackedWidget()
         self._stack.addWidget(drawn)
         self._stack.addWidget(self.reason)
-        whole = QVBoxLayout(self)
-        whole.setContentsMargins(0, 0, 0, 0)
-        whole.addWidget(self._stack)
+        make_column(self._stack, of=self)
 
     def show_difference(self, difference: Difference, size: Size, corners: Array) -> None:
         """Draw a difference over an image, with the corners (n, 2) that were seen."""

@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from PySide6.QtCore import QPointF, Qt
+from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
 from calibgui.dataset import Result
@@ -17,6 +18,7 @@ from calibgui.engine.uncertainty.projection_uncertainty import (
 )
 from calibgui.gui.jobs.jobs import Jobs
 from calibgui.gui.panels.answer.uncertainty import UncertaintyPanel
+from calibgui.gui.widgets import theme
 from tests.gui.panels.conftest import Shown
 
 
@@ -94,3 +96,16 @@ def test_the_value_under_the_cursor(panel: UncertaintyPanel, far: ProjectionUnce
     assert f"σ = {far.worst_direction[12, 7]:.3f} px" in panel.under_cursor.text()
     panel._hover(box.mapViewToScene(QPointF(-30.0, 50.0)))
     assert panel.under_cursor.text().startswith("Point at")
+
+
+def test_other_colours_are_no_reason_to_compute(
+    panel: UncertaintyPanel, jobs: Jobs, qapp: QApplication
+) -> None:
+    found, words = panel.found, panel.words.text()
+    try:
+        theme.apply(qapp, theme.Scheme.DARK)
+        assert not jobs.running
+        assert panel.found is found
+        assert panel.words.text() == words
+    finally:
+        theme.apply(qapp, theme.Scheme.LIGHT)
