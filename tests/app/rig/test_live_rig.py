@@ -77,7 +77,7 @@ def test_the_pictures_become_a_rig_and_the_clocks_are_compared(tmp_path: Path) -
     found = search_cameras(
         pairing, lambda files, _: find_views([*map(Path, files)], BOARD.grid_size), BOARD.square
     )
-    rig = calibrate_photographs(pairing, found, Settings()).rig
+    rig = calibrate_photographs(pairing, [found], Settings()).rig
     error = np.r_[rig.poses[1].rvec - POSES[1].rvec, rig.poses[1].tvec - POSES[1].tvec]
     place = rig.layout.pose(1)
     distance = error @ np.linalg.solve(rig.covariance[place, place], error)
