@@ -23,7 +23,7 @@ BUDGETS = {
     "capture": 14,
     "corner_fit": 110,
     "detection": 261,
-    "features": 41,
+    "features": 42,
     "geometry": 3,
     "hand_eye": 14,
     "images": 27,

@@ -65,15 +65,12 @@ def blur_image(image: GreyImage, sigma: float) -> tuple[GreyImage, float]:
     """Blur `image` (h, w) by a Gaussian of standard deviation `sigma` px, edges reflected.
 
     Returns:
-        The blurred image, and the number of its levels that make one of `image`. It is int16 for
-        an image of 8 or 16 bits, in steps finer than any noise and half the size of float32, and
-        float32 otherwise.
+        The blurred image, and the number of its levels that make one of `image`. It is int16, in
+        steps finer than any noise and half the size of float32.
     """
     kernel = cv2.getGaussianKernel(2 * round(4 * sigma) + 1, sigma, cv2.CV_32F)
     if image.dtype == np.uint8:
         return np.asarray(cv2.sepFilter2D(image, cv2.CV_16S, 128 * kernel, kernel)), 128.0
-    if image.dtype != np.uint16:
-        return np.asarray(cv2.sepFilter2D(image, cv2.CV_32F, kernel, kernel)), 1.0
     levels = np.iinfo(np.int16).max / max(float(image.max()), 1.0)
     blurred = cv2.sepFilter2D(image, cv2.CV_32F, levels * kernel, kernel)
     return np.rint(blurred, out=blurred).astype(np.int16), levels

@@ -22,7 +22,7 @@ from tests.scenes.fleet import write_fleet
 
 pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="reads /proc")
 
-_MOMENTS = 10
+_MOMENTS = 6
 _WITH_WORKERS = 3
 """Processes of a window that searches: its own, Python's resource tracker, and a worker."""
 _BY_THE_HANDLER, _BY_THE_SYSTEM = 143, -signal.SIGTERM

@@ -89,7 +89,7 @@ from calibgui.engine.corner_fit.x_corner_step import take_lit_step, take_step
 from calibgui.engine.features import edge_profiles
 from calibgui.engine.features.edge_profiles import EdgeProfiles
 from calibgui.engine.features.lattice import Lattice
-from calibgui.engine.features.pixel_noise import estimate_least_noise
+from calibgui.engine.features.pixel_noise import ROUNDING_VARIANCE
 
 _MIN_ARM = 8.0
 """Length up to which arms are read even where something was printed on them, px."""
@@ -221,15 +221,14 @@ def fit_x_corners(
     before = model
     model, inverse, square = take_step(before, products)
     free, free_inverse, free_square = take_lit_step(before, products)
-    least_noise = estimate_least_noise(image)
     # What is printed looks like light where it is blurred.
     is_plain = priors is None and min(bare_reach, bare_edge) == 0.5
     has_own_light = find_uneven_light(
-        products, square, free_square, least_noise, is_plain, are_marks_removed
+        products, square, free_square, ROUNDING_VARIANCE, is_plain, are_marks_removed
     )
     freedom = products[M][M] - UNKNOWNS  # the derivative by m is 1
     noise = pool_noise(estimate_noise(square, odd_part), freedom)
-    noise = np.maximum(noise, least_noise)
+    noise = np.maximum(noise, ROUNDING_VARIANCE)
     covariance = noise[:, None, None] * inverse
     by_bend = np.zeros_like(covariance)
     unbent = model

@@ -55,8 +55,7 @@ def subtract_change(image: GreyImage, change: Array) -> GreyImage:
     changed = np.flatnonzero(change.any(axis=1))
     rows = slice(changed[0], changed[-1] + 1) if len(changed) else slice(0)
     part = image[rows] - change[rows]
-    if image.dtype in (np.uint8, np.uint16):
-        np.rint(part, out=part).clip(0, np.iinfo(image.dtype).max, out=part)
+    np.rint(part, out=part).clip(0, np.iinfo(image.dtype).max, out=part)
     cleaned = image.copy()
     cleaned[rows] = part
     return cleaned

@@ -1,6 +1,6 @@
 """The entry and exit of every detector: its image, and the rejected corners.
 
-Detectors take grey levels of any of three types and list the corners that they saw but do not
+Detectors take grey levels of 8 or 16 bits and list the corners that they saw but do not
 trust; they share the functions here. Those that read markers look at 8 bits, and at the negative
 where the print is bright on dark.
 """
@@ -32,7 +32,9 @@ def check_grey_levels(image: npt.ArrayLike) -> GreyImage:
     """Check an image (h, w) of grey levels, or (h, w, 3) of colours, and return it in grey.
 
     Returns:
-        The image as uint8 or uint16 if it is of that type, otherwise as float32.
+        The image as uint8 or uint16 if it is of that type. Others become uint16, from their
+        darkest level to their brightest: their steps are finer than the noise of any camera, and
+        each type that detectors take would be compiled by itself.
 
     Raises:
         NoBoardError: the image is too small to show a board.
@@ -53,10 +55,12 @@ def check_grey_levels(image: npt.ArrayLike) -> GreyImage:
         )
     if grey.dtype in (np.uint8, np.uint16):
         return np.ascontiguousarray(grey)
-    grey = np.ascontiguousarray(grey, dtype=np.float32)
-    if not np.isfinite(grey).all():
+    levels = grey.astype(np.float64)
+    if not np.isfinite(levels).all():
         raise ValueError("the image has grey levels that are not finite")
-    return grey
+    levels -= levels.min()
+    levels *= np.iinfo(np.uint16).max / max(levels.max(), np.finfo(np.float64).tiny)
+    return np.rint(levels).astype(np.uint16)
 
 
 def _average_colours(image: npt.NDArray[Any]) -> npt.NDArray[Any]:

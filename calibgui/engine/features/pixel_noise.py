@@ -21,6 +21,10 @@ from calibgui.engine.arrays import Array, BoolArray, GreyImage, compute_median
 from calibgui.engine.features.corner_template import estimate_contrast, orient_corners
 from calibgui.engine.features.lattice import Lattice
 
+ROUNDING_VARIANCE = 1 / 12
+"""Variance that grey levels have at least, levels^2 (Widrow 1956). A drawn or saturated image shows
+no noise, but its levels are rounded, by up to half of one, evenly; without it corners in such
+images would seem to be free of error."""
 _GAIN = 6.0
 """Standard deviation of such a difference where that of the noise is 1: the squares of its weights,
 (1, -2, 1) times (1, -2, 1), sum to 36."""
@@ -65,18 +69,6 @@ def estimate_noise_at(places: Array, image: GreyImage) -> Array:
     differences = np.abs(np.diff(np.diff(values, 2, axis=-2), 2, axis=-1))
     median = compute_median(differences.reshape(*places.shape[:-2], -1))
     return median / (_NORMAL_MEDIAN * _GAIN)
-
-
-def estimate_least_noise(image: GreyImage) -> float:
-    """Estimate the variance that the grey levels of an image have at least, levels^2.
-
-    A drawn or saturated image shows no noise, but its levels are rounded: whole levels are off by
-    up to half of one, evenly, which is a variance of 1/12 (Widrow 1956); levels of type float32 by
-    their last digit. Without it corners in such images would seem to be free of error.
-    """
-    if image.dtype in (np.uint8, np.uint16):
-        return 1 / 12
-    return float(np.spacing(max(np.abs(image).max(), np.finfo(np.float32).tiny)) ** 2 / 12)
 
 
 def repair_dead_pixels(image: GreyImage, lattice: Lattice) -> GreyImage | None:

@@ -222,7 +222,7 @@ _FIT = [
     Switch("fit: bend", {"_correct_for_bend": lambda _, model, *__: model}),
     Switch("fit: light of whole arms", {"correct_for_light_told": keeps(0)}),
     Switch("fit: odd noise", {"corner_noise.estimate_noise": keeps(0)}),
-    Switch("fit: least noise", {"estimate_least_noise": says(0.0)}),
+    Switch("fit: least noise", numbers={"ROUNDING_VARIANCE": 0.0}),
     Switch("fit: pull of local light", {"_estimate_pull": marks_none}),
     Switch("fit: clipped corners", {"find_clipped_corners": marks_none}),
     Switch("fit: stray light taken", {"go_to_own_light": keeps(0)}),

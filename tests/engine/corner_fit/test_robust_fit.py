@@ -34,7 +34,7 @@ def calls(monkeypatch: pytest.MonkeyPatch) -> list[int]:
 
 def test_an_undisturbed_board_is_fitted_once(calls: list[int]) -> None:
     scene = draw(Conditions(), 3)
-    image = scene.photograph(0).astype(np.float32)
+    image = scene.photograph(0)
     _, displacement = fit_robustly(
         Lattice(scene.uv, True), lambda part: fit_plain_corners(image, part, 0.5)
     )

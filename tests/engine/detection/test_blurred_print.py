@@ -8,7 +8,7 @@ import pytest
 from calibgui.engine.detection.blurred_print import subtract_change
 
 
-@pytest.mark.parametrize("dtype", [np.uint8, np.uint16, np.float32])
+@pytest.mark.parametrize("dtype", [np.uint8, np.uint16])
 def test_a_change_is_subtracted_where_there_is_one(dtype: type) -> None:
     image = np.full((6, 5), 100, dtype)
     change = np.zeros((6, 5))
@@ -17,8 +17,7 @@ def test_a_change_is_subtracted_where_there_is_one(dtype: type) -> None:
     change[2, 1], change[4, 3] = 30.3, -1e6
     cleaned = subtract_change(image, change)
     assert cleaned.dtype == dtype
-    is_float = dtype == np.float32
-    assert cleaned[2, 1] == pytest.approx(69.7 if is_float else 70)
-    assert cleaned[4, 3] == pytest.approx(1_000_100 if is_float else np.iinfo(dtype).max)
+    assert cleaned[2, 1] == 70
+    assert cleaned[4, 3] == np.iinfo(dtype).max
     assert np.count_nonzero(cleaned != image) == 2
     assert (image == 100).all()

@@ -9,10 +9,10 @@ from calibgui.engine import kernels, opencv
 from calibgui.engine.features import corner_template
 
 
-@pytest.mark.parametrize("dtype", [np.uint8, np.int16, np.uint16, np.float32])
+@pytest.mark.parametrize("dtype", [np.uint8, np.int16, np.uint16])
 def test_the_same_grey_levels_around_corners(dtype: type, monkeypatch: pytest.MonkeyPatch) -> None:
     rng = np.random.default_rng(5)
-    smooth, _ = opencv.blur_image(rng.uniform(0, 255, (60, 80)).astype(np.float32), 2.0)
+    smooth, _ = opencv.blur_image(rng.integers(0, 255, (60, 80)).astype(np.uint8), 2.0)
     image = smooth.astype(dtype)
     uv = rng.uniform(0, (79, 59), (300, 2))
     right, down = rng.uniform(-20, 20, (2, 300, 2))

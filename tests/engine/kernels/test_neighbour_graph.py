@@ -34,7 +34,7 @@ def test_the_same_lattices(clutter: bool, monkeypatch: pytest.MonkeyPatch) -> No
 def draw_noise() -> tuple[GreyImage, x_junctions.Junctions]:
     """A smoothed image and what might be its junctions, two of them in one place."""
     rng = np.random.default_rng(4)
-    smooth, _ = opencv.blur_image(rng.uniform(0, 255, (100, 150)).astype(np.float32), 1.5)
+    smooth, _ = opencv.blur_image(rng.integers(0, 255, (100, 150)).astype(np.uint8), 1.5)
     n = 2000
     edges = rng.uniform((0, np.pi / 2), (0.6, 0.6 + np.pi / 2), (n, 2))
     edges[::2] += np.pi / 2

@@ -46,7 +46,7 @@ def draw(blur: float, swing: float = -140.0) -> tuple[np.ndarray, np.ndarray]:
 @pytest.mark.parametrize(
     ("blur", "swing"), [(0.4, -140.0), (1.2, -140.0), (0.8, 60.0)], ids=["sharp", "soft", "bright"]
 )
-@pytest.mark.parametrize("kind", [np.uint8, np.uint16, np.float32])
+@pytest.mark.parametrize("kind", [np.uint8, np.uint16])
 def test_the_same_outlines(
     blur: float, swing: float, kind: type, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -35,7 +35,7 @@ from tests.scenes.conditions import Conditions
     ],
     ids=str,
 )
-@pytest.mark.parametrize("kind", [np.uint8, np.uint16, np.float32])
+@pytest.mark.parametrize("kind", [np.uint8, np.uint16])
 def test_compiled_and_readable_find_the_same(
     scene: dict[str, Any], kind: type, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -18,7 +18,7 @@ from tests.scenes.without_board import draw_without_board
 
 Array = NDArray[np.float64]
 CONDITIONS = Conditions(grid_size=(5, 6), square=26.0, turn=5.0, centre=(-80.0, 0.0), parts=1)
-NOWHERE = np.zeros((480, 640), np.float32)
+NOWHERE = np.zeros((480, 640), np.uint8)
 
 
 def join(left_out: int, fold: float = 70.0) -> tuple[Lattice, tuple[Array, Array], Array]:
@@ -90,7 +90,7 @@ def test_one_board_is_not_cut_because_of_what_it_has_grown_into() -> None:
     uv[:, 3:] = scene.uv
     across = scene.uv[3, 0] - scene.uv[3, 1]
     uv[3, :3] = scene.uv[3, 0] + np.array([[2.1], [1.4], [0.7]]) * across + (6.0, 9.0)
-    (core,) = separate_boards(Lattice(uv, False), scene.photograph(0).astype(np.float32))
+    (core,) = separate_boards(Lattice(uv, False), scene.photograph(0))
     assert np.array_equal(core.uv, scene.uv)
 
 
@@ -109,7 +109,7 @@ def test_what_a_board_has_grown_into_is_left_out() -> None:
     right, down = scene.uv[0, 1] - scene.uv[0, 0], scene.uv[1, 0] - scene.uv[0, 0]
     uv[0, 2:4] = scene.uv[0, 1:3] - 0.5 * down + 0.4 * right
     uv[4, 0] = scene.uv[3, 0] - 1.7 * right
-    (core,) = separate_boards(Lattice(uv, True), scene.photograph(0).astype(np.float32))
+    (core,) = separate_boards(Lattice(uv, True), scene.photograph(0))
     assert np.array_equal(core.uv, scene.uv)
     # Where the image does not show that the board ends there, it is left as it is.
     (same,) = separate_boards(Lattice(uv, True), NOWHERE)

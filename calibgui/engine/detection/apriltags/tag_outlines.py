@@ -34,7 +34,7 @@ from calibgui.engine.detection.apriltags.outline_model import (
 )
 from calibgui.engine.detection.apriltags.outline_noise import estimate_outline_growth
 from calibgui.engine.detection.apriltags.tag_gap import measure_gap_of_tags
-from calibgui.engine.features.pixel_noise import estimate_least_noise
+from calibgui.engine.features.pixel_noise import ROUNDING_VARIANCE
 from calibgui.engine.geometry import homography
 from calibgui.engine.images.sampling import make_mesh, sample_image
 from calibgui.engine.lattices import grid_map
@@ -134,16 +134,15 @@ def fit_tag_outlines(
         np.zeros(n),
         np.full(n, _USUAL_CORRELATION),
     )
-    least = estimate_least_noise(image)
-    noise = np.full(n, least)
+    noise = np.full(n, ROUNDING_VARIANCE)
     model, equations, square = _take_steps(image, model, usual, noise, _MAX_FREE_STEPS, _CLOSE_STEP)
-    noise = np.maximum(square, least)
+    noise = np.maximum(square, ROUNDING_VARIANCE)
     places = _locate_corners(squares, measure_gap_of_tags(squares, model.corners, gap))
     variance = noise[:, None] * np.einsum("nkk->nk", _invert_part(equations, slice(16, 21)))
     bows, bow_sd, board = _estimate_bows(model, variance[:, :4], places)
     prior = _Prior(bows, bow_sd, *_pool_correlations(model.correlation, variance[:, 4]))
     model, equations, square = _take_steps(image, model, prior, noise, _LAST_STEPS, _CONVERGED_STEP)
-    noise = np.maximum(square, least)
+    noise = np.maximum(square, ROUNDING_VARIANCE)
     growth = estimate_outline_growth(image, model, noise)
     pairs = _invert_part(equations, slice(8)).reshape(-1, 4, 2, 4, 2)
     covariance = np.stack([pairs[:, i, :, i] for i in range(4)], axis=1)

@@ -36,7 +36,7 @@ from calibgui.engine.detection.circles.defocus import SeenLevels, estimate_rise,
 from calibgui.engine.detection.circles.thresholds import CIRCLE_THRESHOLDS
 from calibgui.engine.features.edge_intensity import compute_edge
 from calibgui.engine.features.pixel_noise import (
-    estimate_least_noise,
+    ROUNDING_VARIANCE,
     estimate_noise_at,
     find_readable,
 )
@@ -200,8 +200,8 @@ def _fit_out_of_focus(image: GreyImage, x: Array, seen: SeenLevels, rise: Array)
         fit = _take_step(image, x, gradient, _BAND_HALF_WIDTHS[min(step, 1)], _FIXED_LEVELS)
         x = fit.unknowns
     noise = _estimate_odd_noise(image, x, gradient)
-    variance = np.maximum(noise**2, estimate_least_noise(image))
-    before = np.maximum(fit.residual**2, estimate_least_noise(image))
+    variance = np.maximum(noise**2, ROUNDING_VARIANCE)
+    before = np.maximum(fit.residual**2, ROUNDING_VARIANCE)
     covariance = fit.covariance * (variance / before)[:, None, None]
     return replace(fit, covariance=covariance, is_out_of_focus=True)
 
@@ -304,16 +304,11 @@ def _take_step(
     step = np.zeros_like(x)
     step[:, :free] = move / scale
     moved = x + _limit_step(step, x)
-    noise = np.maximum(square, estimate_least_noise(image))
+    noise = np.maximum(square, ROUNDING_VARIANCE)
     return EllipseFit(moved, noise[:, None, None] * inverse, np.sqrt(square), np.zeros(len(x)))
 
 
-def _is_photograph(image: GreyImage, *_: object) -> bool:
-    """Return whether an image is as read from a file: a kernel is compiled for each type."""
-    return image.dtype.kind == "u"
-
-
-@kernels.with_kernel("ellipse_fit", "sum_products", _is_photograph)
+@kernels.with_kernel("ellipse_fit", "sum_products")
 def _sum_products(
     image: GreyImage, x: Array, gradient: Array, band: float, min_rho: float
 ) -> Array:
