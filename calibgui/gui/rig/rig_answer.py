@@ -29,6 +29,7 @@ class RigAnswer(QWidget):
 
     def __init__(self) -> None:
         super().__init__()
+        self._is_sound = True
         self.headline = QLabel()
         self.headline.setFont(theme.make_font(theme.HEADLINE, bold=True))
         self.headline.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
@@ -54,20 +55,24 @@ class RigAnswer(QWidget):
             column.addWidget(table)
         column.addWidget(self.condition)
         column.addStretch(1)
+        theme.follow(self._restyle)
+
+    def _restyle(self) -> None:
+        colours = theme.current()
+        theme.set_text_colour(self.headline, colours.good if self._is_sound else colours.warning)
 
     def show_result(self, result: RigResult) -> None:
         """Show a rig."""
         rig = result.rig
-        is_sound = not (rig.disagreement or rig.mistakes)
+        self._is_sound = not (rig.disagreement or rig.mistakes)
         self.headline.setText(
             self.tr("The cameras agree")
-            if is_sound
+            if self._is_sound
             else self.tr("Photographs contradict")
             if rig.mistakes
             else self.tr("The instants disagree")
         )
-        colours = theme.current()
-        theme.set_text_colour(self.headline, colours.good if is_sound else colours.warning)
+        self._restyle()
         remarks = [
             describe_fit(rig),
             *describe_offsets(rig),

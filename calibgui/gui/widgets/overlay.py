@@ -21,6 +21,7 @@ class Overlay(QObject):
         width: of a widget that stands at the right, px; 0 for one as wide as the host.
         fills: whether it is as high as the host.
         is_on_top: whether others hang below it.
+        beside: a widget at the host's left that it leaves free while that is shown.
     """
 
     def __init__(
@@ -32,6 +33,7 @@ class Overlay(QObject):
         width: int = 0,
         fills: bool = False,
         is_on_top: bool = False,
+        beside: QWidget | None = None,
     ) -> None:
         super().__init__(widget)
         self._widget, self._host = widget, host
@@ -41,19 +43,22 @@ class Overlay(QObject):
         widget.setVisible(visible)
         if is_on_top:
             host.setProperty(_ON_TOP, widget)
-        self._watched = [widget, host]
         above = host.property(_ON_TOP)
-        if isinstance(above, QWidget) and above is not widget:
-            self._watched.append(above)
+        self._above = above if isinstance(above, QWidget) and above is not widget else None
+        self._beside = beside
+        watched = (widget, host, self._above, self._beside)
+        self._watched = [part for part in watched if part is not None]
         for part in self._watched:
             part.installEventFilter(self)
 
     def place(self) -> None:
         """Take the place that the widget needs now."""
         widget, host = self._widget, self._host
-        top = sum(part.height() for part in self._watched[2:] if not part.isHidden())
+        above, beside = self._above, self._beside
+        top = 0 if above is None or above.isHidden() else above.height()
+        left = beside.width() if beside is not None and beside.isVisibleTo(host) else 0
         room = host.height() - top
-        width = min(self._width, host.width()) if self._width else host.width()
+        width = min(self._width, host.width()) if self._width else host.width() - left
         needed = widget.heightForWidth(width)
         if needed < 0:  # it does not depend on the width
             needed = widget.minimumSizeHint().height()

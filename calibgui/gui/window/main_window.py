@@ -83,8 +83,9 @@ class MainWindow(QMainWindow):
         self.pages = QStackedWidget()
         self.own_pages = OwnPages(self.pages, self.session.jobs)
         self.banner = Banner()
-        # Over the picture: what one points at must not move when a message comes.
-        Overlay(self.banner, self.pages, is_on_top=True)
+        # Over the picture: what one points at must not move when a message comes, which may say to
+        # take a tool.
+        Overlay(self.banner, self.pages, is_on_top=True, beside=self.page.bar)
         self.header = Header(self.session)
         self.verdict = VerdictBar(self.session, self.pages)
         self.setup = SetupSheet(self.pages, self.board, self.settings, LimitsChoice(self.session))

@@ -10,8 +10,8 @@ import cv2
 import numpy as np
 import pytest
 from PySide6.QtCore import QMimeData, QPoint, QPointF, Qt, QUrl
-from PySide6.QtGui import QDropEvent
-from PySide6.QtWidgets import QFileDialog
+from PySide6.QtGui import QColor, QDropEvent
+from PySide6.QtWidgets import QApplication, QFileDialog
 from pytestqt.qtbot import QtBot
 
 from calibgui.engine.boards import Board
@@ -20,7 +20,7 @@ from calibgui.engine.geometry import Pose, rotation_from_vector, vector_from_rot
 from calibgui.engine.images import render_view, write_image
 from calibgui.formats.rig_json import read_rig
 from calibgui.gui.rig.rig_page import RigPage
-from calibgui.gui.widgets import questions
+from calibgui.gui.widgets import questions, theme
 from calibgui.gui.widgets.questions import Answer
 from calibgui.gui.window.main_window import MainWindow
 
@@ -75,6 +75,7 @@ def test_a_rig_is_calibrated_written_and_opened(
     calibrate: Callable[[], None],
     window: MainWindow,
     qtbot: QtBot,
+    qapp: QApplication,
     tmp_path: Path,
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
@@ -84,7 +85,13 @@ def test_a_rig_is_calibrated_written_and_opened(
     calibrate()
     assert page.result is not None
     assert page.result.rig.poses[1].tvec == pytest.approx(RIGHT.tvec, abs=0.5)
-    assert page.answer.headline.text() == "The cameras agree"
+    headline = page.answer.headline
+    assert headline.text() == "The cameras agree"
+    theme.apply(qapp, theme.Scheme.DARK)
+    try:
+        assert headline.palette().windowText().color() == QColor(theme.DARK.good)
+    finally:
+        theme.apply(qapp, theme.Scheme.LIGHT)
     assert page.matrix.item(0, 0).text().endswith(" px")
     file = tmp_path / "rig.json"
     monkeypatch.setattr(QFileDialog, "getSaveFileName", lambda *_: (str(file), ""))

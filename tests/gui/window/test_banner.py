@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 import pytest
-from PySide6.QtCore import QPoint
+from PySide6.QtCore import QPoint, Qt
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
@@ -88,3 +88,14 @@ def test_the_banner_takes_other_colours(banner: Banner, qapp: QApplication) -> N
         assert theme.DARK.warning_base in banner.styleSheet()
     finally:
         theme.apply(qapp, theme.Scheme.LIGHT)
+
+
+def test_a_message_leaves_the_tools_free_that_it_may_ask_for(
+    full: MainWindow, qtbot: QtBot
+) -> None:
+    banner, tools = full.banner, full.page.bar
+    full.show_failure(CalibrationError("There is no board.", "Mark its corners."))
+    qtbot.waitUntil(lambda: 0 < tools.width() == banner.x())
+    assert banner.geometry().right() == full.pages.rect().right()
+    qtbot.mouseClick(full.inspector.camera.all, Qt.MouseButton.LeftButton)
+    qtbot.waitUntil(lambda: full.page.isHidden() and banner.x() == 0)
