@@ -459,9 +459,7 @@ def test(arguments: list[str], yes: bool) -> int:
     # Each of the many processes that tests start would compile the whole program anew.
     env.pop("PYTHONDONTWRITEBYTECODE", None)
     cache = [] if os.access(ROOT, os.W_OK) else ["-p", "no:cacheprovider"]
-    # One more than there are processors: tests of the window wait for it part of their time.
-    count = min((os.cpu_count() or 1) + 1, 8)
-    parallel = ["-n", str(count), "--dist", "worksteal"]
+    parallel = ["-n", "auto", "--maxprocesses", "8", "--dist", "worksteal"]
     command = [environment.python, "-m", "pytest", *parallel, *cache, *arguments]
     return subprocess.call(command, cwd=ROOT, env=env)
 

@@ -62,7 +62,7 @@ def search_boards(
                 return search(files, board)
             return search(files, replace(board, grid_size=seen.grid_size, pattern=seen.pattern))
 
-        return search_cameras(pairing, search_camera, board.square)
+        return search_cameras(pairing, search_camera, board.square, is_only=len(boards) == 1)
 
     return [find(board) for board in boards]
 

@@ -27,6 +27,7 @@ def search_cameras(
     pairing: RigPairing,
     search: Callable[[Sequence[str], Board | None], Detection],
     square: float | None,
+    is_only: bool = True,
 ) -> dict[str, CornerSet]:
     """Search the photographs of all cameras for one board.
 
@@ -34,9 +35,10 @@ def search_cameras(
         pairing: the cameras with their photographs.
         search: searches photographs, for a board if it is known.
         square: side of a square, mm; None if it is not stated.
+        is_only: whether there is no other board, which a camera may show in place of this one.
 
     Raises:
-        CalibrationError: from `search`, or if a camera never shows the first one's board.
+        CalibrationError: from `search`, or if a camera never shows the only board.
     """
     found: dict[str, CornerSet] = {}
     board: Board | None = None
@@ -44,11 +46,12 @@ def search_cameras(
         try:
             detection = search([str(file) for file in camera.files.values()], board)
         except CalibrationError as error:
-            if board is None:
+            if board is None or not is_only:
                 raise
             raise _explain_other_board(camera.name, next(iter(found)), board) from error
         found[camera.name] = corner_set = detection.corner_set(square)
-        if board is not None and not any(view.usable for view in corner_set.views):
+        is_shown = any(view.usable for view in corner_set.views)
+        if board is not None and is_only and not is_shown:
             raise _explain_other_board(camera.name, next(iter(found)), board)
         board = board or corner_set.board  # the first camera tells it for the others
     return found

@@ -95,7 +95,7 @@ def test_an_error_of_thousands_of_pixels_is_no_number(worst: float, known: str) 
     calibration = calibrate(CLEAN, VGA)
     error = PixelError(0.02, worst, worst, 0.02, 0.02, 0.03)
     _, reason = _grade(calibration, error, [])
-    assert f"known to 0.030 px; beyond them they are {known}:" in reason
+    assert f"known to 0.030 px. Beyond them it is {known}:" in reason
 
 
 @pytest.mark.parametrize(("count", "grade"), [(2, Grade.NOT_USABLE), (4, Grade.USABLE)])
@@ -249,7 +249,7 @@ def test_a_board_that_leaves_pixels_too_poorly_known_asks_for_photographs() -> N
 def test_a_board_whose_shape_brings_nothing_is_no_finding() -> None:
     _, verdict = judge(inject("bow", 0).views)
     assert (verdict.findings, verdict.grade) == ((), Grade.USABLE)
-    assert "add views" in verdict.reason  # the standard deviations include the doubt
+    assert "add photographs" in verdict.reason  # the standard deviations include the doubt
 
 
 def bow_views() -> list[Observation]:
