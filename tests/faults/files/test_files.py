@@ -23,7 +23,7 @@ pytestmark = pytest.mark.skipif(
     sys.platform != "linux", reason="the campaign's limits are those of Linux"
 )
 
-_TRIES = 8
+_TRIES = 5
 """Tries of each reader and kind of damage in the suite; the command's default is 25."""
 _KILLS = 20
 _ROOT = Path(__file__).parents[3]
