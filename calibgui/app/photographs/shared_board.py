@@ -1,4 +1,4 @@
-"""What photographs agree on about the board in them: its rows and columns, its kind in detail.
+"""The board that photographs agree on: its rows and columns, and its kind in detail.
 
 If the size of the board is not given, it is the most frequent one of completely seen boards, or
 that of a part which several photographs share. Unknown properties of a pattern, such as the

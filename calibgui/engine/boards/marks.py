@@ -19,7 +19,7 @@ class Marks(NamedTuple):
     """The marks of a board."""
 
     kind: str
-    """What they are of: a family of tags, as t36h11, or a family of dictionaries of markers."""
+    """The kind of marks: a family of tags, as t36h11, or a family of dictionaries of markers."""
     numbers: frozenset[int]
 
 

@@ -36,14 +36,14 @@ for it."""
 
 @dataclass(frozen=True, eq=False, slots=True)
 class JointState:
-    """What the frames of one instant show, and what is to be done."""
+    """The boards in the frames of one instant, and what is to be done."""
 
     cameras: tuple[CaptureState | None, ...]
     """The state of each camera; None of one that sent no frame."""
     leading: int
     """Number of the camera whose wanted view is to be followed."""
     instruction: str
-    """What the user is to do, one thing."""
+    """The one thing that the user is to do."""
 
     @property
     def taken(self) -> tuple[Picture | None, ...]:

@@ -105,7 +105,7 @@ class CaptureState:
     match: float
     """How near the board is to it, 0 to 1."""
     instruction: str
-    """What the user is to do, one thing."""
+    """The one thing that the user is to do."""
     taken: Picture | None
     """The picture that this frame became."""
 
@@ -130,7 +130,7 @@ class CaptureSession:
         self._checked: Calibration | None = None
         """The camera from the pictures that are not put aside; None if none is put aside."""
         self._unseen_error: float | None = np.nan
-        """What `measure_unseen_error` returns; None if it is to be measured anew."""
+        """The answer of `measure_unseen_error`; None if it is to be measured anew."""
         self.worst = np.inf
         """Uncertainty of the worst pixel's projection, px; infinite until the views determine the
         camera."""

@@ -75,9 +75,9 @@ class Joined(NamedTuple):
     """Cameras and boards with the places that most instants agree about."""
 
     cameras: tuple[Relation, ...]
-    """How each camera stands to the first one, cam_from_rig."""
+    """The pose of each camera beside the first one, cam_from_rig."""
     boards: tuple[Relation, ...]
-    """How each board stands to its reference, board_from_reference."""
+    """The pose of each board beside its reference, board_from_reference."""
     references: tuple[int, ...]
     """Number of the board that each one's place is beside; its own number for a reference."""
 

@@ -213,7 +213,7 @@ def _join(problem: RigProblem, state: State, normals: Sequence[NormalEquations])
 
 
 class _Prior(NamedTuple):
-    """What is known beforehand of some unknowns."""
+    """Knowledge of some unknowns beforehand."""
 
     place: IntArray
     """(m,) places of the unknowns among all shared ones."""

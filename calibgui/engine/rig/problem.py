@@ -143,13 +143,13 @@ class Columns(NamedTuple):
     """Places of the unknowns among all those that instants share."""
 
     cameras: Sequence[IntArray]
-    """Those of each camera's own parameters."""
+    """Columns of each camera's own parameters."""
     poses: Sequence[IntArray]
-    """Those of each camera's pose and time."""
+    """Columns of each camera's pose and time."""
     boards: Sequence[IntArray]
-    """Those of each board's pose."""
+    """Columns of each board's pose."""
     deviations: Sequence[IntArray]
-    """Those of each board's deviations."""
+    """Columns of each board's deviations."""
     total: int
     """Number of all."""
 
