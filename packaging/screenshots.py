@@ -88,7 +88,7 @@ class Hand:
     """
 
     title, is_continuous, is_live = "a rendered camera", True, False
-    remark = "The camera has 1280 x 720 px, exposure 156, focus 30."
+    remark = "The camera has 640 x 480 px, exposure 156, focus 30."
 
     def __init__(self, window: MainWindow, pictures: int) -> None:
         self._window, self._pictures = window, pictures
