@@ -324,7 +324,7 @@ def test_a_message_lies_over_the_picture(full: MainWindow) -> None:
     places = full.page.canvas.geometry(), full.calibrate.geometry()
     full.show_failure(CalibrationError("It cannot be.", "Do otherwise."))
     QApplication.processEvents()
-    assert full.banner.isVisible() and full.banner.width() == full.pages.width()
+    assert full.banner.isVisible() and full.banner.width() == full.page.canvas.width()
     assert (full.page.canvas.geometry(), full.calibrate.geometry()) == places
     full.session.select(full.session.project.views[6].image)
     assert full.page.reason.isVisible()
