@@ -250,7 +250,7 @@ class Rig:
     """Pose rig_from_board of the first board at each of these instants; of the board that those
     seen there have their places beside, if the first has none beside them."""
     views: tuple[RigView, ...]
-    """What each camera saw at these instants, by camera, board and instant."""
+    """The views of the cameras at these instants, by camera, board and instant."""
     noise: float
     """Standard deviation of one coordinate of a residual, px."""
     disagreement: float

@@ -78,7 +78,7 @@ class _Seen(NamedTuple):
 
     recorded: RecordedInstant
     progress: CaptureProgress
-    """That of the camera whose wanted view is followed."""
+    """The progress of the camera whose wanted view is followed."""
     absent: list[str]
     """Sentences on cameras that send nothing."""
 

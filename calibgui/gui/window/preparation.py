@@ -1,4 +1,4 @@
-"""What the window does ahead of its user: modules, compiled kernels, and panels."""
+"""The work that the window does ahead of its user: modules, compiled kernels, and panels."""
 
 from __future__ import annotations
 
