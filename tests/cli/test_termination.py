@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import importlib
 import json
 import os
 import random
@@ -195,10 +196,32 @@ def test_a_request_that_python_drops_is_made_again() -> None:
     assert request.is_made
 
 
+def test_a_request_waits_while_a_module_is_imported(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A module that takes every error for a missing part would go on without it."""
+    (tmp_path / "module_that_hides_errors.py").write_text(
+        "import os, signal, time\n"
+        "try:\n"
+        "    os.kill(os.getpid(), signal.SIGTERM)\n"
+        "    time.sleep(0.05)\n"
+        "    is_whole = True\n"
+        "except BaseException:\n"
+        "    is_whole = False\n"
+    )
+    monkeypatch.syspath_prepend(tmp_path)
+    module = None
+    with pytest.raises(KeyboardInterrupt), TerminationRequest().heed():
+        module = importlib.import_module("module_that_hides_errors")
+        time.sleep(10)
+    assert module is not None
+    assert module.is_whole
+
+
 def test_an_error_in_place_of_the_request_is_no_bug(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    """As of a module in C that is being imported."""
+    """As of a library in C that calls back into Python."""
 
     def run(*_: object) -> None:
         try:
