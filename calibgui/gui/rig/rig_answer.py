@@ -12,11 +12,14 @@ from calibgui.gui.widgets.tables import Column, Table, with_decimals, with_digit
 from calibgui.gui.widgets.wrapped_label import WrappedLabel
 from calibgui.report.numbers import format_with_sigma
 from calibgui.report.rig import (
+    describe_boards,
     describe_disagreement,
     describe_fit,
     describe_mistake,
     describe_offsets,
     describe_turned,
+    measure_board_distance,
+    measure_board_turn,
     measure_distance,
     measure_turn,
 )
@@ -34,8 +37,9 @@ class RigAnswer(QWidget):
         self.headline.setFont(theme.make_font(theme.HEADLINE, bold=True))
         self.headline.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
         self.words = WrappedLabel()
-        self.places, self.cameras, self.points = Table(), Table(), Table()
+        self.places, self.boards, self.cameras, self.points = (Table() for _ in range(4))
         self.condition = WrappedLabel()
+        self._titles: dict[Table, QLabel] = {}
         column = QVBoxLayout(self)
         column.setContentsMargins(0, 0, 0, 0)
         column.setSpacing(theme.SPACING)
@@ -43,10 +47,11 @@ class RigAnswer(QWidget):
         column.addWidget(self.words)
         for text, table in (
             (self.tr("Where the cameras stand"), self.places),
+            (self.tr("Where the boards stand"), self.boards),
             (self.tr("Cameras"), self.cameras),
             (self.tr("Points ahead"), self.points),
         ):
-            title = QLabel(text)
+            title = self._titles[table] = QLabel(text)
             title.setFont(theme.make_font(theme.CAPTION, bold=True))
             column.addWidget(title)
             table.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
@@ -79,6 +84,7 @@ class RigAnswer(QWidget):
             *describe_disagreement(result),
             *(describe_mistake(result, mistake) for mistake in rig.mistakes),
             *describe_turned(result),
+            *describe_boards(rig),
             *result.remarks,
         ]
         self.words.setText("\n\n".join(remarks))
@@ -86,6 +92,7 @@ class RigAnswer(QWidget):
             self.tr("All lengths hold {0}.").format(result.condition) if result.condition else ""
         )
         self._show_places(result)
+        self._show_boards(result)
         counted = range(len(rig.cameras))
         self.cameras.show_columns(
             [
@@ -138,8 +145,10 @@ class RigAnswer(QWidget):
                 ),
             ]
         )
-        for table in (self.places, self.cameras, self.points):
+        for table, title in self._titles.items():
             _fit_height(table)
+            for part in (title, table):
+                part.setVisible(table.model().rowCount() > 0)
 
     def tell(self, text: str) -> None:
         """Tell what was written, or why it could not be."""
@@ -160,6 +169,36 @@ class RigAnswer(QWidget):
                     self.tr("turn"),
                     [format_with_sigma(*measure_turn(rig, c)) for c in rows],
                     tip=self.tr("Angle between the two cameras, degrees"),
+                    unit="°",
+                ),
+            ]
+        )
+
+    def _show_boards(self, result: RigResult) -> None:
+        """Show how several boards stand to each other, as far as it is known."""
+        rig, boards = result.rig, result.rig.placed_boards
+        rows = [b for b, board in enumerate(boards) if board.reference != b]
+        beside = {boards[b].reference for b in rows}
+        names = [self.tr("Board {0}").format(b + 1) for b in range(len(boards))]
+        places = [
+            self.tr("{0} from {1}").format(names[b], names[boards[b].reference])
+            if len(beside) > 1
+            else names[b]
+            for b in rows
+        ]
+        self.boards.show_columns(
+            [
+                Column(self.tr("board"), places),
+                Column(
+                    self.tr("from {0}").format(names[0]) if beside <= {0} else self.tr("distance"),
+                    [format_with_sigma(*measure_board_distance(rig, b)) for b in rows],
+                    tip=self.tr("Distance of the boards' origins, mm"),
+                    unit="mm",
+                ),
+                Column(
+                    self.tr("turn"),
+                    [format_with_sigma(*measure_board_turn(rig, b)) for b in rows],
+                    tip=self.tr("Angle between the boards, degrees"),
                     unit="°",
                 ),
             ]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Mapping, Sequence
+from collections.abc import Callable, Collection, Sequence
 from functools import partial
 from pathlib import Path
 from typing import TypeVar
@@ -20,10 +20,10 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from calibgui.app.calibrating.settings import Settings
 from calibgui.app.rig.frames import find_videos
-from calibgui.app.rig.pairing import leave_photographs_out, recall_pairing
-from calibgui.dataset import CornerSet, RigPairing, RigResult
+from calibgui.app.rig.pairing import leave_photographs_out
+from calibgui.app.rig.setup import RigSetup, SearchedBoards, recall_setup
+from calibgui.dataset import RigPairing, RigResult
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.images import read_colour
 from calibgui.formats.rig_files import RIG_EXPORTERS
@@ -71,7 +71,7 @@ class RigPage(QWidget):
         self._names: list[str] = []
         """Folders or videos that the photographs are of; empty for those of a saved rig."""
         self.result: RigResult | None = None
-        self._found: Mapping[str, CornerSet] = {}
+        self._found = SearchedBoards()
         self._at = (0, 0)
         """Camera and instant that are looked at."""
         self._photographs, self._rectified = Latest(jobs, self), Latest(jobs, self)
@@ -83,13 +83,15 @@ class RigPage(QWidget):
         self.matrix.instant_chosen.connect(self._look_at)
         self.pane.changed.connect(self._forget_result)
         self.form.pairing_wanted.connect(self._pair_again)
+        self.form.changed.connect(self._take_setup)
+        self.form.boards.pattern.failed.connect(self._show_failure)
         self.scene.picked.connect(self._pick)
         self._show_start()
 
     @property
     def pairing(self) -> RigPairing | None:
         """The cameras and instants; None while there are no photographs."""
-        return self.pane.pairing
+        return None if self.pane.setup is None else self.pane.setup.pairing
 
     @property
     def is_running(self) -> bool:
@@ -112,7 +114,7 @@ class RigPage(QWidget):
             for c, camera in enumerate(pairing.cameras):
                 left_out = [k for k, file in camera.files.items() if file.name in without]
                 pairing = leave_photographs_out(pairing, c, left_out)
-            self._begin(pairing)
+            self._begin(RigSetup(pairing))
 
         self._pair(names, done)
 
@@ -126,7 +128,7 @@ class RigPage(QWidget):
 
         def done(result: RigResult) -> None:
             self._names = []
-            self._begin(recall_pairing(result))
+            self._begin(recall_setup(result))
             self._show_result(result)
 
         self._run(self.tr("Opening {0}").format(path.name), read, done)
@@ -138,14 +140,8 @@ class RigPage(QWidget):
 
     def _pair_again(self) -> None:
         """Pair the same photographs by other times, or other frames of the same videos."""
-
-        def done(pairing: RigPairing) -> None:
-            if find_videos(self._names):
-                self._found = {}
-            self.pane.change(pairing)
-
         if self._names and not self.is_running:
-            self._pair(self._names, done)
+            self._pair(self._names, self.pane.change_pairing)
 
     def _run(self, label: str, work: Callable[[Job], T], done: Callable[[T], None]) -> None:
         """Work beside the window, with the progress at the right."""
@@ -167,6 +163,9 @@ class RigPage(QWidget):
         self.add, self.open = Button(self.tr("&Folders…")), Button(self.tr("O&pen rig…"))
         self.calibrate = Button(self.tr("&Calibrate rig"), Kind.MAIN)
         self.stop, self.leave = Button(self.tr("&Stop")), Button(self.tr("C&lose"))
+        self.set_up = Button(self.tr("Set-&up"))
+        self.set_up.setCheckable(True)
+        self.set_up.setToolTip(self.tr("What is stated of boards and photographs, to change it"))
         self.export = Button(self.tr("E&xport"), Kind.MAIN)
         menu = QMenu(self.export)
         menu.addAction(self.tr("Rig, with everything (JSON)…"), self._save)
@@ -179,6 +178,7 @@ class RigPage(QWidget):
             (self.calibrate, self._calibrate),
             (self.stop, self._stop),
             (self.leave, self._leave),
+            (self.set_up, self._choose_side),
         ):
             button.clicked.connect(run)
 
@@ -201,7 +201,10 @@ class RigPage(QWidget):
         beside.addWidget(self._side, 1)
         beside.addWidget(self.state)
         beside.addWidget(self.progress)
-        for buttons in ((self.add, self.open), (self.calibrate, self.stop, self.export)):
+        for buttons in (
+            (self.add, self.open),
+            (self.calibrate, self.stop, self.export, self.set_up),
+        ):
             row = QHBoxLayout()
             for button in buttons:
                 row.addWidget(button)
@@ -228,12 +231,13 @@ class RigPage(QWidget):
         self.rectified.show_words(self.tr("Calibrate the rig first."))
         self._show_buttons()
 
-    def _begin(self, pairing: RigPairing) -> None:
-        """Show a new pairing."""
-        self.pane.begin(pairing)
-        self.result, self._found = None, {}
-        self._side.setCurrentIndex(0)
+    def _begin(self, setup: RigSetup) -> None:
+        """Show other photographs."""
+        self.pane.begin(setup)
+        self.result, self._found = None, SearchedBoards()
+        self._show_form(True)
         self._show_pairing()
+        pairing = setup.pairing
         shared = pairing.shared or tuple(pairing.instants)
         self.matrix.setCurrentCell(list(pairing.instants).index(shared[0]), 0)
 
@@ -293,27 +297,34 @@ class RigPage(QWidget):
     def _forget_result(self) -> None:
         """Show another pairing; the rig of the last one no longer holds."""
         self.result = None
-        self._side.setCurrentIndex(0)
+        self._show_form(True)
         self.rectified.show_words(self.tr("Calibrate the rig first."))
         self.scene.show_scene((), (), (), "")
         self._show_pairing()
 
+    def _take_setup(self) -> None:
+        """Take what the form states."""
+        assert self.pairing is not None
+        self.pane.change(self.form.state_setup(self.pairing))
+
+    def _show_form(self, is_shown: bool) -> None:
+        """Show what is stated in place of the answer, or the answer."""
+        self._side.setCurrentIndex(0 if is_shown else 1)
+        self.set_up.setChecked(is_shown)
+
+    def _choose_side(self) -> None:
+        self._show_form(self.set_up.isChecked())
+
     def _calibrate(self) -> None:
         """Search what was not searched, and calibrate."""
-        assert self.pairing is not None
+        self.calibrate.setFocus()  # what is being typed is meant now
+        assert self.pane.setup is not None
 
-        def done(answer: tuple[Mapping[str, CornerSet], RigResult]) -> None:
+        def done(answer: tuple[SearchedBoards, RigResult]) -> None:
             self._found, result = answer
             self._show_result(result)
 
-        work = partial(
-            search_and_calibrate,
-            self.pairing,
-            self._found,
-            self.form.side,
-            Settings(robust=self.form.robust.isChecked()),
-            self.form.offsets.isChecked(),
-        )
+        work = partial(search_and_calibrate, self.pane.setup, self._found)
         self._run(self.tr("Searching"), work, done)
 
     def _show_progress(self) -> None:
@@ -334,7 +345,7 @@ class RigPage(QWidget):
     def _show_result(self, result: RigResult) -> None:
         self.result = result
         self.answer.show_result(result)
-        self._side.setCurrentIndex(1)
+        self._show_form(False)
         self._show_pairing()
         boards = [result.instants[instant] for instant in result.rig.instants]
         count = len(boards)
@@ -349,7 +360,7 @@ class RigPage(QWidget):
 
     def _show_failure(self, error: Exception) -> None:
         if isinstance(error, CalibrationError):
-            self._side.setCurrentIndex(0)
+            self._show_form(True)
             self._tell(f"{error.message} {error.hint}", theme.current().bad)
         else:
             self._jobs.failed.emit(error)
@@ -362,7 +373,7 @@ class RigPage(QWidget):
     def _show_buttons(self) -> None:
         running, pairing = self.is_running, self.pairing
         self.pane.hold(running)
-        self.form.show_choices(pairing, bool(find_videos(self._names)))
+        self.form.show_setup(self.pane.setup, self._found.seen, bool(find_videos(self._names)))
         self.form.setEnabled(not running)
         for button in (self.add, self.open):
             button.setEnabled(not running)
@@ -371,7 +382,8 @@ class RigPage(QWidget):
         self.stop.setVisible(running)
         self.progress.setVisible(running)
         self.state.setVisible(running)
-        self.export.setVisible(self.result is not None)
+        for button in (self.export, self.set_up):
+            button.setVisible(self.result is not None and not running)
 
     def _ask_for_folder(self) -> None:
         folder = QFileDialog.getExistingDirectory(
