@@ -36,16 +36,13 @@ _MAX_POINTS = 30
 
 def describe_pairing(pairing: RigPairing) -> str:
     """Describe which photographs are of which camera, and how many instants they share."""
-    counts = ", ".join(
-        f"{camera.name} ({format_count(len(camera.files), 'photograph')})"
-        for camera in pairing.cameras
-    )
+    counts = ", ".join(f"{camera.name} ({len(camera.files)})" for camera in pairing.cameras)
     first = pairing.shared[0]
     example = ", ".join(
         camera.files[first].name for camera in pairing.cameras if first in camera.files
     )
     text = (
-        f"{len(pairing.cameras)} cameras: {counts}. Paired by their {pairing.how}: "
+        f"Photographs of {len(pairing.cameras)} cameras: {counts}. Paired by their {pairing.how}: "
         f"{format_count(len(pairing.shared), 'instant')} of several cameras, the first {example}."
     )
     if left := pairing.left_over:

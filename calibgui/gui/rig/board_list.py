@@ -17,6 +17,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from calibgui.app.projects.lengths import scale_pattern
 from calibgui.app.rig.boards import StatedBoard
 from calibgui.app.rig.setup import state_board, suggest_board
 from calibgui.dataset import DEFAULT_SQUARE
@@ -28,10 +29,12 @@ from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.buttons import Button
 from calibgui.gui.widgets.layouts import make_column, make_row
 from calibgui.gui.widgets.number_box import NumberBox
-from calibgui.gui.widgets.pattern_texts import list_pattern_texts, name_points
+from calibgui.gui.widgets.pattern_texts import list_pattern_texts, name_points, name_side
 
 _MOST_SEEN = 4
 """Number of boards that are seen at once, at most."""
+_PLACE_WIDTH = 72
+"""Least width of a number of a board's place, device-independent px."""
 
 
 class BoardList(QWidget):
@@ -64,8 +67,9 @@ class BoardList(QWidget):
         self.rows, self.cols = make_size_boxes()
         self.square = NumberBox(decimals=3, minimum=0.0, maximum=100_000.0)
         self.square.setSuffix(self.tr(" mm"))
-        self.square.setSpecialValueText(
-            self.tr("not measured (as if {0} mm)").format(f"{DEFAULT_SQUARE:g}")
+        self.square.setSpecialValueText(self.tr("taken as {0} mm").format(f"{DEFAULT_SQUARE:g}"))
+        self.square.setToolTip(
+            self.tr("Not measured if 0: all lengths then hold for squares so long")
         )
         self.square.setAccessibleName(self.tr("Side of a square"))
         self.is_placed = QCheckBox(self.tr("Stands where I &know"))
@@ -85,7 +89,7 @@ class BoardList(QWidget):
         self.pattern.listed.connect(self._take_list)
         for box in (self.rows, self.cols):
             box.valueChanged.connect(self._edit_size)
-        self.square.valueChanged.connect(lambda side: self._state(square=side or None))
+        self.square.valueChanged.connect(self._edit_square)
         self.is_placed.clicked.connect(self._edit_place)
         for value in self.place:
             value.valueChanged.connect(self._edit_place)
@@ -98,6 +102,9 @@ class BoardList(QWidget):
         largest = 100_000.0 if axis < 3 else 180.0
         box = NumberBox(decimals=3, minimum=-largest, maximum=largest)
         box.setButtonSymbols(QAbstractSpinBox.ButtonSymbols.NoButtons)
+        box.setMinimumWidth(_PLACE_WIDTH)
+        box.setPrefix(f"{'' if axis < 3 else 'r'}{'XYZ'[axis % 3]} ")
+        box.setSuffix("" if axis < 3 else "°")
         name = self.tr("{0}, mm") if axis < 3 else self.tr("rotation vector, {0}, degrees")
         box.setAccessibleName(name.format("XYZ"[axis % 3]))
         box.setToolTip(box.accessibleName())
@@ -172,7 +179,7 @@ class BoardList(QWidget):
         self.fields.setRowVisible(self._places, b > 0 and board.pose is not None)
         self.pattern.show_pattern(shown.pattern, board.square or DEFAULT_SQUARE)
         self.counted.setText(name_points(shown.pattern))
-        self.side.setText(self.tr("Square") if shown.pattern.has_squares else self.tr("Distance"))
+        self.side.setText(name_side(shown.pattern))
         size = board.grid_size or (UNKNOWN, UNKNOWN)
         for box, value in zip((self.rows, self.cols), size, strict=True):
             with QSignalBlocker(box):
@@ -224,6 +231,15 @@ class BoardList(QWidget):
         size = self.rows.value(), self.cols.value()
         if UNKNOWN not in size:
             self._state(grid_size=size)
+
+    def _edit_square(self, side: float) -> None:
+        """State the side of a square; markers and circles keep their size."""
+        board = self.boards[self.list.currentRow()]
+        pattern = board.pattern
+        if pattern is not None:
+            ratio = (board.square or DEFAULT_SQUARE) / (side or DEFAULT_SQUARE)
+            pattern = scale_pattern(pattern, ratio)
+        self._state(square=side or None, pattern=pattern)
 
     def _take_list(self, pattern: Pattern, pitch: float) -> None:
         """Take a board of listed circles, whose lengths the list states."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from PySide6.QtCore import Signal
-from PySide6.QtWidgets import QHBoxLayout, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QGridLayout, QVBoxLayout, QWidget
 
 from calibgui.app.rig.pairing import leave_photographs_out, move_photographs
 from calibgui.app.rig.setup import RigSetup, SearchedBoards
@@ -42,19 +42,21 @@ class PairingPane(QWidget):
         column = QVBoxLayout(self)
         column.setContentsMargins(0, 0, 0, theme.SPACING)
         column.addWidget(self.matrix, 1)
-        row = QHBoxLayout()
-        row.setContentsMargins(theme.SPACING, 0, theme.SPACING, 0)
-        row.setSpacing(theme.SPACING // 2)
-        for button, run in (
-            (self.earlier, lambda: self._move(-1)),
-            (self.later, lambda: self._move(1)),
-            (self.leave_out, self._leave_out),
-            (self.undo, self._take_back),
+        buttons = QGridLayout()
+        buttons.setContentsMargins(theme.SPACING, 0, theme.SPACING, 0)
+        buttons.setSpacing(theme.SPACING // 2)
+        for k, (button, run) in enumerate(
+            (
+                (self.earlier, lambda: self._move(-1)),
+                (self.later, lambda: self._move(1)),
+                (self.leave_out, self._leave_out),
+                (self.undo, self._take_back),
+            )
         ):
             button.clicked.connect(run)
-            row.addWidget(button)
-        row.addStretch(1)
-        column.addLayout(row)
+            buttons.addWidget(button, *divmod(k, 2))
+        buttons.setColumnStretch(2, 1)
+        column.addLayout(buttons)
         self.matrix.itemSelectionChanged.connect(self._show_buttons)
         self._show_buttons()
 

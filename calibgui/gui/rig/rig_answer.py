@@ -7,6 +7,7 @@ from PySide6.QtWidgets import QLabel, QSizePolicy, QVBoxLayout, QWidget
 
 from calibgui.dataset import RigResult
 from calibgui.engine.rig import estimate_point_uncertainty
+from calibgui.gui.verdict.sentences import translate_sentences
 from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.tables import Column, Table, with_decimals, with_digits
 from calibgui.gui.widgets.wrapped_label import WrappedLabel
@@ -33,10 +34,8 @@ class RigAnswer(QWidget):
     def __init__(self) -> None:
         super().__init__()
         self._is_sound = True
-        self.headline = QLabel()
+        self.headline, self.words = WrappedLabel(), WrappedLabel()
         self.headline.setFont(theme.make_font(theme.HEADLINE, bold=True))
-        self.headline.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
-        self.words = WrappedLabel()
         self.places, self.boards, self.cameras, self.points = (Table() for _ in range(4))
         self.condition = WrappedLabel()
         self._titles: dict[Table, QLabel] = {}
@@ -87,7 +86,7 @@ class RigAnswer(QWidget):
             *describe_boards(rig),
             *result.remarks,
         ]
-        self.words.setText("\n\n".join(remarks))
+        self.words.setText("\n\n".join(map(translate_sentences, remarks)))
         self.condition.setText(
             self.tr("All lengths hold {0}.").format(result.condition) if result.condition else ""
         )
@@ -179,7 +178,7 @@ class RigAnswer(QWidget):
         rig, boards = result.rig, result.rig.placed_boards
         rows = [b for b, board in enumerate(boards) if board.reference != b]
         beside = {boards[b].reference for b in rows}
-        names = [self.tr("Board {0}").format(b + 1) for b in range(len(boards))]
+        names = [str(b + 1) for b in range(len(boards))]
         places = [
             self.tr("{0} from {1}").format(names[b], names[boards[b].reference])
             if len(beside) > 1
@@ -190,7 +189,7 @@ class RigAnswer(QWidget):
             [
                 Column(self.tr("board"), places),
                 Column(
-                    self.tr("from {0}").format(names[0]) if beside <= {0} else self.tr("distance"),
+                    self.tr("from board {0}").format(1) if beside <= {0} else self.tr("distance"),
                     [format_with_sigma(*measure_board_distance(rig, b)) for b in rows],
                     tip=self.tr("Distance of the boards' origins, mm"),
                     unit="mm",

@@ -11,12 +11,10 @@ from PySide6.QtCore import Signal
 from PySide6.QtGui import QColor, QPainter, QPaintEvent
 from PySide6.QtWidgets import (
     QFileDialog,
-    QHBoxLayout,
     QLabel,
     QMenu,
     QProgressBar,
     QStackedWidget,
-    QVBoxLayout,
     QWidget,
 )
 
@@ -42,8 +40,10 @@ from calibgui.gui.rig.rig_work import (
     rectify_photographs,
     search_and_calibrate,
 )
+from calibgui.gui.verdict.sentences import translate_sentences
 from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.buttons import Button, Kind
+from calibgui.gui.widgets.layouts import make_column, make_row
 from calibgui.gui.widgets.save_names import ask_for_name
 from calibgui.gui.widgets.scrolling import make_scrollable
 from calibgui.gui.widgets.tab_bar import TabWidget
@@ -194,30 +194,18 @@ class RigPage(QWidget):
         self._side.addWidget(make_scrollable(self.answer))
         side = QWidget()
         side.setFixedWidth(_SIDE)
-        beside = QVBoxLayout(side)
-        beside.setContentsMargins(theme.MARGIN, 12, theme.MARGIN, 12)
-        beside.setSpacing(12)
-        beside.addWidget(title)
-        beside.addWidget(self._side, 1)
-        beside.addWidget(self.state)
-        beside.addWidget(self.progress)
-        for buttons in (
-            (self.add, self.open),
-            (self.calibrate, self.stop, self.export, self.set_up),
-        ):
-            row = QHBoxLayout()
-            for button in buttons:
-                row.addWidget(button)
-            row.addStretch(1)
-            if self.export in buttons:
-                row.addWidget(self.leave)
-            beside.addLayout(row)
-        whole = QHBoxLayout(self)
-        whole.setContentsMargins(0, 0, 0, 0)
-        whole.setSpacing(0)
-        whole.addWidget(self.pane)
-        whole.addWidget(self.tabs, 1)
-        whole.addWidget(side)
+        make_column(
+            title,
+            (self._side, 1),
+            self.state,
+            self.progress,
+            make_row(self.add, self.open, None, self.leave),
+            make_row(self.calibrate, self.stop, self.export, self.set_up, None),
+            of=side,
+            spacing=12,
+            margins=(theme.MARGIN, 12, theme.MARGIN, 12),
+        )
+        make_row(self.pane, (self.tabs, 1), side, of=self, spacing=0)
 
     def _show_start(self) -> None:
         self._tell(
@@ -228,7 +216,7 @@ class RigPage(QWidget):
             )
         )
         self.photographs.show_words(self.tr("No photographs yet."))
-        self.rectified.show_words(self.tr("Calibrate the rig first."))
+        self._show_no_result()
         self._show_buttons()
 
     def _begin(self, setup: RigSetup) -> None:
@@ -298,9 +286,14 @@ class RigPage(QWidget):
         """Show another pairing; the rig of the last one no longer holds."""
         self.result = None
         self._show_form(True)
-        self.rectified.show_words(self.tr("Calibrate the rig first."))
-        self.scene.show_scene((), (), (), "")
+        self._show_no_result()
         self._show_pairing()
+
+    def _show_no_result(self) -> None:
+        """Say where results will stand that there are none."""
+        words = self.tr("Calibrate the rig first.")
+        self.rectified.show_words(words)
+        self.scene.show_scene((), (), (), words)
 
     def _take_setup(self) -> None:
         """Take what the form states."""
@@ -367,7 +360,7 @@ class RigPage(QWidget):
 
     def _tell(self, text: str, colour: str | None = None) -> None:
         """Say in the form what is to do, or what went wrong."""
-        self.form.words.setText(text)
+        self.form.words.setText(translate_sentences(text))
         theme.set_text_colour(self.form.words, colour or theme.current().text)
 
     def _show_buttons(self) -> None:

@@ -26,7 +26,7 @@ from calibgui.app.projects.project import (
     set_pattern,
 )
 from calibgui.engine.arrays import GridSize
-from calibgui.engine.boards import AprilGrid, ListedCircles, Pattern
+from calibgui.engine.boards import ListedCircles, Pattern
 from calibgui.engine.images import Field
 from calibgui.gui.session.session import Session
 from calibgui.gui.settings.pattern_choice import PatternChoice
@@ -35,7 +35,7 @@ from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.layouts import INDENTED, make_row
 from calibgui.gui.widgets.narrow_combo import NarrowCombo
 from calibgui.gui.widgets.number_box import NumberBox
-from calibgui.gui.widgets.pattern_texts import name_points
+from calibgui.gui.widgets.pattern_texts import name_points, name_side
 from calibgui.gui.widgets.sizes import set_times_signs
 from calibgui.report.boards import describe_recognised_board
 
@@ -169,10 +169,8 @@ class BoardPanel(QWidget):
         is_interlaced = any(INTERLACED in f"{view.note}{view.reason}" for view in project.views)
         self._form.setRowVisible(self.field, is_interlaced or project.field is not None)
         self.by_hand.setChecked(project.by_hand)
-        tags = isinstance(project.pattern, AprilGrid)
         self.counted.setText(name_points(project.pattern))
-        square = self.tr("Tag") if tags else self.tr("Square")
-        self.side.setText(self.tr("Distance") if circles else square)
+        self.side.setText(name_side(project.pattern))
         if not self._typing:
             self._show_board()
         for box, mm in ((self.square, project.square), (self.square_sigma, project.square_sigma)):
