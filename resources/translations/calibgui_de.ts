@@ -93,11 +93,11 @@ die beide dort am nächsten zusammenbringt, wo Ecken (Punkte) gesehen wurden.</t
     <name>BoardList</name>
     <message>
         <source>Boards</source>
-        <translation>Tafeln</translation>
+        <translation>Bretter</translation>
     </message>
     <message>
         <source>Add a &amp;board</source>
-        <translation>&amp;Tafel hinzufügen</translation>
+        <translation>&amp;Brett hinzufügen</translation>
     </message>
     <message>
         <source>Re&amp;move</source>
@@ -105,15 +105,15 @@ die beide dort am nächsten zusammenbringt, wo Ecken (Punkte) gesehen wurden.</t
     </message>
     <message>
         <source>A further board that stands fast to the first and is told from it by its markers or tags</source>
-        <translation>Eine weitere Tafel, die fest zur ersten steht und sich durch ihre Marker oder Tags von ihr unterscheidet</translation>
+        <translation>Ein weiteres Brett, das fest zum ersten steht und sich durch seine Marker oder Tags von ihm unterscheidet</translation>
     </message>
     <message>
         <source>As the photo&amp;graphs show it</source>
-        <translation>Wie die F&amp;otos sie zeigen</translation>
+        <translation>Wie die F&amp;otos es zeigen</translation>
     </message>
     <message>
         <source>Take the board that the photographs show; turn it off to state it.</source>
-        <translation>Die Tafel nehmen, die die Fotos zeigen; zum Angeben ausschalten.</translation>
+        <translation>Das Brett nehmen, das die Fotos zeigen; zum Angeben ausschalten.</translation>
     </message>
     <message>
         <source>not stated</source>
@@ -129,7 +129,7 @@ die beide dort am nächsten zusammenbringt, wo Ecken (Punkte) gesehen wurden.</t
     </message>
     <message>
         <source>Not measured if 0: all lengths then hold for squares so long</source>
-        <translation>Bei 0 nicht gemessen: Alle Längen gelten dann für so lange Felder</translation>
+        <translation>Bei 0 nicht gemessen: Alle Längen gelten dann für so lange Quadrate</translation>
     </message>
     <message>
         <source>Side of a square</source>
@@ -137,11 +137,11 @@ die beide dort am nächsten zusammenbringt, wo Ecken (Punkte) gesehen wurden.</t
     </message>
     <message>
         <source>Stands where I &amp;know</source>
-        <translation>Ihr Ort ist be&amp;kannt</translation>
+        <translation>Sein Ort ist be&amp;kannt</translation>
     </message>
     <message>
         <source>State where the board stands beside the first one; turn it off to have that estimated with the rig.</source>
-        <translation>Angeben, wo die Tafel neben der ersten steht; ausgeschaltet wird es mit dem Rig geschätzt.</translation>
+        <translation>Angeben, wo das Brett neben dem ersten steht; ausgeschaltet wird es mit dem Rig geschätzt.</translation>
     </message>
     <message>
         <source>{0}, mm</source>
@@ -153,7 +153,7 @@ die beide dort am nächsten zusammenbringt, wo Ecken (Punkte) gesehen wurden.</t
     </message>
     <message>
         <source>Board {0}</source>
-        <translation>Tafel {0}</translation>
+        <translation>Brett {0}</translation>
     </message>
 </context>
 <context>
@@ -3653,7 +3653,7 @@ wo die äußerste Ecke liegt; negativ zur Mitte hin</translation>
     </message>
     <message>
         <source>The lowest number of a marker or tag on the board: 0 on most.</source>
-        <translation>Die kleinste Nummer eines Markers oder Tags auf der Tafel: meist 0.</translation>
+        <translation>Die kleinste Nummer eines Markers oder Tags auf dem Brett: meist 0.</translation>
     </message>
     <message>
         <source>Choose a file…</source>
@@ -4331,7 +4331,7 @@ Der Kreis: wie die Bretter geneigt waren; die Mitte ist zur Kamera hin, der Rand
     </message>
     <message>
         <source>Where the boards stand</source>
-        <translation>Wo die Tafeln stehen</translation>
+        <translation>Wo die Bretter stehen</translation>
     </message>
     <message>
         <source>Cameras</source>
@@ -4415,26 +4415,26 @@ Der Kreis: wie die Bretter geneigt waren; die Mitte ist zur Kamera hin, der Rand
     </message>
     <message>
         <source>board</source>
-        <translation>Tafel</translation>
+        <translation>Brett</translation>
     </message>
     <message>
         <source>from board {0}</source>
-        <translation>von Tafel {0}</translation>
+        <translation>von Brett {0}</translation>
     </message>
     <message>
         <source>Distance of the boards&apos; origins, mm</source>
-        <translation>Abstand der Ursprünge der Tafeln, mm</translation>
+        <translation>Abstand der Ursprünge der Bretter, mm</translation>
     </message>
     <message>
         <source>Angle between the boards, degrees</source>
-        <translation>Winkel zwischen den Tafeln, Grad</translation>
+        <translation>Winkel zwischen den Brettern, Grad</translation>
     </message>
 </context>
 <context>
     <name>RigForm</name>
     <message>
         <source>Shape of the boards</source>
-        <translation>Form der Tafeln</translation>
+        <translation>Form der Bretter</translation>
     </message>
     <message>
         <source> ms</source>
@@ -4482,7 +4482,7 @@ Der Kreis: wie die Bretter geneigt waren; die Mitte ist zur Kamera hin, der Rand
     </message>
     <message>
         <source>The boards are</source>
-        <translation>Die Tafeln sind</translation>
+        <translation>Die Bretter sind</translation>
     </message>
     <message>
         <source>Frames of videos</source>
@@ -4525,7 +4525,7 @@ Der Kreis: wie die Bretter geneigt waren; die Mitte ist zur Kamera hin, der Rand
     </message>
     <message>
         <source>What is stated of boards and photographs, to change it</source>
-        <translation>Was zu Tafeln und Fotos angegeben ist, zum Ändern</translation>
+        <translation>Was zu Brettern und Fotos angegeben ist, zum Ändern</translation>
     </message>
     <message>
         <source>E&amp;xport</source>
@@ -4857,10 +4857,6 @@ Die Farben: wo die eigene Unsicherheit der Kalibrierung klein (dunkel) und groß
         <translation>Drehvektoren in Radiant, {0}</translation>
     </message>
     <message>
-        <source>quaternions before the place {0}</source>
-        <translation>Quaternionen vor dem Ort {0}</translation>
-    </message>
-    <message>
         <source>quaternions {0}</source>
         <translation>Quaternionen {0}</translation>
     </message>
@@ -4910,11 +4906,11 @@ Die Farben: wo die eigene Unsicherheit der Kalibrierung klein (dunkel) und groß
     </message>
     <message>
         <source>Read so, the board scatters by {0} mm.</source>
-        <translation>So gelesen streut die Tafel um {0} mm.</translation>
+        <translation>So gelesen streut das Brett um {0} mm.</translation>
     </message>
     <message>
         <source>Read so, the board scatters by {0} mm, and by {1} mm in any other way.</source>
-        <translation>So gelesen streut die Tafel um {0} mm, auf jede andere Art um {1} mm.</translation>
+        <translation>So gelesen streut das Brett um {0} mm, auf jede andere Art um {1} mm.</translation>
     </message>
     <message>
         <source>A pose of the robot is off by {0} mm along each axis and by {1} degrees about each, one standard deviation.</source>
@@ -4931,14 +4927,6 @@ Die Farben: wo die eigene Unsicherheit der Kalibrierung klein (dunkel) und groß
     <message>
         <source>Turn the hand about more axes, or state where the camera is (above).</source>
         <translation>Drehen Sie die Hand um mehr Achsen, oder geben Sie oben an, wo die Kamera ist.</translation>
-    </message>
-    <message>
-        <source>The order is shifted: each pose stands one line early, and was used for the photograph that it fits.</source>
-        <translation>Die Reihenfolge ist verschoben: Jede Pose steht eine Zeile zu früh und wurde für das Foto genommen, zu dem sie passt.</translation>
-    </message>
-    <message>
-        <source>The order is shifted: each pose stands one line late, and was used for the photograph that it fits.</source>
-        <translation>Die Reihenfolge ist verschoben: Jede Pose steht eine Zeile zu spät und wurde für das Foto genommen, zu dem sie passt.</translation>
     </message>
     <message>
         <source>Correct the file.</source>
@@ -4994,11 +4982,7 @@ Die Farben: wo die eigene Unsicherheit der Kalibrierung klein (dunkel) und groß
     </message>
     <message>
         <source>The robot&apos;s pose does not fit in {0}: another moment, or a mistake in the file.</source>
-        <translation>Die Pose des Roboters passt nicht in {0}: ein anderer Augenblick, oder ein Fehler in der Datei.</translation>
-    </message>
-    <message>
-        <source>Leave it out below.</source>
-        <translation>Lassen Sie es unten aus.</translation>
+        <translation>Die Pose des Roboters passt nicht in {0}: ein anderer Zeitpunkt, oder ein Fehler in der Datei.</translation>
     </message>
     <message>
         <source>Left out: {0}</source>
@@ -5010,27 +4994,27 @@ Die Farben: wo die eigene Unsicherheit der Kalibrierung klein (dunkel) und groß
     </message>
     <message>
         <source>The robot&apos;s poses do not fit the photographs, however they are read: at best the board scatters by {0} mm in the robot&apos;s frame.</source>
-        <translation>Die Posen des Roboters passen nicht zu den Fotos, wie man sie auch liest: Bestenfalls streut die Tafel um {0} mm im Koordinatensystem des Roboters.</translation>
+        <translation>Die Posen des Roboters passen nicht zu den Fotos, wie man sie auch liest: Bestenfalls streut das Brett um {0} mm im Koordinatensystem des Roboters.</translation>
     </message>
     <message>
         <source>Check that they are the poses of these photographs in this order, and that board and camera stayed fixed, one to the hand and the other to the base.</source>
-        <translation>Prüfen Sie, ob es die Posen dieser Fotos in dieser Reihenfolge sind, und ob Tafel und Kamera fest blieben, eine an der Hand, die andere an der Basis.</translation>
+        <translation>Prüfen Sie, ob es die Posen dieser Fotos in dieser Reihenfolge sind, und ob Brett und Kamera fest blieben, eines an der Hand, das andere an der Basis.</translation>
     </message>
     <message>
         <source>By the robot&apos;s motions the board&apos;s squares are {0} times as long as stated.</source>
-        <translation>Nach den Bewegungen des Roboters sind die Felder der Tafel {0}-mal so lang wie angegeben.</translation>
+        <translation>Nach den Bewegungen des Roboters sind die Quadrate des Bretts {0}-mal so lang wie angegeben.</translation>
     </message>
     <message>
         <source>State the side of a square as it was printed.</source>
-        <translation>Geben Sie die Seite eines Felds an, wie es gedruckt wurde.</translation>
+        <translation>Geben Sie die Seite eines Quadrats an, wie es gedruckt wurde.</translation>
     </message>
     <message>
         <source>There are {0} different poses of the robot with a board; hand and eye need at least {1}.</source>
-        <translation>Es gibt {0} verschiedene Posen des Roboters mit einer Tafel; Hand und Auge brauchen mindestens {1}.</translation>
+        <translation>Es gibt {0} verschiedene Posen des Roboters mit einem Brett; Hand und Auge brauchen mindestens {1}.</translation>
     </message>
     <message>
         <source>Photograph the board from ten poses or more, turned about two axes at least.</source>
-        <translation>Fotografieren Sie die Tafel aus zehn oder mehr Posen, um mindestens zwei Achsen gedreht.</translation>
+        <translation>Fotografieren Sie das Brett aus zehn oder mehr Posen, um mindestens zwei Achsen gedreht.</translation>
     </message>
     <message>
         <source>{0} has {1} poses, and there are {2} photographs.</source>
@@ -5053,12 +5037,48 @@ Die Farben: wo die eigene Unsicherheit der Kalibrierung klein (dunkel) und groß
         <translation>{0} enthält keine Posen.</translation>
     </message>
     <message>
+        <source>{0} is {1} ms {2} than {3}.</source>
+        <translation>{0} ist {1} ms {2} als {3}.</translation>
+    </message>
+    <message>
+        <source>later</source>
+        <translation>später</translation>
+    </message>
+    <message>
+        <source>earlier</source>
+        <translation>früher</translation>
+    </message>
+    <message>
         <source>Photographs of {0} cameras: {1}.</source>
         <translation>Fotos von {0} Kameras: {1}.</translation>
     </message>
     <message>
         <source>Paired by their {0}: {1} of several cameras, the first {2}.</source>
         <translation>Zugeordnet nach {0}: {1} mehrerer Kameras, der erste {2}.</translation>
+    </message>
+    <message>
+        <source>before the place {0}</source>
+        <translation>vor dem Ort {0}</translation>
+    </message>
+    <message>
+        <source>The order is shifted: each pose stands {0}, and was used for the photograph that it fits.</source>
+        <translation>Die Reihenfolge ist verschoben: Jede Pose steht {0} und wurde für das Foto genommen, zu dem sie passt.</translation>
+    </message>
+    <message>
+        <source>one line early</source>
+        <translation>eine Zeile zu früh</translation>
+    </message>
+    <message>
+        <source>one line late</source>
+        <translation>eine Zeile zu spät</translation>
+    </message>
+    <message>
+        <source>Leave it out {0}.</source>
+        <translation>Lassen Sie es {0} aus.</translation>
+    </message>
+    <message>
+        <source>below</source>
+        <translation>unten</translation>
     </message>
     <message>
         <source>names</source>
@@ -5074,11 +5094,11 @@ Die Farben: wo die eigene Unsicherheit der Kalibrierung klein (dunkel) und groß
     </message>
     <message>
         <source>1 instant</source>
-        <translation>1 Augenblick</translation>
+        <translation>1 Zeitpunkt</translation>
     </message>
     <message>
         <source>{0} instants</source>
-        <translation>{0} Augenblicke</translation>
+        <translation>{0} Zeitpunkte</translation>
     </message>
     <message>
         <source>Without a partner: {0}.</source>
@@ -5098,27 +5118,19 @@ Die Farben: wo die eigene Unsicherheit der Kalibrierung klein (dunkel) und groß
     </message>
     <message>
         <source>The instants disagree.</source>
-        <translation>Die Augenblicke widersprechen sich.</translation>
-    </message>
-    <message>
-        <source>{0} is {1} ms later than {2}.</source>
-        <translation>{0} ist {1} ms später als {2}.</translation>
-    </message>
-    <message>
-        <source>{0} is {1} ms earlier than {2}.</source>
-        <translation>{0} ist {1} ms früher als {2}.</translation>
+        <translation>Die Zeitpunkte widersprechen sich.</translation>
     </message>
     <message>
         <source>Single instants have {0} mm from where most have it beside {1}; the corners&apos; noise explains {2} mm.</source>
-        <translation>Einzelne Augenblicke haben {0} mm von dort, wo die meisten sie neben {1} haben; das Rauschen der Ecken erklärt {2} mm.</translation>
+        <translation>Einzelne Zeitpunkte haben {0} mm von dort, wo die meisten sie neben {1} haben; das Rauschen der Ecken erklärt {2} mm.</translation>
     </message>
     <message>
         <source>Photographs of one instant were not taken at quite the same moment, or the board bends in the hand.</source>
-        <translation>Die Fotos eines Augenblicks wurden nicht ganz gleichzeitig aufgenommen, oder die Tafel biegt sich in der Hand.</translation>
+        <translation>Die Fotos eines Zeitpunkts wurden nicht ganz gleichzeitig aufgenommen, oder das Brett biegt sich in der Hand.</translation>
     </message>
     <message>
         <source>Each ± counts it: put the board down for each picture, or trigger the cameras together.</source>
-        <translation>Jedes ± zählt es mit: Stellen Sie die Tafel für jedes Bild ab, oder lösen Sie die Kameras gemeinsam aus.</translation>
+        <translation>Jedes ± zählt es mit: Stellen Sie das Brett für jedes Bild ab, oder lösen Sie die Kameras gemeinsam aus.</translation>
     </message>
     <message>
         <source>The photographs of {0} belong to those of {1} of {2} earlier: nothing above holds.</source>
@@ -5142,11 +5154,11 @@ Die Farben: wo die eigene Unsicherheit der Kalibrierung klein (dunkel) und groß
     </message>
     <message>
         <source>The squares were counted {0} times as long as in the others in {1}, and the photographs of {2} beside them.</source>
-        <translation>In {1} und den Fotos von {2} daneben gelten die Felder als {0}-mal so lang wie in den anderen.</translation>
+        <translation>In {1} und den Fotos von {2} daneben gelten die Quadrate als {0}-mal so lang wie in den anderen.</translation>
     </message>
     <message>
         <source>They are left out: is that another board, or another --square?</source>
-        <translation>Sie sind ausgelassen: Ist das eine andere Tafel, oder eine andere Feldlänge?</translation>
+        <translation>Sie sind ausgelassen: Ist das ein anderes Brett, oder eine andere Quadratseite?</translation>
     </message>
     <message>
         <source>{0} stands {1} mm otherwise beside {2} from {3} on.</source>
@@ -5158,7 +5170,7 @@ Die Farben: wo die eigene Unsicherheit der Kalibrierung klein (dunkel) und groß
     </message>
     <message>
         <source>The boards stand {0} mm otherwise to each other from {1} on.</source>
-        <translation>Die Tafeln stehen ab {1} um {0} mm anders zueinander.</translation>
+        <translation>Die Bretter stehen ab {1} um {0} mm anders zueinander.</translation>
     </message>
     <message>
         <source>Fasten them, or calibrate the photographs before and after it by themselves.</source>
@@ -5170,11 +5182,11 @@ Die Farben: wo die eigene Unsicherheit der Kalibrierung klein (dunkel) und groß
     </message>
     <message>
         <source>Left out, as the board is elsewhere than in the other cameras&apos; photographs of the instant: {0}.</source>
-        <translation>Ausgelassen, da die Tafel anderswo ist als in den Fotos der anderen Kameras in diesem Augenblick: {0}.</translation>
+        <translation>Ausgelassen, da das Brett anderswo ist als in den Fotos der anderen Kameras zu diesem Zeitpunkt: {0}.</translation>
     </message>
     <message>
         <source>Were they taken at another instant?</source>
-        <translation>Wurden sie in einem anderen Augenblick aufgenommen?</translation>
+        <translation>Wurden sie zu einem anderen Zeitpunkt aufgenommen?</translation>
     </message>
     <message>
         <source>Those that agree least with the other cameras: {0}.</source>
@@ -5182,11 +5194,11 @@ Die Farben: wo die eigene Unsicherheit der Kalibrierung klein (dunkel) und groß
     </message>
     <message>
         <source>Counted from another end of the board, and turned back: {0}.</source>
-        <translation>Von einem anderen Ende der Tafel gezählt und zurückgedreht: {0}.</translation>
+        <translation>Von einem anderen Ende des Bretts gezählt und zurückgedreht: {0}.</translation>
     </message>
     <message>
         <source>Where {0} stands beside {1} is open: no two cameras saw them at one instant.</source>
-        <translation>Wo {0} neben {1} steht, ist offen: Keine zwei Kameras sahen sie in einem Augenblick.</translation>
+        <translation>Wo {0} neben {1} steht, ist offen: Keine zwei Kameras sahen sie zu einem Zeitpunkt.</translation>
     </message>
     <message>
         <source>Nothing else depends on it.</source>
@@ -5198,19 +5210,19 @@ Die Farben: wo die eigene Unsicherheit der Kalibrierung klein (dunkel) und groß
     </message>
     <message>
         <source>board {0}</source>
-        <translation>Tafel {0}</translation>
+        <translation>Brett {0}</translation>
     </message>
     <message>
         <source>Board {0}</source>
-        <translation>Tafel {0}</translation>
+        <translation>Brett {0}</translation>
     </message>
     <message>
         <source>The board</source>
-        <translation>Die Tafel</translation>
+        <translation>Das Brett</translation>
     </message>
     <message>
         <source>The board moved while the cameras&apos; clocks did not agree: with one offset in time for each camera they leave {0} px.</source>
-        <translation>Die Tafel bewegte sich, während die Uhren der Kameras nicht übereinstimmten: Mit einem Zeitversatz je Kamera lassen sie {0} px übrig.</translation>
+        <translation>Das Brett bewegte sich, während die Uhren der Kameras nicht übereinstimmten: Mit einem Zeitversatz je Kamera lassen sie {0} px übrig.</translation>
     </message>
     <message>
         <source>--offsets estimates these.</source>
@@ -5222,27 +5234,27 @@ Die Farben: wo die eigene Unsicherheit der Kalibrierung klein (dunkel) und groß
     </message>
     <message>
         <source>State both of each board (--target and --board on the command line).</source>
-        <translation>Geben Sie beides für jede Tafel an.</translation>
+        <translation>Geben Sie beides für jedes Brett an.</translation>
     </message>
     <message>
         <source>Nothing is stated of {0} that tells it from the other boards.</source>
-        <translation>Nichts ist von {0} angegeben, das sie von den anderen Tafeln unterscheidet.</translation>
+        <translation>Nichts ist von {0} angegeben, das es von den anderen Brettern unterscheidet.</translation>
     </message>
     <message>
         <source>Several boards have markers or tags: state --target and --board of each, and the --dictionary of a ChArUco board, the --family of one with AprilTags.</source>
-        <translation>Mehrere Tafeln haben Marker oder Tags: Geben Sie Art und Größe jeder Tafel an, dazu das Wörterbuch einer ChArUco-Tafel oder die Familie einer mit AprilTags.</translation>
+        <translation>Mehrere Bretter haben Marker oder Tags: Geben Sie Art und Größe jedes Bretts an, dazu das Wörterbuch eines ChArUco-Bretts oder die Familie eines mit AprilTags.</translation>
     </message>
     <message>
         <source>The markers {0} to {1} of {2} are on {3} and on {4}: photographs do not tell the boards apart.</source>
-        <translation>Die Marker {0} bis {1} von {2} sind auf {3} und auf {4}: Fotos unterscheiden die Tafeln nicht.</translation>
+        <translation>Die Marker {0} bis {1} von {2} sind auf {3} und auf {4}: Fotos unterscheiden die Bretter nicht.</translation>
     </message>
     <message>
         <source>The tags {0} to {1} of {2} are on {3} and on {4}: photographs do not tell the boards apart.</source>
-        <translation>Die Tags {0} bis {1} von {2} sind auf {3} und auf {4}: Fotos unterscheiden die Tafeln nicht.</translation>
+        <translation>Die Tags {0} bis {1} von {2} sind auf {3} und auf {4}: Fotos unterscheiden die Bretter nicht.</translation>
     </message>
     <message>
         <source>The cameras fall apart into {0} groups that never see the board together: {1}.</source>
-        <translation>Die Kameras zerfallen in {0} Gruppen, die die Tafel nie zusammen sehen: {1}.</translation>
+        <translation>Die Kameras zerfallen in {0} Gruppen, die das Brett nie zusammen sehen: {1}.</translation>
     </message>
     <message>
         <source>The cameras fall apart into {0} groups that nothing joins: {1}.</source>
@@ -5250,11 +5262,11 @@ Die Farben: wo die eigene Unsicherheit der Kalibrierung klein (dunkel) und groß
     </message>
     <message>
         <source>{0} shows no board of {1} in any photograph, and {2} does.</source>
-        <translation>{0} zeigt auf keinem Foto eine Tafel von {1}, {2} dagegen schon.</translation>
+        <translation>{0} zeigt auf keinem Foto ein Brett von {1}, {2} dagegen schon.</translation>
     </message>
     <message>
         <source>A rig takes one board before all cameras: photograph the same one, or leave out the camera that saw another.</source>
-        <translation>Ein Rig braucht eine Tafel vor allen Kameras: Fotografieren Sie dieselbe, oder lassen Sie die Kamera aus, die eine andere sah.</translation>
+        <translation>Ein Rig braucht ein Brett vor allen Kameras: Fotografieren Sie dasselbe, oder lassen Sie die Kamera aus, die ein anderes sah.</translation>
     </message>
 </context>
 <context>
@@ -6257,6 +6269,10 @@ gleicher Maßstab behält die Größe der Mitte; Bildwinkel zeigt einen Winkel I
     <message>
         <source>Judging the calibration</source>
         <translation>Kalibrierung beurteilen</translation>
+    </message>
+    <message>
+        <source>SEARCHING CORNERS…</source>
+        <translation>ECKEN WERDEN GESUCHT…</translation>
     </message>
     <message>
         <source>CALIBRATING…</source>

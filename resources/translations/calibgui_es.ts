@@ -109,11 +109,11 @@ que más las acerca donde se vieron esquinas (puntos).</translation>
     </message>
     <message>
         <source>As the photo&amp;graphs show it</source>
-        <translation>Como lo muestran las foto&amp;grafías</translation>
+        <translation>Como lo muestran las &amp;fotos</translation>
     </message>
     <message>
         <source>Take the board that the photographs show; turn it off to state it.</source>
-        <translation>Tomar el tablero que muestran las fotografías; desactive para indicarlo.</translation>
+        <translation>Tomar el tablero que muestran las fotos; desactive para indicarlo.</translation>
     </message>
     <message>
         <source>not stated</source>
@@ -129,7 +129,7 @@ que más las acerca donde se vieron esquinas (puntos).</translation>
     </message>
     <message>
         <source>Not measured if 0: all lengths then hold for squares so long</source>
-        <translation>Si es 0, no medido: todas las longitudes valen entonces para cuadrados así</translation>
+        <translation>Si es 0, no medido: todas las longitudes valen entonces para cuadros así</translation>
     </message>
     <message>
         <source>Side of a square</source>
@@ -4525,7 +4525,7 @@ El círculo: cómo se inclinaron los tableros; el centro es de frente, el borde 
     </message>
     <message>
         <source>What is stated of boards and photographs, to change it</source>
-        <translation>Lo indicado sobre tableros y fotografías, para cambiarlo</translation>
+        <translation>Lo indicado sobre tableros y fotos, para cambiarlo</translation>
     </message>
     <message>
         <source>E&amp;xport</source>
@@ -4857,10 +4857,6 @@ Los colores: dónde es pequeña (oscuro) y grande la incertidumbre de la propia 
         <translation>vectores de rotación en radianes, {0}</translation>
     </message>
     <message>
-        <source>quaternions before the place {0}</source>
-        <translation>cuaterniones antes de la posición {0}</translation>
-    </message>
-    <message>
         <source>quaternions {0}</source>
         <translation>cuaterniones {0}</translation>
     </message>
@@ -4933,14 +4929,6 @@ Los colores: dónde es pequeña (oscuro) y grande la incertidumbre de la propia 
         <translation>Gire la mano en torno a más ejes, o indique arriba dónde está la cámara.</translation>
     </message>
     <message>
-        <source>The order is shifted: each pose stands one line early, and was used for the photograph that it fits.</source>
-        <translation>El orden está desplazado: cada pose está una línea antes, y se usó para la fotografía con la que encaja.</translation>
-    </message>
-    <message>
-        <source>The order is shifted: each pose stands one line late, and was used for the photograph that it fits.</source>
-        <translation>El orden está desplazado: cada pose está una línea después, y se usó para la fotografía con la que encaja.</translation>
-    </message>
-    <message>
         <source>Correct the file.</source>
         <translation>Corrija el archivo.</translation>
     </message>
@@ -4997,10 +4985,6 @@ Los colores: dónde es pequeña (oscuro) y grande la incertidumbre de la propia 
         <translation>La pose del robot no encaja en {0}: otro momento, o un error en el archivo.</translation>
     </message>
     <message>
-        <source>Leave it out below.</source>
-        <translation>Déjela fuera abajo.</translation>
-    </message>
-    <message>
         <source>Left out: {0}</source>
         <translation>Dejado fuera: {0}</translation>
     </message>
@@ -5010,19 +4994,19 @@ Los colores: dónde es pequeña (oscuro) y grande la incertidumbre de la propia 
     </message>
     <message>
         <source>The robot&apos;s poses do not fit the photographs, however they are read: at best the board scatters by {0} mm in the robot&apos;s frame.</source>
-        <translation>Las poses del robot no encajan con las fotografías, se lean como se lean: en el mejor caso el tablero se dispersa {0} mm en el sistema del robot.</translation>
+        <translation>Las poses del robot no encajan con las fotos, se lean como se lean: en el mejor caso el tablero se dispersa {0} mm en el sistema del robot.</translation>
     </message>
     <message>
         <source>Check that they are the poses of these photographs in this order, and that board and camera stayed fixed, one to the hand and the other to the base.</source>
-        <translation>Compruebe que son las poses de estas fotografías en este orden, y que tablero y cámara siguieron fijos, uno a la mano y otro a la base.</translation>
+        <translation>Compruebe que son las poses de estas fotos en este orden, y que tablero y cámara siguieron fijos, uno a la mano y otro a la base.</translation>
     </message>
     <message>
         <source>By the robot&apos;s motions the board&apos;s squares are {0} times as long as stated.</source>
-        <translation>Según los movimientos del robot, los cuadrados del tablero miden {0} veces lo indicado.</translation>
+        <translation>Según los movimientos del robot, los cuadros del tablero miden {0} veces lo indicado.</translation>
     </message>
     <message>
         <source>State the side of a square as it was printed.</source>
-        <translation>Indique el lado de un cuadrado tal como se imprimió.</translation>
+        <translation>Indique el lado de un cuadro tal como se imprimió.</translation>
     </message>
     <message>
         <source>There are {0} different poses of the robot with a board; hand and eye need at least {1}.</source>
@@ -5034,15 +5018,15 @@ Los colores: dónde es pequeña (oscuro) y grande la incertidumbre de la propia 
     </message>
     <message>
         <source>{0} has {1} poses, and there are {2} photographs.</source>
-        <translation>{0} tiene {1} poses, y hay {2} fotografías.</translation>
+        <translation>{0} tiene {1} poses, y hay {2} fotos.</translation>
     </message>
     <message>
         <source>Give a pose for each photograph, in the order of their names, or name the photographs in the first column.</source>
-        <translation>Dé una pose para cada fotografía, en el orden de sus nombres, o nombre las fotografías en la primera columna.</translation>
+        <translation>Dé una pose para cada foto, en el orden de sus nombres, o nombre las fotos en la primera columna.</translation>
     </message>
     <message>
         <source>{0} names none of the photographs.</source>
-        <translation>{0} no nombra ninguna de las fotografías.</translation>
+        <translation>{0} no nombra ninguna de las fotos.</translation>
     </message>
     <message>
         <source>Name them as they are called, as {0}.</source>
@@ -5053,12 +5037,48 @@ Los colores: dónde es pequeña (oscuro) y grande la incertidumbre de la propia 
         <translation>{0} no contiene poses.</translation>
     </message>
     <message>
+        <source>{0} is {1} ms {2} than {3}.</source>
+        <translation>{0} va {1} ms {2} que {3}.</translation>
+    </message>
+    <message>
+        <source>later</source>
+        <translation>más tarde</translation>
+    </message>
+    <message>
+        <source>earlier</source>
+        <translation>antes</translation>
+    </message>
+    <message>
         <source>Photographs of {0} cameras: {1}.</source>
-        <translation>Fotografías de {0} cámaras: {1}.</translation>
+        <translation>Fotos de {0} cámaras: {1}.</translation>
     </message>
     <message>
         <source>Paired by their {0}: {1} of several cameras, the first {2}.</source>
         <translation>Emparejadas por {0}: {1} de varias cámaras, el primero {2}.</translation>
+    </message>
+    <message>
+        <source>before the place {0}</source>
+        <translation>antes de la posición {0}</translation>
+    </message>
+    <message>
+        <source>The order is shifted: each pose stands {0}, and was used for the photograph that it fits.</source>
+        <translation>El orden está desplazado: cada pose está {0}, y se usó para la foto con la que encaja.</translation>
+    </message>
+    <message>
+        <source>one line early</source>
+        <translation>una línea antes</translation>
+    </message>
+    <message>
+        <source>one line late</source>
+        <translation>una línea después</translation>
+    </message>
+    <message>
+        <source>Leave it out {0}.</source>
+        <translation>Déjela fuera {0}.</translation>
+    </message>
+    <message>
+        <source>below</source>
+        <translation>abajo</translation>
     </message>
     <message>
         <source>names</source>
@@ -5101,20 +5121,12 @@ Los colores: dónde es pequeña (oscuro) y grande la incertidumbre de la propia 
         <translation>Los instantes discrepan.</translation>
     </message>
     <message>
-        <source>{0} is {1} ms later than {2}.</source>
-        <translation>{0} va {1} ms más tarde que {2}.</translation>
-    </message>
-    <message>
-        <source>{0} is {1} ms earlier than {2}.</source>
-        <translation>{0} va {1} ms antes que {2}.</translation>
-    </message>
-    <message>
         <source>Single instants have {0} mm from where most have it beside {1}; the corners&apos; noise explains {2} mm.</source>
         <translation>Instantes sueltos sitúan {0} mm de donde la sitúa la mayoría junto a {1}; el ruido de las esquinas explica {2} mm.</translation>
     </message>
     <message>
         <source>Photographs of one instant were not taken at quite the same moment, or the board bends in the hand.</source>
-        <translation>Las fotografías de un instante no se tomaron del todo a la vez, o el tablero se dobla en la mano.</translation>
+        <translation>Las fotos de un instante no se tomaron del todo a la vez, o el tablero se dobla en la mano.</translation>
     </message>
     <message>
         <source>Each ± counts it: put the board down for each picture, or trigger the cameras together.</source>
@@ -5122,11 +5134,11 @@ Los colores: dónde es pequeña (oscuro) y grande la incertidumbre de la propia 
     </message>
     <message>
         <source>The photographs of {0} belong to those of {1} of {2} earlier: nothing above holds.</source>
-        <translation>Las fotografías de {0} corresponden a las de {1}, {2} antes: nada de lo anterior vale.</translation>
+        <translation>Las fotos de {0} corresponden a las de {1}, {2} antes: nada de lo anterior vale.</translation>
     </message>
     <message>
         <source>The photographs of {0} belong to those of {1} of {2} later: nothing above holds.</source>
-        <translation>Las fotografías de {0} corresponden a las de {1}, {2} después: nada de lo anterior vale.</translation>
+        <translation>Las fotos de {0} corresponden a las de {1}, {2} después: nada de lo anterior vale.</translation>
     </message>
     <message>
         <source>Pair them so.</source>
@@ -5142,11 +5154,11 @@ Los colores: dónde es pequeña (oscuro) y grande la incertidumbre de la propia 
     </message>
     <message>
         <source>The squares were counted {0} times as long as in the others in {1}, and the photographs of {2} beside them.</source>
-        <translation>En {1}, y en las fotografías de {2} junto a ellas, los cuadrados se cuentan {0} veces más largos que en las demás.</translation>
+        <translation>En {1}, y en las fotos de {2} junto a ellas, los cuadros se cuentan {0} veces más largos que en las demás.</translation>
     </message>
     <message>
         <source>They are left out: is that another board, or another --square?</source>
-        <translation>Quedan fuera: ¿es otro tablero, u otro lado de cuadrado?</translation>
+        <translation>Quedan fuera: ¿es otro tablero, u otro lado de cuadro?</translation>
     </message>
     <message>
         <source>{0} stands {1} mm otherwise beside {2} from {3} on.</source>
@@ -5154,7 +5166,7 @@ Los colores: dónde es pequeña (oscuro) y grande la incertidumbre de la propia 
     </message>
     <message>
         <source>Calibrate the photographs before and after it by themselves.</source>
-        <translation>Calibre por separado las fotografías anteriores y posteriores.</translation>
+        <translation>Calibre por separado las fotos anteriores y posteriores.</translation>
     </message>
     <message>
         <source>The boards stand {0} mm otherwise to each other from {1} on.</source>
@@ -5162,7 +5174,7 @@ Los colores: dónde es pequeña (oscuro) y grande la incertidumbre de la propia 
     </message>
     <message>
         <source>Fasten them, or calibrate the photographs before and after it by themselves.</source>
-        <translation>Fíjelos, o calibre por separado las fotografías anteriores y posteriores.</translation>
+        <translation>Fíjelos, o calibre por separado las fotos anteriores y posteriores.</translation>
     </message>
     <message>
         <source>The focal length of {0} is {1} times as long from {2} on: it was refocused or zoomed.</source>
@@ -5170,7 +5182,7 @@ Los colores: dónde es pequeña (oscuro) y grande la incertidumbre de la propia 
     </message>
     <message>
         <source>Left out, as the board is elsewhere than in the other cameras&apos; photographs of the instant: {0}.</source>
-        <translation>Fuera, pues el tablero está en otro lugar que en las fotografías de las demás cámaras del instante: {0}.</translation>
+        <translation>Fuera, pues el tablero está en otro lugar que en las fotos de las demás cámaras del instante: {0}.</translation>
     </message>
     <message>
         <source>Were they taken at another instant?</source>
@@ -5234,11 +5246,11 @@ Los colores: dónde es pequeña (oscuro) y grande la incertidumbre de la propia 
     </message>
     <message>
         <source>The markers {0} to {1} of {2} are on {3} and on {4}: photographs do not tell the boards apart.</source>
-        <translation>Los marcadores {0} a {1} de {2} están en {3} y en {4}: las fotografías no distinguen los tableros.</translation>
+        <translation>Los marcadores {0} a {1} de {2} están en {3} y en {4}: las fotos no distinguen los tableros.</translation>
     </message>
     <message>
         <source>The tags {0} to {1} of {2} are on {3} and on {4}: photographs do not tell the boards apart.</source>
-        <translation>Las etiquetas {0} a {1} de {2} están en {3} y en {4}: las fotografías no distinguen los tableros.</translation>
+        <translation>Las etiquetas {0} a {1} de {2} están en {3} y en {4}: las fotos no distinguen los tableros.</translation>
     </message>
     <message>
         <source>The cameras fall apart into {0} groups that never see the board together: {1}.</source>
@@ -5250,7 +5262,7 @@ Los colores: dónde es pequeña (oscuro) y grande la incertidumbre de la propia 
     </message>
     <message>
         <source>{0} shows no board of {1} in any photograph, and {2} does.</source>
-        <translation>{0} no muestra ningún tablero de {1} en ninguna fotografía, y {2} sí.</translation>
+        <translation>{0} no muestra ningún tablero de {1} en ninguna foto, y {2} sí.</translation>
     </message>
     <message>
         <source>A rig takes one board before all cameras: photograph the same one, or leave out the camera that saw another.</source>
@@ -6257,6 +6269,10 @@ misma escala conserva el tamaño del centro; campo de visión muestra el ángulo
     <message>
         <source>Judging the calibration</source>
         <translation>Juzgando la calibración</translation>
+    </message>
+    <message>
+        <source>SEARCHING CORNERS…</source>
+        <translation>BUSCANDO ESQUINAS…</translation>
     </message>
     <message>
         <source>CALIBRATING…</source>

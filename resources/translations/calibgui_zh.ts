@@ -4857,10 +4857,6 @@ The colours: where the calibration&apos;s own uncertainty is small (dark) and la
         <translation>旋转向量(弧度),{0}</translation>
     </message>
     <message>
-        <source>quaternions before the place {0}</source>
-        <translation>位于位置之前的四元数 {0}</translation>
-    </message>
-    <message>
         <source>quaternions {0}</source>
         <translation>四元数 {0}</translation>
     </message>
@@ -4933,14 +4929,6 @@ The colours: where the calibration&apos;s own uncertainty is small (dark) and la
         <translation>请让手绕更多轴转动,或在上方指明相机位置。</translation>
     </message>
     <message>
-        <source>The order is shifted: each pose stands one line early, and was used for the photograph that it fits.</source>
-        <translation>顺序有偏移:每个位姿早了一行,已用于与之相符的照片。</translation>
-    </message>
-    <message>
-        <source>The order is shifted: each pose stands one line late, and was used for the photograph that it fits.</source>
-        <translation>顺序有偏移:每个位姿晚了一行,已用于与之相符的照片。</translation>
-    </message>
-    <message>
         <source>Correct the file.</source>
         <translation>请改正文件。</translation>
     </message>
@@ -4997,10 +4985,6 @@ The colours: where the calibration&apos;s own uncertainty is small (dark) and la
         <translation>{0} 中机器人位姿不符:时刻不同,或文件有误。</translation>
     </message>
     <message>
-        <source>Leave it out below.</source>
-        <translation>请在下方将其排除。</translation>
-    </message>
-    <message>
         <source>Left out: {0}</source>
         <translation>已排除:{0}</translation>
     </message>
@@ -5053,12 +5037,48 @@ The colours: where the calibration&apos;s own uncertainty is small (dark) and la
         <translation>{0} 不含位姿。</translation>
     </message>
     <message>
+        <source>{0} is {1} ms {2} than {3}.</source>
+        <translation>{0} 比 {3} {2} {1} ms。</translation>
+    </message>
+    <message>
+        <source>later</source>
+        <translation>晚</translation>
+    </message>
+    <message>
+        <source>earlier</source>
+        <translation>早</translation>
+    </message>
+    <message>
         <source>Photographs of {0} cameras: {1}.</source>
         <translation>{0} 台相机的照片:{1}。</translation>
     </message>
     <message>
         <source>Paired by their {0}: {1} of several cameras, the first {2}.</source>
         <translation>按{0}配对:多台相机的{1},第一个为 {2}。</translation>
+    </message>
+    <message>
+        <source>before the place {0}</source>
+        <translation>(位于位置之前){0}</translation>
+    </message>
+    <message>
+        <source>The order is shifted: each pose stands {0}, and was used for the photograph that it fits.</source>
+        <translation>顺序有偏移:每个位姿{0},已用于与之相符的照片。</translation>
+    </message>
+    <message>
+        <source>one line early</source>
+        <translation>早了一行</translation>
+    </message>
+    <message>
+        <source>one line late</source>
+        <translation>晚了一行</translation>
+    </message>
+    <message>
+        <source>Leave it out {0}.</source>
+        <translation>请在{0}将其排除。</translation>
+    </message>
+    <message>
+        <source>below</source>
+        <translation>下方</translation>
     </message>
     <message>
         <source>names</source>
@@ -5099,14 +5119,6 @@ The colours: where the calibration&apos;s own uncertainty is small (dark) and la
     <message>
         <source>The instants disagree.</source>
         <translation>各时刻不一致。</translation>
-    </message>
-    <message>
-        <source>{0} is {1} ms later than {2}.</source>
-        <translation>{0} 比 {2} 晚 {1} ms。</translation>
-    </message>
-    <message>
-        <source>{0} is {1} ms earlier than {2}.</source>
-        <translation>{0} 比 {2} 早 {1} ms。</translation>
     </message>
     <message>
         <source>Single instants have {0} mm from where most have it beside {1}; the corners&apos; noise explains {2} mm.</source>
@@ -6257,6 +6269,10 @@ same scale keeps the size of the middle; field of view shows an angle of your ch
     <message>
         <source>Judging the calibration</source>
         <translation>正在评估标定</translation>
+    </message>
+    <message>
+        <source>SEARCHING CORNERS…</source>
+        <translation>正在查找角点…</translation>
     </message>
     <message>
         <source>CALIBRATING…</source>

@@ -96,6 +96,7 @@ class HandEyeDialog(QDialog):
         self.save.clicked.connect(self._ask_and_save)
         self.said = WrappedLabel()
         self._lay_out()
+        self.setMinimumSize(640, 440)
         self.resize(1000, 600)
         self._invite()
 

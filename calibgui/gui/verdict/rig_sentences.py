@@ -14,7 +14,7 @@ HAND_EYE = (
     QT_TRANSLATE_NOOP("Sentences", "angles a, b, c of {0} in radians, {1}"),
     QT_TRANSLATE_NOOP("Sentences", "rotation vectors in degrees, {0}"),
     QT_TRANSLATE_NOOP("Sentences", "rotation vectors in radians, {0}"),
-    QT_TRANSLATE_NOOP("Sentences", "quaternions before the place {0}"),
+    QT_TRANSLATE_NOOP("Sentences", "before the place {0}"),
     QT_TRANSLATE_NOOP("Sentences", "quaternions {0}"),
     QT_TRANSLATE_NOOP("Sentences", "x, y, z, w, {0}"),
     QT_TRANSLATE_NOOP("Sentences", "w, x, y, z, {0}"),
@@ -45,14 +45,10 @@ HAND_EYE = (
     ),
     QT_TRANSLATE_NOOP(
         "Sentences",
-        "The order is shifted: each pose stands one line early, and was used for the "
-        "photograph that it fits.",
+        "The order is shifted: each pose stands {0}, and was used for the photograph that it fits.",
     ),
-    QT_TRANSLATE_NOOP(
-        "Sentences",
-        "The order is shifted: each pose stands one line late, and was used for the "
-        "photograph that it fits.",
-    ),
+    QT_TRANSLATE_NOOP("Sentences", "one line early"),
+    QT_TRANSLATE_NOOP("Sentences", "one line late"),
     QT_TRANSLATE_NOOP("Sentences", "Correct the file."),
     QT_TRANSLATE_NOOP(
         "Sentences",
@@ -76,7 +72,8 @@ HAND_EYE = (
         "Sentences",
         "The robot's pose does not fit in {0}: another moment, or a mistake in the file.",
     ),
-    QT_TRANSLATE_NOOP("Sentences", "Leave it out below."),
+    QT_TRANSLATE_NOOP("Sentences", "Leave it out {0}."),
+    QT_TRANSLATE_NOOP("Sentences", "below"),
     QT_TRANSLATE_NOOP("Sentences", "Left out: {0}"),
     QT_TRANSLATE_NOOP(
         "Sentences",
@@ -134,8 +131,9 @@ RIGS = (
     ),
     QT_TRANSLATE_NOOP("Sentences", "They agree."),
     QT_TRANSLATE_NOOP("Sentences", "The instants disagree."),
-    QT_TRANSLATE_NOOP("Sentences", "{0} is {1} ms later than {2}."),
-    QT_TRANSLATE_NOOP("Sentences", "{0} is {1} ms earlier than {2}."),
+    QT_TRANSLATE_NOOP("Sentences", "{0} is {1} ms {2} than {3}."),
+    QT_TRANSLATE_NOOP("Sentences", "later"),
+    QT_TRANSLATE_NOOP("Sentences", "earlier"),
     QT_TRANSLATE_NOOP(
         "Sentences",
         "Single instants have {0} mm from where most have it beside {1}; the corners' "
