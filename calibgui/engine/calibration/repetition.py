@@ -29,7 +29,7 @@ def repeat_calibration(
     Args:
         calibration: a calibration with any cost.
         views: the views that it was made from.
-        changes: other arguments of `calibrate` that differ.
+        changes: other arguments of `calibrate` that differ; `fix` and `free` list all parameters.
 
     Raises:
         CalibrationError: if the views do not allow it.
