@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from PySide6.QtCore import Signal
-from PySide6.QtWidgets import QGridLayout, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QWidget
 
 from calibgui.app.rig.pairing import leave_photographs_out, move_photographs
 from calibgui.app.rig.setup import RigSetup, SearchedBoards
@@ -13,6 +13,7 @@ from calibgui.dataset import RigPairing, RigResult
 from calibgui.gui.rig.pairing_matrix import PairingMatrix
 from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.buttons import Button
+from calibgui.gui.widgets.layouts import make_column, make_row
 
 _WIDTH = 300
 """Width, device-independent px."""
@@ -39,24 +40,22 @@ class PairingPane(QWidget):
             self.tr("Move the chosen photographs of a camera to the instant after")
         )
         self.setFixedWidth(_WIDTH)
-        column = QVBoxLayout(self)
-        column.setContentsMargins(0, 0, 0, theme.SPACING)
-        column.addWidget(self.matrix, 1)
-        buttons = QGridLayout()
-        buttons.setContentsMargins(theme.SPACING, 0, theme.SPACING, 0)
-        buttons.setSpacing(theme.SPACING // 2)
-        for k, (button, run) in enumerate(
-            (
-                (self.earlier, lambda: self._move(-1)),
-                (self.later, lambda: self._move(1)),
-                (self.leave_out, self._leave_out),
-                (self.undo, self._take_back),
-            )
+        for button, run in (
+            (self.earlier, lambda: self._move(-1)),
+            (self.later, lambda: self._move(1)),
+            (self.leave_out, self._leave_out),
+            (self.undo, self._take_back),
         ):
             button.clicked.connect(run)
-            buttons.addWidget(button, *divmod(k, 2))
-        buttons.setColumnStretch(2, 1)
-        column.addLayout(buttons)
+        gap, around = theme.SPACING // 2, (theme.SPACING, 0, theme.SPACING, 0)
+        make_column(
+            (self.matrix, 1),
+            make_row(self.earlier, self.later, None, spacing=gap, margins=around),
+            make_row(self.leave_out, self.undo, None, spacing=gap, margins=around),
+            of=self,
+            spacing=gap,
+            margins=(0, 0, 0, theme.SPACING),
+        )
         self.matrix.itemSelectionChanged.connect(self._show_buttons)
         self._show_buttons()
 

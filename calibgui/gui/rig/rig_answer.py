@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QLabel, QSizePolicy, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QLabel, QSizePolicy, QWidget
 
 from calibgui.dataset import RigResult
+from calibgui.engine.numbers import format_two_digits
 from calibgui.engine.rig import estimate_point_uncertainty
 from calibgui.gui.verdict.sentences import translate_sentences
 from calibgui.gui.widgets import theme
-from calibgui.gui.widgets.tables import Column, Table, with_decimals, with_digits
+from calibgui.gui.widgets.layouts import make_column
+from calibgui.gui.widgets.tables import Column, Table, with_decimals
 from calibgui.gui.widgets.wrapped_label import WrappedLabel
 from calibgui.report.numbers import format_with_sigma
 from calibgui.report.rig import (
@@ -25,8 +27,6 @@ from calibgui.report.rig import (
     measure_turn,
 )
 
-_POINT_DIGITS = with_digits(2)
-
 
 class RigAnswer(QWidget):
     """The fit and what is wrong, then how the cameras stand, and how well points are located."""
@@ -39,11 +39,6 @@ class RigAnswer(QWidget):
         self.places, self.boards, self.cameras, self.points = (Table() for _ in range(4))
         self.condition = WrappedLabel()
         self._titles: dict[Table, QLabel] = {}
-        column = QVBoxLayout(self)
-        column.setContentsMargins(0, 0, 0, 0)
-        column.setSpacing(theme.SPACING)
-        column.addWidget(self.headline)
-        column.addWidget(self.words)
         for text, table in (
             (self.tr("Where the cameras stand"), self.places),
             (self.tr("Where the boards stand"), self.boards),
@@ -52,13 +47,11 @@ class RigAnswer(QWidget):
         ):
             title = self._titles[table] = QLabel(text)
             title.setFont(theme.make_font(theme.CAPTION, bold=True))
-            column.addWidget(title)
             table.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
             table.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
             table.setVerticalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
-            column.addWidget(table)
-        column.addWidget(self.condition)
-        column.addStretch(1)
+        tables = (part for table, title in self._titles.items() for part in (title, table))
+        make_column(self.headline, self.words, *tables, self.condition, None, of=self)
         theme.follow(self._restyle)
 
     def _restyle(self) -> None:
@@ -128,13 +121,13 @@ class RigAnswer(QWidget):
                 Column(
                     self.tr("± along"),
                     [p.along for p in seen],
-                    _POINT_DIGITS,
+                    format_two_digits,
                     self.tr(
                         "Standard deviation along the line of sight, with this rig's noise, mm"
                     ),
                     unit="mm",
                 ),
-                Column(self.tr("± across"), [p.across for p in seen], _POINT_DIGITS, unit="mm"),
+                Column(self.tr("± across"), [p.across for p in seen], format_two_digits, unit="mm"),
                 Column(
                     self.tr("calib."),
                     [100 * p.share_of_calibration for p in seen],
