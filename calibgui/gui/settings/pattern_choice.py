@@ -154,6 +154,7 @@ class PatternChoice(QWidget):
         self.form.addRow(self.tr("Numbered"), self.order)
         self.form.addRow(self.tr("Small squares"), self.corner_squares)
         self.first_label = QLabel()
+        self._show_first_number(self.tr("First marker"), None)
         self.form.addRow(self.first_label, self.first_tag)
         self.form.addRow(self.tr("First corner"), self.origin)
         self._pattern: Pattern = KINDS["checkerboard"]
@@ -237,6 +238,7 @@ class PatternChoice(QWidget):
     def _show_first_number(self, label: str, number: int | None) -> None:
         """Show the lowest number of the marks."""
         self.first_label.setText(label)
+        self.first_tag.setAccessibleName(label)
         with QSignalBlocker(self.first_tag):
             self.first_tag.setValue(-1 if number is None else number)
 
