@@ -47,12 +47,18 @@ def use_threads(count: int) -> None:
 
 
 def halve_image(image: GreyImage) -> GreyImage:
-    """Halve `image` (h, w): each pixel is the mean of a 2 x 2 block; an odd edge is dropped.
+    """Halve `image` (h, w): each pixel is the mean of a 2 x 2 block; an odd edge is dropped."""
+    return shrink_image(image, 2)
 
-    An odd size would make the blocks unequal, and corners drift by whole pixels.
+
+def shrink_image(image: GreyImage, step: int) -> GreyImage:
+    """Shrink `image` (h, w) or (h, w, 3): each pixel is the mean of a block of `step` x `step`.
+
+    What is left at the edges is dropped: a size that is no multiple of `step` would make the blocks
+    unequal, and corners drift by whole pixels.
     """
-    height, width = image.shape[0] // 2, image.shape[1] // 2
-    even = image[: 2 * height, : 2 * width]
+    height, width = image.shape[0] // step, image.shape[1] // step
+    even = image[: step * height, : step * width]
     return np.asarray(cv2.resize(even, (width, height), interpolation=cv2.INTER_AREA))
 
 

@@ -26,7 +26,7 @@ from calibgui.engine.camera.projection import measure_axis_scale
 from calibgui.engine.geometry.pose import Pose
 from calibgui.engine.geometry.rotations import rotation_from_vector, vector_from_rotation
 
-_EASY_SHIFT = 0.05
+EASY_SHIFT = 0.05
 """Distance in the image, and difference in the board's size there, to which a hand is easily exact,
 widths of the image: a choice."""
 _EASY_TURN = np.deg2rad(12.0)
@@ -70,14 +70,14 @@ def _describe_move(
 ) -> str:
     """Describe what is farthest off, with the middle by `shift` px; say to hold still if nothing
     is."""
-    u, v = shift / camera.size[0] / _EASY_SHIFT
+    u, v = shift / camera.size[0] / EASY_SHIFT
     nearness = 1 / _measure_distance(wanted, middle) - 1 / _measure_distance(seen, middle)
     growth = nearness * np.linalg.norm(size) * measure_axis_scale(camera) / camera.size[0]
     x, y, z = _find_turn(seen, wanted) / _EASY_TURN
     moves = [
         (u, "Move it to the right.", "Move it to the left."),
         (v, "Move it down.", "Move it up."),
-        (growth / _EASY_SHIFT, "Bring it closer.", "Take it farther away."),
+        (growth / EASY_SHIFT, "Bring it closer.", "Take it farther away."),
         (x, "Tilt its lower side away.", "Tilt its upper side away."),
         (y, "Tilt its left side away.", "Tilt its right side away."),
         (z, "Turn it clockwise.", "Turn it anticlockwise."),

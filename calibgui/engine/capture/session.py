@@ -187,7 +187,7 @@ class CaptureSession:
         Raises:
             CalibrationError: if its size is not that of the frames before.
         """
-        self._check_size(frame.image)
+        self.check_size(frame.image)
         self._follow(frame)
         if self._corners is None:
             self.is_new = False
@@ -236,7 +236,7 @@ class CaptureSession:
             CalibrationError: if its size is not that of those before.
         """
         self.is_new = False
-        self._check_size(frame.image)
+        self.check_size(frame.image)
         try:
             corners = self._find_board(frame.image)
         except NoBoardError as error:
@@ -289,8 +289,8 @@ class CaptureSession:
         """
         if self.calibration is None:
             return np.empty((0, 3))
-        poses = self.calibration.poses
-        return np.array([-rotation_from_vector(np.array(pose.rvec))[:, 2] for pose in poses])
+        rvecs = np.array([pose.rvec for pose in self.calibration.poses])
+        return -rotation_from_vector(rvecs)[..., 2]
 
     def measure_unseen_error(self) -> float:
         """Measure the rms distance, px, of corners put aside from where they are expected.
@@ -312,7 +312,12 @@ class CaptureSession:
     ) -> CaptureState:
         return CaptureState(self._corners, self.wanted, self.goal, match, instruction, taken)
 
-    def _check_size(self, image: GreyImage) -> None:
+    def check_size(self, image: GreyImage) -> None:
+        """Check the size of an image.
+
+        Raises:
+            CalibrationError: if it is not that of those before.
+        """
         size = (image.shape[1], image.shape[0])
         self._size = self._size or size
         if size != self._size:
