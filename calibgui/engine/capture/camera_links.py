@@ -127,16 +127,15 @@ def show_board(board: Array, pose: Pose, relation: Relation, camera: Camera) -> 
         camera: the camera.
 
     Returns:
-        (n, 2) px; None unless it sees all corners.
+        (n, 2) px, which may lie outside of the image; None if all do, or one has no image.
     """
     R = relation.R @ rotation_from_vector(np.array(pose.rvec))
     points = board @ R[:, :2].T + relation.R @ pose.tvec + relation.T
     uv = pixels_from_rays(points, camera)
-    if not ((uv >= 0) & (uv <= np.array(camera.size) - 1)).all():
-        return None
+    is_seen = ((uv >= 0) & (uv <= np.array(camera.size) - 1)).all(axis=1).any()
     rays = points / np.linalg.norm(points, axis=1)[:, None]
     is_sound = np.allclose(rays_from_pixels(uv, camera), rays)  # where it folds, others are there
-    return uv if is_sound else None
+    return uv if is_seen and is_sound else None
 
 
 def _spread_points(camera: Camera, near: float, far: float) -> Array:

@@ -52,8 +52,8 @@ class JointState:
     leading: int
     """Number of the camera whose wanted view is to be followed."""
     goals: tuple[Array | None, ...]
-    """(rows, cols, 2) px, where each camera sees the corners in that view; None of a camera that
-    does not see all of them, or of which it is not known well enough how it stands."""
+    """(rows, cols, 2) px, where each camera sees the corners in that view, perhaps not all of them;
+    None of a camera that sees none, or of which it is not known well enough how it stands."""
     instruction: str
     """The one thing that the user is to do."""
 
