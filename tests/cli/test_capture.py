@@ -33,7 +33,7 @@ POSES = [
 def film(tmp_path: Path) -> Path:
     frames = Film(CAMERA, BOARD)
     return write_film(
-        tmp_path / "film.avi", (frames.take(pose) for pose in POSES for _ in range(8))
+        tmp_path / "film.avi", (frame for pose in POSES for frame in [frames.take(pose)] * 8)
     )
 
 
