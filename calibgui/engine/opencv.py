@@ -520,6 +520,7 @@ def draw_marker_cells(dictionary: str, number: int) -> BoolArray:
     return np.asarray(cv2.aruco.generateImageMarker(source, number, side)) == 0
 
 
+@cache
 def _load_dictionary(name: str) -> Any:
     known = {key.upper(): value for key, value in vars(cv2.aruco).items() if key[:5] == "DICT_"}
     return cv2.aruco.getPredefinedDictionary(known[name])
