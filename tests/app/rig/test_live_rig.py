@@ -171,5 +171,6 @@ def _check_goals(state: JointState) -> None:
         CAMERAS[other],
     )
     assert uv is not None
-    is_inside = ((uv >= 0) & (uv < CAMERAS[other].size)).all(axis=1)  # elsewhere the lens is unknown
+    # Outside of the image nothing tells of the lens.
+    is_inside = ((uv >= 0) & (uv < CAMERAS[other].size)).all(axis=1)
     assert np.abs(uv - shown.reshape(-1, 2))[is_inside].max() < 2.0
