@@ -19,11 +19,10 @@ def format_with_sigma(value: float, sigma: float) -> str:
     if not (math.isfinite(sigma) and sigma > 0 and math.isfinite(value)):
         return f"{value:z.6g}"
     place = _find_power_of_ten(sigma)
-    power = _find_power_of_ten(value) if value else place
+    power = max(_find_power_of_ten(value), place) if value else place
     if -4 < power < 6 and place > -7:
         decimals = max(0, 1 - place)
         return f"{value:z.{decimals}f} ± {sigma:.{decimals}f}"
-    power = max(power, place)
     decimals = power - place + 1
     return f"({value / 10.0**power:z.{decimals}f} ± {sigma / 10.0**power:.{decimals}f})e{power}"
 

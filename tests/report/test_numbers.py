@@ -23,7 +23,7 @@ from calibgui.report.numbers import format_count, format_with_sigma
         (3.0, 0.0, "3"),
         (3.0, math.nan, "3"),
         (-0.001, 0.1, "0.00 ± 0.10"),
-        (-1e-9, 0.1, "(0.0 ± 1.0)e-1"),
+        (-1e-9, 0.1, "0.00 ± 0.10"),
         (-0.0, 0.0, "0"),
     ],
 )
