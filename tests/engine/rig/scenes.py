@@ -6,9 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-import pytest
 from scipy.spatial.transform import Rotation
-from scipy.stats import chi2
 
 from calibgui.engine.arrays import Array, Size
 from calibgui.engine.boards.board import Board
@@ -18,6 +16,7 @@ from calibgui.engine.camera.projection import pixels_from_rays, rays_from_pixels
 from calibgui.engine.geometry.pose import Pose
 from calibgui.engine.geometry.rotations import rotation_from_vector, vector_from_rotation
 from calibgui.engine.rig.records import Rig, RigCamera
+from tests.engine.honesty import check_honest
 
 BOARD = Board(rows=7, cols=10, square=30.0)
 SIZE: Size = (1280, 960)
@@ -181,20 +180,3 @@ def check_rigs_honest(rigs: Sequence[Rig], scene: RigScene, places: Sequence[Pos
     check_honest(
         np.array(errors)[:, free], np.array([rig.covariance[np.ix_(free, free)] for rig in rigs])
     )
-
-
-def check_honest(errors: Array, covariances: Array) -> None:
-    """Check that stated covariances (draws, n, n) are those of errors (draws, n).
-
-    In units of a root of their covariance the errors are independent standard normal numbers: their
-    mean square, which tells of variances, correlations and biases alike, differs from 1 by more
-    than 4 of its deviations once in 16,000 times, and that of each parameter alone once in 3,000.
-    """
-    draws, n = errors.shape
-    scale = np.sqrt(np.mean(np.diagonal(covariances, axis1=1, axis2=2), axis=0))
-    roots = np.linalg.cholesky(covariances / np.outer(scale, scale))
-    whitened = np.linalg.solve(roots, (errors / scale)[..., None])
-    assert np.mean(whitened**2) == pytest.approx(1, abs=4 * np.sqrt(2 / (draws * n)))
-    squares = np.mean((errors / scale) ** 2, axis=0) * draws
-    least, most = chi2.ppf([1 / 6000, 1 - 1 / 6000], draws)
-    assert ((squares > least) & (squares < most)).all(), squares / draws

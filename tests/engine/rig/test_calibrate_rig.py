@@ -14,11 +14,11 @@ from calibgui.engine.errors import CalibrationError
 from calibgui.engine.geometry.pose import Pose
 from calibgui.engine.geometry.rotations import rotation_from_vector
 from calibgui.engine.rig import Rig, RigCamera, calibrate_rig, triangulate_points
+from tests.engine.honesty import check_honest
 from tests.engine.rig.scenes import (
     BOARD,
     LENSES,
     RigScene,
-    check_honest,
     check_rigs_honest,
     compose,
     disturb,
