@@ -19,10 +19,10 @@ from collections.abc import Sequence
 import numpy as np
 
 from calibgui.engine.arrays import Array
-from calibgui.engine.assessment.causes.rival_lens import calibrate_by_model
 from calibgui.engine.assessment.changes.comparison import compare_cameras
 from calibgui.engine.assessment.residuals.residual_statistics import summarise_residuals
 from calibgui.engine.calibration.observations import Observation
+from calibgui.engine.calibration.repetition import calibrate_by_model
 from calibgui.engine.calibration.result import Calibration, Cost
 from calibgui.engine.camera.models import find_model
 from calibgui.engine.errors import CalibrationError

@@ -86,7 +86,11 @@ def _examine_all(draws: Sequence[Draw]) -> tuple[dict[Draw, Answer], dict[Draw, 
     answers, seconds = {}, {}
     for draw in draws:
         start = time.process_time()
-        answers[draw] = examine_fault(*draw)
+        try:
+            answers[draw] = examine_fault(*draw)
+        except Exception as error:  # a switch may break what it switches off
+            said = (f"{type(error).__name__}: {error}",)
+            answers[draw] = Answer(*draw, Verdict.WRONG, "", said, float("nan"))
         seconds[draw] = time.process_time() - start
     return answers, seconds
 

@@ -53,8 +53,7 @@ from calibgui.engine.assessment.residuals.residual_causes import (
 from calibgui.engine.assessment.residuals.residual_checks import NoiseCheck, find_largest_share
 from calibgui.engine.assessment.residuals.residual_statistics import summarise_residuals
 from calibgui.engine.boards.shape import BoardShapeModel
-from calibgui.engine.calibration.calibrate import calibrate
-from calibgui.engine.calibration.problem import recover_image_arguments
+from calibgui.engine.calibration.repetition import repeat_calibration
 from calibgui.engine.calibration.result import Calibration
 from calibgui.engine.camera.models import find_model
 from calibgui.engine.errors import CalibrationError
@@ -151,9 +150,8 @@ def _find_cause_beside_board(case: Case, failed: Mapping[str, NoiseCheck]) -> Fi
         board = find_largest_share(failed[name] for name in _OF_BOARD if name in failed)
         if split.share > board:
             return _describe_two_kinds(case, split)
-    settings = recover_image_arguments(case.calibration) | {"board_shape": BoardShapeModel.FREE}
     try:
-        free = calibrate(case.views, case.calibration.camera.size, **settings)
+        free = repeat_calibration(case.calibration, case.views, board_shape=BoardShapeModel.FREE)
     except CalibrationError:
         return None
     beside = prepare_case(free, case.views, case.names, case.check)
@@ -194,9 +192,8 @@ def estimate_board(case: Case) -> Calibration | None:
         return None
     adds = find_cause(check.name).adds
     model = adds if adds == BoardShapeModel.AFFINE else BoardShapeModel.FREE
-    settings = recover_image_arguments(case.calibration) | {"board_shape": model}
     try:
-        return calibrate(case.views, case.calibration.camera.size, **settings)
+        return repeat_calibration(case.calibration, case.views, board_shape=model)
     except CalibrationError:
         return None
 

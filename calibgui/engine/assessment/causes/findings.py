@@ -55,9 +55,8 @@ from calibgui.engine.assessment.finding import (
 )
 from calibgui.engine.assessment.residuals.outliers import Screening
 from calibgui.engine.assessment.residuals.residual_causes import Family, list_tests
-from calibgui.engine.calibration.calibrate import calibrate
 from calibgui.engine.calibration.observations import Observation, name_views
-from calibgui.engine.calibration.problem import recover_image_arguments
+from calibgui.engine.calibration.repetition import repeat_calibration
 from calibgui.engine.calibration.result import Calibration, Cost
 from calibgui.engine.camera.models import find_model
 from calibgui.engine.camera.models.splined_stereographic import SplinedStereographic
@@ -160,7 +159,7 @@ def _minimise_image_cost(calibration: Calibration, views: Sequence[Observation])
     as it is where the views do not determine a camera by the image cost.
     """
     try:
-        return calibrate(views, calibration.camera.size, **recover_image_arguments(calibration))
+        return repeat_calibration(calibration, views)
     except CalibrationError:
         return calibration
 

@@ -11,7 +11,6 @@ is sqrt(d^2 + s'^2), of which d^2 is what they add.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
 
 import numpy as np
 
@@ -37,10 +36,11 @@ from calibgui.engine.assessment.residuals.residual_statistics import (
     stack_residuals,
     summarise_residuals,
 )
-from calibgui.engine.calibration.calibrate import calibrate
+from calibgui.engine.boards.shape import BoardShapeModel
 from calibgui.engine.calibration.observations import Observation
 from calibgui.engine.calibration.problem import recover_arguments
-from calibgui.engine.calibration.result import DEFAULT_METHOD, Calibration, Cost
+from calibgui.engine.calibration.repetition import repeat_calibration
+from calibgui.engine.calibration.result import DEFAULT_METHOD, Calibration
 from calibgui.engine.camera.camera import Camera
 from calibgui.engine.camera.distortion import project_points
 from calibgui.engine.camera.models import find_model
@@ -116,11 +116,17 @@ def find_wrong_values(calibration: Calibration, views: Sequence[Observation]) ->
     by_choice = [name for name in calibration.fixed if name not in usual]
     if not by_choice or calibration.settings.method != DEFAULT_METHOD:
         return None
-    settings = _recover_nominal_settings(calibration)
-    settings["fix"] = {n: v for n, v in settings["fix"].items() if n not in by_choice}
-    settings["free"] = [*settings["free"], *by_choice]
+    settings = recover_arguments(calibration)
     try:
-        free = calibrate(views, camera.size, **settings)
+        free = repeat_calibration(
+            calibration,
+            views,
+            cost=calibration.cost,
+            fix={n: v for n, v in settings["fix"].items() if n not in by_choice},
+            free=[*settings["free"], *by_choice],
+            board_shape=BoardShapeModel.NOMINAL,
+            prior=None,
+        )
     except CalibrationError:  # that is why it is held
         return None
     harm = measure_displacement(camera, free.camera, views)
@@ -152,16 +158,6 @@ def find_wrong_values(calibration: Calibration, views: Sequence[Observation]) ->
         harm,
         action=Action(ActionKind.FREE_HELD_VALUE, parameters=tuple(wrong)),
     )
-
-
-def _recover_nominal_settings(calibration: Calibration) -> dict[str, Any]:
-    """Return the arguments that repeat a calibration, by the image cost on the board as drawn."""
-    settings = recover_arguments(calibration)
-    for name in ("board_shape", "prior", "method"):
-        del settings[name]
-    if settings["cost"] is Cost.PAPER:
-        del settings["model"]
-    return settings
 
 
 def measure_displacement(wrong: Camera, right: Camera, views: Sequence[Observation]) -> float:

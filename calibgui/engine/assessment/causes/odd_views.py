@@ -57,6 +57,7 @@ from calibgui.engine.calibration.calibrate import calibrate
 from calibgui.engine.calibration.observations import Observation, pack_observations
 from calibgui.engine.calibration.problem import prepare_observations, recover_image_arguments
 from calibgui.engine.calibration.refinement.residuals import Linearised
+from calibgui.engine.calibration.repetition import repeat_calibration
 from calibgui.engine.calibration.resection import estimate_poses, refine_poses
 from calibgui.engine.calibration.result import Calibration
 from calibgui.engine.calibration.score_tests import LinearisedFit
@@ -145,9 +146,9 @@ def _take_board_as_drawn(case: Case) -> Case:
     Raises:
         CalibrationError: if they determine no camera then.
     """
-    settings = recover_image_arguments(case.calibration)
-    settings |= {"board_shape": BoardShapeModel.NOMINAL, "prior": None}
-    drawn = calibrate(case.views, case.calibration.camera.size, **settings)
+    drawn = repeat_calibration(
+        case.calibration, case.views, board_shape=BoardShapeModel.NOMINAL, prior=None
+    )
     return replace(case, calibration=drawn)
 
 

@@ -14,20 +14,14 @@ It does not tell which model is best: that is ``lens_choice.py``.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from calibgui.engine.assessment.changes.comparison import compare_cameras
 from calibgui.engine.assessment.residuals.residual_statistics import summarise_residuals
-from calibgui.engine.calibration.calibrate import calibrate
-from calibgui.engine.calibration.methods import find_method
-from calibgui.engine.calibration.methods.method import (
-    start_from_calibration,
-    start_from_other_model,
-)
 from calibgui.engine.calibration.observations import Observation
-from calibgui.engine.calibration.problem import recover_image_arguments
+from calibgui.engine.calibration.repetition import calibrate_by_model
 from calibgui.engine.calibration.result import Calibration
-from calibgui.engine.camera.models import PINHOLE, find_model
+from calibgui.engine.camera.models import find_model
 from calibgui.engine.errors import CalibrationError
 
 _BY_ANGLE, _BY_TANGENT = "kannala-brandt-decentering", "brown-conrady"
@@ -65,27 +59,3 @@ def fit_rival(calibration: Calibration, views: Sequence[Observation]) -> Rival:
         return Rival(0.0, 0.0)
     left = summarise_residuals(rival.residuals).rms / summarise_residuals(calibration.residuals).rms
     return Rival(max(1 - left**2, 0.0), moved)
-
-
-def calibrate_by_model(
-    calibration: Calibration, views: Sequence[Observation], model: str, **changes: Any
-) -> Calibration:
-    """Repeat a calibration with another lens model, from what its camera sees.
-
-    Args:
-        calibration: a calibration with any cost; of what was held the pinhole's values still are.
-        views: the views that it was made from.
-        model: the lens model.
-        changes: other arguments of `calibrate` that differ.
-
-    Raises:
-        CalibrationError: if the model does not follow the lens, or the views do not determine it.
-    """
-    settings = recover_image_arguments(calibration) | {"model": model, "free": ()} | changes
-    settings["fix"] = {n: v for n, v in settings["fix"].items() if n in PINHOLE}
-    method = find_method(settings["method"])
-    if model == calibration.camera.model:
-        settings["method"] = start_from_calibration(method, calibration, range(len(views)))
-    else:
-        settings["method"] = start_from_other_model(method, calibration)
-    return calibrate(views, calibration.camera.size, model_errors=False, **settings)

@@ -27,7 +27,6 @@ import numpy as np
 
 from calibgui.engine.assessment.action import Action, ActionKind
 from calibgui.engine.assessment.causes.case import Case
-from calibgui.engine.assessment.causes.rival_lens import calibrate_by_model
 from calibgui.engine.assessment.causes.sheared_images import MIN_PART
 from calibgui.engine.assessment.changes.comparison import compare_cameras
 from calibgui.engine.assessment.finding import MIN_HARM_PX, Cause, Finding, describe_harm
@@ -41,6 +40,7 @@ from calibgui.engine.assessment.residuals.systematic_errors import (
 from calibgui.engine.calibration.calibrate import calibrate
 from calibgui.engine.calibration.observations import Observation
 from calibgui.engine.calibration.problem import recover_image_arguments
+from calibgui.engine.calibration.repetition import calibrate_by_model, repeat_calibration
 from calibgui.engine.calibration.result import Calibration
 from calibgui.engine.camera.camera import Camera
 from calibgui.engine.camera.models import find_model
@@ -161,10 +161,14 @@ def _let_lens_be_decentred(case: Case, explained: float) -> Calibration | None:
         return None
     other = _DECENTRED_MODELS.get(model, _DECENTRED_AT_LARGE)
     found = calibrate_by_model(calibration, case.views, other)
-    settings = recover_image_arguments(found) | {"model_errors": False}
-    settings["free"] = [name for name in settings["free"] if name not in _DECENTRING]
-    settings["fix"] |= dict.fromkeys(_DECENTRING, 0.0)
-    centred = calibrate(case.views, found.camera.size, **settings)
+    settings = recover_image_arguments(found)
+    centred = repeat_calibration(
+        found,
+        case.views,
+        free=[name for name in settings["free"] if name not in _DECENTRING],
+        fix=settings["fix"] | dict.fromkeys(_DECENTRING, 0.0),
+        model_errors=False,
+    )
     after, before = (summarise_residuals(one.residuals).rms for one in (found, centred))
     share = (before**2 - after**2) / case.rms**2  # what another lens model explains is no roll
     return found if share >= MIN_PART * explained else None

@@ -23,7 +23,6 @@ import numpy as np
 
 from calibgui.engine.assessment.action import Action, ActionKind
 from calibgui.engine.assessment.causes.case import Case
-from calibgui.engine.assessment.causes.rival_lens import calibrate_by_model
 from calibgui.engine.assessment.finding import Cause, Finding, describe_harm
 from calibgui.engine.assessment.residuals.cause_fits import MIN_LEAD
 from calibgui.engine.assessment.residuals.residual_statistics import summarise_residuals
@@ -34,6 +33,7 @@ from calibgui.engine.assessment.residuals.systematic_errors import (
     take_open_steps,
 )
 from calibgui.engine.boards.shape import BoardShapeModel
+from calibgui.engine.calibration.repetition import calibrate_by_model
 from calibgui.engine.calibration.score_tests import LinearisedFit
 from calibgui.engine.errors import CalibrationError
 

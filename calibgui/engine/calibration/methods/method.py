@@ -241,8 +241,8 @@ def start_from_calibration(
 ) -> Method:
     """Return the method with the camera and the poses of a calibration in place of its guess.
 
-    It saves the guess where subsets of the views are calibrated again with the same settings. A
-    method that does not minimise a cost is returned as it is: its guess is part of its estimate.
+    It saves the guess where views are calibrated again with the same lens model. A method that does
+    not minimise a cost is returned as it is: its guess is part of its estimate.
 
     Args:
         method: the method of the calibration.
@@ -256,7 +256,7 @@ def start_from_calibration(
 
     def initialise(problem: Problem) -> Initialisation:
         state = State(calibration.camera.params.copy(), R.copy(), T.copy())
-        return Initialisation(state, {name: values[name] for name in problem.held})
+        return hold_parameters(state, problem.model, problem.held, values)
 
     return replace(method, initialise=initialise)
 
