@@ -385,7 +385,7 @@ class Photographer:
             page = window.own_pages.rig
             assert page is not None
             wait(lambda: page.pairing is not None)
-            page.form.square.setValue(_BOARD.square)
+            page.form.boards.square.setValue(_BOARD.square)
             page.calibrate.click()
             wait(lambda: page.result is not None)
             page.matrix.setCurrentCell(3, 1)

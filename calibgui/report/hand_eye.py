@@ -153,7 +153,7 @@ def _name_outliers(found: HandEye, leave_out: str) -> list[str]:
     errors = measure_errors(found).tolist()
     named = [
         f"{shorten_name(found.names[k])} ({_format_mm(errors[k][1])} mm, "
-        f"{np.degrees(errors[k][0]):.2g} degrees)"
+        f"{np.degrees(errors[k][0]):.2g}°)"
         for k in find_outliers(found)
     ]
     if not named:

@@ -36,16 +36,13 @@ _MAX_POINTS = 30
 
 def describe_pairing(pairing: RigPairing) -> str:
     """Describe which photographs are of which camera, and how many instants they share."""
-    counts = ", ".join(
-        f"{camera.name} ({format_count(len(camera.files), 'photograph')})"
-        for camera in pairing.cameras
-    )
+    counts = ", ".join(f"{camera.name} ({len(camera.files)})" for camera in pairing.cameras)
     first = pairing.shared[0]
     example = ", ".join(
         camera.files[first].name for camera in pairing.cameras if first in camera.files
     )
     text = (
-        f"{len(pairing.cameras)} cameras: {counts}. Paired by their {pairing.how}: "
+        f"Photographs of {len(pairing.cameras)} cameras: {counts}. Paired by their {pairing.how}: "
         f"{format_count(len(pairing.shared), 'instant')} of several cameras, the first {example}."
     )
     if left := pairing.left_over:
@@ -243,41 +240,61 @@ def tabulate_boards(result: RigResult) -> str:
         title = "Translation and rotation vector of boards"
         if len(rows) > 1:
             parts.append(f"{title}\n{align_columns(rows, left=(0, 1, 2))}")
-    apart = [board.name for b, board in enumerate(boards) if b and board.reference == b]
-    if apart:
-        parts.append(
-            fill_lines(
-                f"Where {list_names(apart)} stands beside {boards[0].name} is open: no two cameras "
-                "saw them at one instant. Nothing else depends on it.",
-                "",
-                "  ",
-            )
+    parts += [fill_lines(sentence, "", "  ") for sentence in describe_boards(rig)]
+    return "\n".join(parts)
+
+
+def describe_boards(rig: Rig) -> list[str]:
+    """Say which boards' places are open, and how far those of unknown shape are from their
+    drawings."""
+    boards = rig.placed_boards
+    sentences = []
+    if apart := [board.name for b, board in enumerate(boards) if b and board.reference == b]:
+        sentences.append(
+            f"Where {list_names(apart)} stands beside {boards[0].name} is open: no two cameras "
+            "saw them at one instant. Nothing else depends on it."
         )
-    parts += [
+    return sentences + [
         f"{board.name[:1].upper()}{board.name[1:]} deviates from its drawing by "
         f"{board.shape.rms:.2g} mm rms, at most "
         f"{np.linalg.norm(board.shape.deviation, axis=1).max():.2g} mm."
         for board in boards
         if board.shape is not None
     ]
-    return "\n".join(parts)
 
 
 def measure_distance(rig: Rig, c: int) -> tuple[float, float]:
     """Measure how far camera `c` is from the first one, mm, with its standard deviation."""
-    return _measure_length(rig, c, rig.poses[c].tvec, 3)
+    return _measure_length(rig, rig.layout.pose(c).start + 3, rig.poses[c].tvec)
 
 
 def measure_turn(rig: Rig, c: int) -> tuple[float, float]:
     """Measure the angle of camera `c` to the first one, degrees, with its standard deviation."""
-    angle, sigma = _measure_length(rig, c, rig.poses[c].rvec, 0)
+    return _measure_angle(rig, rig.layout.pose(c).start, rig.poses[c].rvec)
+
+
+def measure_board_distance(rig: Rig, b: int) -> tuple[float, float]:
+    """Measure how far board `b` is from the one that it is beside, origin to origin, mm, with its
+    standard deviation."""
+    return _measure_length(rig, rig.layout.board(b).start + 3, rig.placed_boards[b].pose.tvec)
+
+
+def measure_board_turn(rig: Rig, b: int) -> tuple[float, float]:
+    """Measure the angle of board `b` to the one that it is beside, degrees, with its standard
+    deviation."""
+    return _measure_angle(rig, rig.layout.board(b).start, rig.placed_boards[b].pose.rvec)
+
+
+def _measure_angle(rig: Rig, start: int, rvec: Array) -> tuple[float, float]:
+    """Return the angle of a rotation, degrees, and its standard deviation."""
+    angle, sigma = _measure_length(rig, start, rvec)
     return float(np.degrees(angle)), float(np.degrees(sigma))
 
 
-def _measure_length(rig: Rig, c: int, vector: Array, start: int) -> tuple[float, float]:
-    """Return the length of a part of camera `c`'s pose, and its standard deviation."""
-    place = rig.layout.pose(c).start + start
-    block = rig.covariance[place : place + 3, place : place + 3]
+def _measure_length(rig: Rig, start: int, vector: Array) -> tuple[float, float]:
+    """Return the length of a vector whose parameters begin at `start`, and its standard
+    deviation."""
+    block = rig.covariance[start : start + 3, start : start + 3]
     length = float(np.linalg.norm(vector))
     return length, float(np.sqrt(vector @ block @ vector)) / length if length else 0.0
 

@@ -90,6 +90,73 @@ die beide dort am nächsten zusammenbringt, wo Ecken (Punkte) gesehen wurden.</t
     </message>
 </context>
 <context>
+    <name>BoardList</name>
+    <message>
+        <source>Boards</source>
+        <translation>Bretter</translation>
+    </message>
+    <message>
+        <source>Add a &amp;board</source>
+        <translation>&amp;Brett hinzufügen</translation>
+    </message>
+    <message>
+        <source>Re&amp;move</source>
+        <translation>Entfe&amp;rnen</translation>
+    </message>
+    <message>
+        <source>A further board that stands fast to the first and is told from it by its markers or tags</source>
+        <translation>Ein weiteres Brett, das fest zum ersten steht und sich durch seine Marker oder Tags von ihm unterscheidet</translation>
+    </message>
+    <message>
+        <source>As the photo&amp;graphs show it</source>
+        <translation>Wie die F&amp;otos es zeigen</translation>
+    </message>
+    <message>
+        <source>Take the board that the photographs show; turn it off to state it.</source>
+        <translation>Das Brett nehmen, das die Fotos zeigen; zum Angeben ausschalten.</translation>
+    </message>
+    <message>
+        <source>not stated</source>
+        <translation type="unfinished">nicht angegeben</translation>
+    </message>
+    <message>
+        <source> mm</source>
+        <translation type="unfinished"> mm</translation>
+    </message>
+    <message>
+        <source>taken as {0} mm</source>
+        <translation>gilt als {0} mm</translation>
+    </message>
+    <message>
+        <source>Not measured if 0: all lengths then hold for squares so long</source>
+        <translation>Bei 0 nicht gemessen: Alle Längen gelten dann für so lange Quadrate</translation>
+    </message>
+    <message>
+        <source>Side of a square</source>
+        <translation type="unfinished">Seite eines Quadrats</translation>
+    </message>
+    <message>
+        <source>Stands where I &amp;know</source>
+        <translation>Sein Ort ist be&amp;kannt</translation>
+    </message>
+    <message>
+        <source>State where the board stands beside the first one; turn it off to have that estimated with the rig.</source>
+        <translation>Angeben, wo das Brett neben dem ersten steht; ausgeschaltet wird es mit dem Rig geschätzt.</translation>
+    </message>
+    <message>
+        <source>{0}, mm</source>
+        <translation>{0}, mm</translation>
+    </message>
+    <message>
+        <source>rotation vector, {0}, degrees</source>
+        <translation>Drehvektor, {0}, Grad</translation>
+    </message>
+    <message>
+        <source>Board {0}</source>
+        <translation>Brett {0}</translation>
+    </message>
+</context>
+<context>
     <name>BoardPanel</name>
     <message>
         <source>&amp;Counted in the images</source>
@@ -190,18 +257,6 @@ die beide dort am nächsten zusammenbringt, wo Ecken (Punkte) gesehen wurden.</t
     <message>
         <source>Interlaced</source>
         <translation>Verschränkt</translation>
-    </message>
-    <message>
-        <source>Tag</source>
-        <translation>Marke</translation>
-    </message>
-    <message>
-        <source>Square</source>
-        <translation>Quadrat</translation>
-    </message>
-    <message>
-        <source>Distance</source>
-        <translation>Abstand</translation>
     </message>
     <message>
         <source>What is printed on the board.</source>
@@ -3521,10 +3576,6 @@ wo die äußerste Ecke liegt; negativ zur Mitte hin</translation>
         <translation>keine</translation>
     </message>
     <message>
-        <source>The lowest number of a tag on the board: 0 on most.</source>
-        <translation>Die kleinste Nummer einer Marke auf dem Brett: meist 0.</translation>
-    </message>
-    <message>
         <source>The number of squares from one tag to the next in its row.</source>
         <translation>Die Zahl der Quadrate von einer Marke zur nächsten in ihrer Zeile.</translation>
     </message>
@@ -3589,12 +3640,20 @@ wo die äußerste Ecke liegt; negativ zur Mitte hin</translation>
         <translation>Gezählt</translation>
     </message>
     <message>
+        <source>First marker</source>
+        <translation>Erster Marker</translation>
+    </message>
+    <message>
         <source>First tag</source>
         <translation>Erste Marke</translation>
     </message>
     <message>
         <source>First corner</source>
         <translation>Erste Ecke</translation>
+    </message>
+    <message>
+        <source>The lowest number of a marker or tag on the board: 0 on most.</source>
+        <translation>Die kleinste Nummer eines Markers oder Tags auf dem Brett: meist 0.</translation>
     </message>
     <message>
         <source>Choose a file…</source>
@@ -3718,6 +3777,18 @@ wo die äußerste Ecke liegt; negativ zur Mitte hin</translation>
     <message>
         <source>Inner corners</source>
         <translation>Innere Ecken</translation>
+    </message>
+    <message>
+        <source>Distance</source>
+        <translation type="unfinished">Abstand</translation>
+    </message>
+    <message>
+        <source>Tag</source>
+        <translation type="unfinished">Marke</translation>
+    </message>
+    <message>
+        <source>Square</source>
+        <translation type="unfinished">Quadrat</translation>
     </message>
 </context>
 <context>
@@ -4259,6 +4330,10 @@ Der Kreis: wie die Bretter geneigt waren; die Mitte ist zur Kamera hin, der Rand
         <translation>Wo die Kameras stehen</translation>
     </message>
     <message>
+        <source>Where the boards stand</source>
+        <translation>Wo die Bretter stehen</translation>
+    </message>
+    <message>
         <source>Cameras</source>
         <translation>Kameras</translation>
     </message>
@@ -4334,20 +4409,32 @@ Der Kreis: wie die Bretter geneigt waren; die Mitte ist zur Kamera hin, der Rand
         <source>Angle between the two cameras, degrees</source>
         <translation>Winkel zwischen beiden Kameras, Grad</translation>
     </message>
+    <message>
+        <source>{0} from {1}</source>
+        <translation>{0} von {1}</translation>
+    </message>
+    <message>
+        <source>board</source>
+        <translation>Brett</translation>
+    </message>
+    <message>
+        <source>from board {0}</source>
+        <translation>von Brett {0}</translation>
+    </message>
+    <message>
+        <source>Distance of the boards&apos; origins, mm</source>
+        <translation>Abstand der Ursprünge der Bretter, mm</translation>
+    </message>
+    <message>
+        <source>Angle between the boards, degrees</source>
+        <translation>Winkel zwischen den Brettern, Grad</translation>
+    </message>
 </context>
 <context>
     <name>RigForm</name>
     <message>
-        <source> mm</source>
-        <translation type="unfinished"> mm</translation>
-    </message>
-    <message>
-        <source>not measured (as if {0} mm)</source>
-        <translation type="unfinished">nicht gemessen (als ob {0} mm)</translation>
-    </message>
-    <message>
-        <source>Side of a square</source>
-        <translation type="unfinished">Seite eines Quadrats</translation>
+        <source>Shape of the boards</source>
+        <translation>Form der Bretter</translation>
     </message>
     <message>
         <source> ms</source>
@@ -4363,7 +4450,7 @@ Der Kreis: wie die Bretter geneigt waren; die Mitte ist zur Kamera hin, der Rand
     </message>
     <message>
         <source>Pair photographs taken within</source>
-        <translation>Fotos zusammenführen, aufgenommen innerhalb von</translation>
+        <translation>Fotos zuordnen innerhalb von</translation>
     </message>
     <message>
         <source>one of </source>
@@ -4394,8 +4481,8 @@ Der Kreis: wie die Bretter geneigt waren; die Mitte ist zur Kamera hin, der Rand
         <translation>Aus einem bewegten Brett, in Videos oder in Fotos, die nach der Zeit zusammengeführt sind: Die Uhr jeder Kamera kann nachgehen</translation>
     </message>
     <message>
-        <source>Side of a square (distance of circles)</source>
-        <translation type="unfinished">Seite eines Quadrats (Abstand der Kreise)</translation>
+        <source>The boards are</source>
+        <translation>Die Bretter sind</translation>
     </message>
     <message>
         <source>Frames of videos</source>
@@ -4431,6 +4518,14 @@ Der Kreis: wie die Bretter geneigt waren; die Mitte ist zur Kamera hin, der Rand
     <message>
         <source>C&amp;lose</source>
         <translation>Sch&amp;ließen</translation>
+    </message>
+    <message>
+        <source>Set-&amp;up</source>
+        <translation>Einrichtu&amp;ng</translation>
+    </message>
+    <message>
+        <source>What is stated of boards and photographs, to change it</source>
+        <translation>Was zu Brettern und Fotos angegeben ist, zum Ändern</translation>
     </message>
     <message>
         <source>E&amp;xport</source>
@@ -4736,6 +4831,442 @@ Die Farben: wo die eigene Unsicherheit der Kalibrierung klein (dunkel) und groß
     <message>
         <source>Some views show the corners less well than the others.</source>
         <translation>Einige Ansichten zeigen die Ecken schlechter als die anderen.</translation>
+    </message>
+    <message>
+        <source>Tool ± {0} mm, ± {1} degrees (k = 2); robot {2} %, camera {3} %, from {4} poses</source>
+        <translation>Werkzeug ± {0} mm, ± {1} Grad (k = 2); Roboter {2} %, Kamera {3} %, aus {4} Posen</translation>
+    </message>
+    <message>
+        <source>The robot&apos;s poses are {0}.</source>
+        <translation>Die Posen des Roboters sind {0}.</translation>
+    </message>
+    <message>
+        <source>angles a, b, c of {0} in degrees, {1}</source>
+        <translation>Winkel a, b, c von {0} in Grad, {1}</translation>
+    </message>
+    <message>
+        <source>angles a, b, c of {0} in radians, {1}</source>
+        <translation>Winkel a, b, c von {0} in Radiant, {1}</translation>
+    </message>
+    <message>
+        <source>rotation vectors in degrees, {0}</source>
+        <translation>Drehvektoren in Grad, {0}</translation>
+    </message>
+    <message>
+        <source>rotation vectors in radians, {0}</source>
+        <translation>Drehvektoren in Radiant, {0}</translation>
+    </message>
+    <message>
+        <source>quaternions {0}</source>
+        <translation>Quaternionen {0}</translation>
+    </message>
+    <message>
+        <source>x, y, z, w, {0}</source>
+        <translation>x, y, z, w, {0}</translation>
+    </message>
+    <message>
+        <source>w, x, y, z, {0}</source>
+        <translation>w, x, y, z, {0}</translation>
+    </message>
+    <message>
+        <source>matrices row by row, {0}</source>
+        <translation>Matrizen zeilenweise, {0}</translation>
+    </message>
+    <message>
+        <source>matrices column by column, {0}</source>
+        <translation>Matrizen spaltenweise, {0}</translation>
+    </message>
+    <message>
+        <source>rotations transposed, {0}</source>
+        <translation>Drehungen transponiert, {0}</translation>
+    </message>
+    <message>
+        <source>millimetres, {0}</source>
+        <translation>Millimeter, {0}</translation>
+    </message>
+    <message>
+        <source>metres, {0}</source>
+        <translation>Meter, {0}</translation>
+    </message>
+    <message>
+        <source>base from hand</source>
+        <translation>Basis aus Hand</translation>
+    </message>
+    <message>
+        <source>hand from base</source>
+        <translation>Hand aus Basis</translation>
+    </message>
+    <message>
+        <source>camera in the hand</source>
+        <translation>Kamera in der Hand</translation>
+    </message>
+    <message>
+        <source>camera beside the robot</source>
+        <translation>Kamera neben dem Roboter</translation>
+    </message>
+    <message>
+        <source>Read so, the board scatters by {0} mm.</source>
+        <translation>So gelesen streut das Brett um {0} mm.</translation>
+    </message>
+    <message>
+        <source>Read so, the board scatters by {0} mm, and by {1} mm in any other way.</source>
+        <translation>So gelesen streut das Brett um {0} mm, auf jede andere Art um {1} mm.</translation>
+    </message>
+    <message>
+        <source>A pose of the robot is off by {0} mm along each axis and by {1} degrees about each, one standard deviation.</source>
+        <translation>Eine Pose des Roboters ist um {0} mm entlang und um {1} Grad um jede Achse falsch, eine Standardabweichung.</translation>
+    </message>
+    <message>
+        <source>The corners are off by {0} px.</source>
+        <translation>Die Ecken liegen um {0} px daneben.</translation>
+    </message>
+    <message>
+        <source>The poses fit as well as {0}.</source>
+        <translation>Die Posen passen ebenso gut als {0}.</translation>
+    </message>
+    <message>
+        <source>Turn the hand about more axes, or state where the camera is (above).</source>
+        <translation>Drehen Sie die Hand um mehr Achsen, oder geben Sie oben an, wo die Kamera ist.</translation>
+    </message>
+    <message>
+        <source>Correct the file.</source>
+        <translation>Berichtigen Sie die Datei.</translation>
+    </message>
+    <message>
+        <source>{0} have the same pose of the robot: if it moved between them, the file is wrong.</source>
+        <translation>{0} haben dieselbe Pose des Roboters: Wenn er sich dazwischen bewegt hat, ist die Datei falsch.</translation>
+    </message>
+    <message>
+        <source>Open: the camera may be turned about {0} of the hand.</source>
+        <translation>Offen: Die Kamera kann um {0} der Hand gedreht sein.</translation>
+    </message>
+    <message>
+        <source>Open: the camera may be turned about {0} of the base.</source>
+        <translation>Offen: Die Kamera kann um {0} der Basis gedreht sein.</translation>
+    </message>
+    <message>
+        <source>any axis</source>
+        <translation>jede Achse</translation>
+    </message>
+    <message>
+        <source>Turn the hand about another axis as well, or move it without turning.</source>
+        <translation>Drehen Sie die Hand auch um eine andere Achse, oder bewegen Sie sie ohne Drehung.</translation>
+    </message>
+    <message>
+        <source>Open: the camera may be shifted along {0} of the hand.</source>
+        <translation>Offen: Die Kamera kann entlang {0} der Hand verschoben sein.</translation>
+    </message>
+    <message>
+        <source>Open: the camera may be shifted along {0} of the base.</source>
+        <translation>Offen: Die Kamera kann entlang {0} der Basis verschoben sein.</translation>
+    </message>
+    <message>
+        <source>All else is determined, and no ± counts this.</source>
+        <translation>Alles andere ist bestimmt, und kein ± zählt dies mit.</translation>
+    </message>
+    <message>
+        <source>Turn the hand about {0}, or measure it.</source>
+        <translation>Drehen Sie die Hand um {0}, oder messen Sie es.</translation>
+    </message>
+    <message>
+        <source>a second axis</source>
+        <translation>eine zweite Achse</translation>
+    </message>
+    <message>
+        <source>two axes</source>
+        <translation>zwei Achsen</translation>
+    </message>
+    <message>
+        <source>other axes</source>
+        <translation>andere Achsen</translation>
+    </message>
+    <message>
+        <source>The robot&apos;s pose does not fit in {0}: another moment, or a mistake in the file.</source>
+        <translation>Die Pose des Roboters passt nicht in {0}: ein anderer Zeitpunkt, oder ein Fehler in der Datei.</translation>
+    </message>
+    <message>
+        <source>Left out: {0}</source>
+        <translation>Ausgelassen: {0}</translation>
+    </message>
+    <message>
+        <source>No ± counts the camera&apos;s errors: its file does not state them.</source>
+        <translation>Kein ± zählt die Fehler der Kamera mit: Ihre Datei nennt sie nicht.</translation>
+    </message>
+    <message>
+        <source>The robot&apos;s poses do not fit the photographs, however they are read: at best the board scatters by {0} mm in the robot&apos;s frame.</source>
+        <translation>Die Posen des Roboters passen nicht zu den Fotos, wie man sie auch liest: Bestenfalls streut das Brett um {0} mm im Koordinatensystem des Roboters.</translation>
+    </message>
+    <message>
+        <source>Check that they are the poses of these photographs in this order, and that board and camera stayed fixed, one to the hand and the other to the base.</source>
+        <translation>Prüfen Sie, ob es die Posen dieser Fotos in dieser Reihenfolge sind, und ob Brett und Kamera fest blieben, eines an der Hand, das andere an der Basis.</translation>
+    </message>
+    <message>
+        <source>By the robot&apos;s motions the board&apos;s squares are {0} times as long as stated.</source>
+        <translation>Nach den Bewegungen des Roboters sind die Quadrate des Bretts {0}-mal so lang wie angegeben.</translation>
+    </message>
+    <message>
+        <source>State the side of a square as it was printed.</source>
+        <translation>Geben Sie die Seite eines Quadrats an, wie es gedruckt wurde.</translation>
+    </message>
+    <message>
+        <source>There are {0} different poses of the robot with a board; hand and eye need at least {1}.</source>
+        <translation>Es gibt {0} verschiedene Posen des Roboters mit einem Brett; Hand und Auge brauchen mindestens {1}.</translation>
+    </message>
+    <message>
+        <source>Photograph the board from ten poses or more, turned about two axes at least.</source>
+        <translation>Fotografieren Sie das Brett aus zehn oder mehr Posen, um mindestens zwei Achsen gedreht.</translation>
+    </message>
+    <message>
+        <source>{0} has {1} poses, and there are {2} photographs.</source>
+        <translation>{0} hat {1} Posen, und es gibt {2} Fotos.</translation>
+    </message>
+    <message>
+        <source>Give a pose for each photograph, in the order of their names, or name the photographs in the first column.</source>
+        <translation>Geben Sie für jedes Foto eine Pose an, in der Reihenfolge der Namen, oder nennen Sie die Fotos in der ersten Spalte.</translation>
+    </message>
+    <message>
+        <source>{0} names none of the photographs.</source>
+        <translation>{0} nennt keines der Fotos.</translation>
+    </message>
+    <message>
+        <source>Name them as they are called, as {0}.</source>
+        <translation>Nennen Sie sie, wie sie heißen, etwa {0}.</translation>
+    </message>
+    <message>
+        <source>{0} holds no poses.</source>
+        <translation>{0} enthält keine Posen.</translation>
+    </message>
+    <message>
+        <source>{0} is {1} ms {2} than {3}.</source>
+        <translation>{0} ist {1} ms {2} als {3}.</translation>
+    </message>
+    <message>
+        <source>later</source>
+        <translation>später</translation>
+    </message>
+    <message>
+        <source>earlier</source>
+        <translation>früher</translation>
+    </message>
+    <message>
+        <source>Photographs of {0} cameras: {1}.</source>
+        <translation>Fotos von {0} Kameras: {1}.</translation>
+    </message>
+    <message>
+        <source>Paired by their {0}: {1} of several cameras, the first {2}.</source>
+        <translation>Zugeordnet nach {0}: {1} mehrerer Kameras, der erste {2}.</translation>
+    </message>
+    <message>
+        <source>before the place {0}</source>
+        <translation>vor dem Ort {0}</translation>
+    </message>
+    <message>
+        <source>The order is shifted: each pose stands {0}, and was used for the photograph that it fits.</source>
+        <translation>Die Reihenfolge ist verschoben: Jede Pose steht {0} und wurde für das Foto genommen, zu dem sie passt.</translation>
+    </message>
+    <message>
+        <source>one line early</source>
+        <translation>eine Zeile zu früh</translation>
+    </message>
+    <message>
+        <source>one line late</source>
+        <translation>eine Zeile zu spät</translation>
+    </message>
+    <message>
+        <source>Leave it out {0}.</source>
+        <translation>Lassen Sie es {0} aus.</translation>
+    </message>
+    <message>
+        <source>below</source>
+        <translation>unten</translation>
+    </message>
+    <message>
+        <source>names</source>
+        <translation>Namen</translation>
+    </message>
+    <message>
+        <source>numbers</source>
+        <translation>Nummern</translation>
+    </message>
+    <message>
+        <source>times, which are at most {0} ms apart</source>
+        <translation>Zeiten, die höchstens {0} ms auseinanderliegen</translation>
+    </message>
+    <message>
+        <source>1 instant</source>
+        <translation>1 Zeitpunkt</translation>
+    </message>
+    <message>
+        <source>{0} instants</source>
+        <translation>{0} Zeitpunkte</translation>
+    </message>
+    <message>
+        <source>Without a partner: {0}.</source>
+        <translation>Ohne Partner: {0}.</translation>
+    </message>
+    <message>
+        <source>{0} cameras at {1}: together they leave {2} px, each alone {3} px.</source>
+        <translation>{0} Kameras, {1}: Zusammen lassen sie {2} px übrig, jede allein {3} px.</translation>
+    </message>
+    <message>
+        <source>{0} cameras at {1}: together they leave {2} px, each alone {3} px, {4} times less.</source>
+        <translation>{0} Kameras, {1}: Zusammen lassen sie {2} px übrig, jede allein {3} px, {4}-mal weniger.</translation>
+    </message>
+    <message>
+        <source>They agree.</source>
+        <translation>Sie stimmen überein.</translation>
+    </message>
+    <message>
+        <source>The instants disagree.</source>
+        <translation>Die Zeitpunkte widersprechen sich.</translation>
+    </message>
+    <message>
+        <source>Single instants have {0} mm from where most have it beside {1}; the corners&apos; noise explains {2} mm.</source>
+        <translation>Einzelne Zeitpunkte haben {0} mm von dort, wo die meisten sie neben {1} haben; das Rauschen der Ecken erklärt {2} mm.</translation>
+    </message>
+    <message>
+        <source>Photographs of one instant were not taken at quite the same moment, or the board bends in the hand.</source>
+        <translation>Die Fotos eines Zeitpunkts wurden nicht ganz gleichzeitig aufgenommen, oder das Brett biegt sich in der Hand.</translation>
+    </message>
+    <message>
+        <source>Each ± counts it: put the board down for each picture, or trigger the cameras together.</source>
+        <translation>Jedes ± zählt es mit: Stellen Sie das Brett für jedes Bild ab, oder lösen Sie die Kameras gemeinsam aus.</translation>
+    </message>
+    <message>
+        <source>The photographs of {0} belong to those of {1} of {2} earlier: nothing above holds.</source>
+        <translation>Die Fotos von {0} gehören zu denen von {1}, {2} früher: Nichts hier gilt.</translation>
+    </message>
+    <message>
+        <source>The photographs of {0} belong to those of {1} of {2} later: nothing above holds.</source>
+        <translation>Die Fotos von {0} gehören zu denen von {1}, {2} später: Nichts hier gilt.</translation>
+    </message>
+    <message>
+        <source>Pair them so.</source>
+        <translation>Ordnen Sie sie so zu.</translation>
+    </message>
+    <message>
+        <source>Exchanged with those of {0}: {1}.</source>
+        <translation>Vertauscht mit denen von {0}: {1}.</translation>
+    </message>
+    <message>
+        <source>They are left out; give them back their names.</source>
+        <translation>Sie sind ausgelassen; geben Sie ihnen ihre Namen zurück.</translation>
+    </message>
+    <message>
+        <source>The squares were counted {0} times as long as in the others in {1}, and the photographs of {2} beside them.</source>
+        <translation>In {1} und den Fotos von {2} daneben gelten die Quadrate als {0}-mal so lang wie in den anderen.</translation>
+    </message>
+    <message>
+        <source>They are left out: is that another board, or another --square?</source>
+        <translation>Sie sind ausgelassen: Ist das ein anderes Brett, oder eine andere Quadratseite?</translation>
+    </message>
+    <message>
+        <source>{0} stands {1} mm otherwise beside {2} from {3} on.</source>
+        <translation>{0} steht ab {3} um {1} mm anders neben {2}.</translation>
+    </message>
+    <message>
+        <source>Calibrate the photographs before and after it by themselves.</source>
+        <translation>Kalibrieren Sie die Fotos davor und danach für sich.</translation>
+    </message>
+    <message>
+        <source>The boards stand {0} mm otherwise to each other from {1} on.</source>
+        <translation>Die Bretter stehen ab {1} um {0} mm anders zueinander.</translation>
+    </message>
+    <message>
+        <source>Fasten them, or calibrate the photographs before and after it by themselves.</source>
+        <translation>Befestigen Sie sie, oder kalibrieren Sie die Fotos davor und danach für sich.</translation>
+    </message>
+    <message>
+        <source>The focal length of {0} is {1} times as long from {2} on: it was refocused or zoomed.</source>
+        <translation>Die Brennweite von {0} ist ab {2} {1}-mal so lang: Es wurde neu fokussiert oder gezoomt.</translation>
+    </message>
+    <message>
+        <source>Left out, as the board is elsewhere than in the other cameras&apos; photographs of the instant: {0}.</source>
+        <translation>Ausgelassen, da das Brett anderswo ist als in den Fotos der anderen Kameras zu diesem Zeitpunkt: {0}.</translation>
+    </message>
+    <message>
+        <source>Were they taken at another instant?</source>
+        <translation>Wurden sie zu einem anderen Zeitpunkt aufgenommen?</translation>
+    </message>
+    <message>
+        <source>Those that agree least with the other cameras: {0}.</source>
+        <translation>Am wenigsten stimmen mit den anderen Kameras überein: {0}.</translation>
+    </message>
+    <message>
+        <source>Counted from another end of the board, and turned back: {0}.</source>
+        <translation>Von einem anderen Ende des Bretts gezählt und zurückgedreht: {0}.</translation>
+    </message>
+    <message>
+        <source>Where {0} stands beside {1} is open: no two cameras saw them at one instant.</source>
+        <translation>Wo {0} neben {1} steht, ist offen: Keine zwei Kameras sahen sie zu einem Zeitpunkt.</translation>
+    </message>
+    <message>
+        <source>Nothing else depends on it.</source>
+        <translation>Nichts anderes hängt davon ab.</translation>
+    </message>
+    <message>
+        <source>{0} deviates from its drawing by {1} mm rms, at most {2} mm.</source>
+        <translation>{0} weicht um {1} mm (RMS) von der Zeichnung ab, höchstens um {2} mm.</translation>
+    </message>
+    <message>
+        <source>board {0}</source>
+        <translation>Brett {0}</translation>
+    </message>
+    <message>
+        <source>Board {0}</source>
+        <translation>Brett {0}</translation>
+    </message>
+    <message>
+        <source>The board</source>
+        <translation>Das Brett</translation>
+    </message>
+    <message>
+        <source>The board moved while the cameras&apos; clocks did not agree: with one offset in time for each camera they leave {0} px.</source>
+        <translation>Das Brett bewegte sich, während die Uhren der Kameras nicht übereinstimmten: Mit einem Zeitversatz je Kamera lassen sie {0} px übrig.</translation>
+    </message>
+    <message>
+        <source>--offsets estimates these.</source>
+        <translation>In der Einrichtung lässt er sich schätzen.</translation>
+    </message>
+    <message>
+        <source>The kind or the size of {0} is not stated.</source>
+        <translation>Art oder Größe von {0} ist nicht angegeben.</translation>
+    </message>
+    <message>
+        <source>State both of each board (--target and --board on the command line).</source>
+        <translation>Geben Sie beides für jedes Brett an.</translation>
+    </message>
+    <message>
+        <source>Nothing is stated of {0} that tells it from the other boards.</source>
+        <translation>Nichts ist von {0} angegeben, das es von den anderen Brettern unterscheidet.</translation>
+    </message>
+    <message>
+        <source>Several boards have markers or tags: state --target and --board of each, and the --dictionary of a ChArUco board, the --family of one with AprilTags.</source>
+        <translation>Mehrere Bretter haben Marker oder Tags: Geben Sie Art und Größe jedes Bretts an, dazu das Wörterbuch eines ChArUco-Bretts oder die Familie eines mit AprilTags.</translation>
+    </message>
+    <message>
+        <source>The markers {0} to {1} of {2} are on {3} and on {4}: photographs do not tell the boards apart.</source>
+        <translation>Die Marker {0} bis {1} von {2} sind auf {3} und auf {4}: Fotos unterscheiden die Bretter nicht.</translation>
+    </message>
+    <message>
+        <source>The tags {0} to {1} of {2} are on {3} and on {4}: photographs do not tell the boards apart.</source>
+        <translation>Die Tags {0} bis {1} von {2} sind auf {3} und auf {4}: Fotos unterscheiden die Bretter nicht.</translation>
+    </message>
+    <message>
+        <source>The cameras fall apart into {0} groups that never see the board together: {1}.</source>
+        <translation>Die Kameras zerfallen in {0} Gruppen, die das Brett nie zusammen sehen: {1}.</translation>
+    </message>
+    <message>
+        <source>The cameras fall apart into {0} groups that nothing joins: {1}.</source>
+        <translation>Die Kameras zerfallen in {0} Gruppen, die nichts verbindet: {1}.</translation>
+    </message>
+    <message>
+        <source>{0} shows no board of {1} in any photograph, and {2} does.</source>
+        <translation>{0} zeigt auf keinem Foto ein Brett von {1}, {2} dagegen schon.</translation>
+    </message>
+    <message>
+        <source>A rig takes one board before all cameras: photograph the same one, or leave out the camera that saw another.</source>
+        <translation>Ein Rig braucht ein Brett vor allen Kameras: Fotografieren Sie dasselbe, oder lassen Sie die Kamera aus, die ein anderes sah.</translation>
     </message>
 </context>
 <context>
@@ -5738,6 +6269,10 @@ gleicher Maßstab behält die Größe der Mitte; Bildwinkel zeigt einen Winkel I
     <message>
         <source>Judging the calibration</source>
         <translation>Kalibrierung beurteilen</translation>
+    </message>
+    <message>
+        <source>SEARCHING CORNERS…</source>
+        <translation>ECKEN WERDEN GESUCHT…</translation>
     </message>
     <message>
         <source>CALIBRATING…</source>

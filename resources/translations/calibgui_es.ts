@@ -90,6 +90,73 @@ que más las acerca donde se vieron esquinas (puntos).</translation>
     </message>
 </context>
 <context>
+    <name>BoardList</name>
+    <message>
+        <source>Boards</source>
+        <translation>Tableros</translation>
+    </message>
+    <message>
+        <source>Add a &amp;board</source>
+        <translation>Añadir ta&amp;blero</translation>
+    </message>
+    <message>
+        <source>Re&amp;move</source>
+        <translation>&amp;Quitar</translation>
+    </message>
+    <message>
+        <source>A further board that stands fast to the first and is told from it by its markers or tags</source>
+        <translation>Otro tablero, fijo respecto al primero, que se distingue de él por sus marcadores o etiquetas</translation>
+    </message>
+    <message>
+        <source>As the photo&amp;graphs show it</source>
+        <translation>Como lo muestran las &amp;fotos</translation>
+    </message>
+    <message>
+        <source>Take the board that the photographs show; turn it off to state it.</source>
+        <translation>Tomar el tablero que muestran las fotos; desactive para indicarlo.</translation>
+    </message>
+    <message>
+        <source>not stated</source>
+        <translation type="unfinished">sin indicar</translation>
+    </message>
+    <message>
+        <source> mm</source>
+        <translation type="unfinished"> mm</translation>
+    </message>
+    <message>
+        <source>taken as {0} mm</source>
+        <translation>se toma {0} mm</translation>
+    </message>
+    <message>
+        <source>Not measured if 0: all lengths then hold for squares so long</source>
+        <translation>Si es 0, no medido: todas las longitudes valen entonces para cuadros así</translation>
+    </message>
+    <message>
+        <source>Side of a square</source>
+        <translation type="unfinished">Lado de un cuadro</translation>
+    </message>
+    <message>
+        <source>Stands where I &amp;know</source>
+        <translation>Posición &amp;conocida</translation>
+    </message>
+    <message>
+        <source>State where the board stands beside the first one; turn it off to have that estimated with the rig.</source>
+        <translation>Indique dónde está el tablero respecto al primero; desactivado, se estima con el conjunto.</translation>
+    </message>
+    <message>
+        <source>{0}, mm</source>
+        <translation>{0}, mm</translation>
+    </message>
+    <message>
+        <source>rotation vector, {0}, degrees</source>
+        <translation>vector de rotación, {0}, grados</translation>
+    </message>
+    <message>
+        <source>Board {0}</source>
+        <translation>Tablero {0}</translation>
+    </message>
+</context>
+<context>
     <name>BoardPanel</name>
     <message>
         <source>&amp;Counted in the images</source>
@@ -190,18 +257,6 @@ que más las acerca donde se vieron esquinas (puntos).</translation>
     <message>
         <source>Interlaced</source>
         <translation>Entrelazado</translation>
-    </message>
-    <message>
-        <source>Tag</source>
-        <translation>Etiqueta</translation>
-    </message>
-    <message>
-        <source>Square</source>
-        <translation>Cuadro</translation>
-    </message>
-    <message>
-        <source>Distance</source>
-        <translation>Distancia</translation>
     </message>
     <message>
         <source>What is printed on the board.</source>
@@ -3521,10 +3576,6 @@ donde está la esquina más alejada; negativo hacia él</translation>
         <translation>ninguno</translation>
     </message>
     <message>
-        <source>The lowest number of a tag on the board: 0 on most.</source>
-        <translation>El número más bajo de una etiqueta del tablero: 0 en la mayoría.</translation>
-    </message>
-    <message>
         <source>The number of squares from one tag to the next in its row.</source>
         <translation>El número de cuadros de una etiqueta a la siguiente en su fila.</translation>
     </message>
@@ -3589,12 +3640,20 @@ donde está la esquina más alejada; negativo hacia él</translation>
         <translation>Numerado</translation>
     </message>
     <message>
+        <source>First marker</source>
+        <translation>Primer marcador</translation>
+    </message>
+    <message>
         <source>First tag</source>
         <translation>Primera etiqueta</translation>
     </message>
     <message>
         <source>First corner</source>
         <translation>Primera esquina</translation>
+    </message>
+    <message>
+        <source>The lowest number of a marker or tag on the board: 0 on most.</source>
+        <translation>El número más bajo de un marcador o etiqueta del tablero: 0 en la mayoría.</translation>
     </message>
     <message>
         <source>Choose a file…</source>
@@ -3718,6 +3777,18 @@ donde está la esquina más alejada; negativo hacia él</translation>
     <message>
         <source>Inner corners</source>
         <translation>Esquinas interiores</translation>
+    </message>
+    <message>
+        <source>Distance</source>
+        <translation type="unfinished">Distancia</translation>
+    </message>
+    <message>
+        <source>Tag</source>
+        <translation type="unfinished">Etiqueta</translation>
+    </message>
+    <message>
+        <source>Square</source>
+        <translation type="unfinished">Cuadro</translation>
     </message>
 </context>
 <context>
@@ -4259,6 +4330,10 @@ El círculo: cómo se inclinaron los tableros; el centro es de frente, el borde 
         <translation>Dónde están las cámaras</translation>
     </message>
     <message>
+        <source>Where the boards stand</source>
+        <translation>Dónde están los tableros</translation>
+    </message>
+    <message>
         <source>Cameras</source>
         <translation>Cámaras</translation>
     </message>
@@ -4334,20 +4409,32 @@ El círculo: cómo se inclinaron los tableros; el centro es de frente, el borde 
         <source>Angle between the two cameras, degrees</source>
         <translation>Ángulo entre las dos cámaras, grados</translation>
     </message>
+    <message>
+        <source>{0} from {1}</source>
+        <translation>{0} desde {1}</translation>
+    </message>
+    <message>
+        <source>board</source>
+        <translation>tablero</translation>
+    </message>
+    <message>
+        <source>from board {0}</source>
+        <translation>desde tablero {0}</translation>
+    </message>
+    <message>
+        <source>Distance of the boards&apos; origins, mm</source>
+        <translation>Distancia entre los orígenes de los tableros, mm</translation>
+    </message>
+    <message>
+        <source>Angle between the boards, degrees</source>
+        <translation>Ángulo entre los tableros, grados</translation>
+    </message>
 </context>
 <context>
     <name>RigForm</name>
     <message>
-        <source> mm</source>
-        <translation type="unfinished"> mm</translation>
-    </message>
-    <message>
-        <source>not measured (as if {0} mm)</source>
-        <translation type="unfinished">sin medir (como si {0} mm)</translation>
-    </message>
-    <message>
-        <source>Side of a square</source>
-        <translation type="unfinished">Lado de un cuadro</translation>
+        <source>Shape of the boards</source>
+        <translation>Forma de los tableros</translation>
     </message>
     <message>
         <source> ms</source>
@@ -4394,8 +4481,8 @@ El círculo: cómo se inclinaron los tableros; el centro es de frente, el borde 
         <translation>A partir de un tablero en movimiento, en vídeos o en fotografías emparejadas por tiempo: el reloj de cada cámara puede ir retrasado</translation>
     </message>
     <message>
-        <source>Side of a square (distance of circles)</source>
-        <translation type="unfinished">Lado de un cuadro (distancia de círculos)</translation>
+        <source>The boards are</source>
+        <translation>Los tableros son</translation>
     </message>
     <message>
         <source>Frames of videos</source>
@@ -4431,6 +4518,14 @@ El círculo: cómo se inclinaron los tableros; el centro es de frente, el borde 
     <message>
         <source>C&amp;lose</source>
         <translation>C&amp;errar</translation>
+    </message>
+    <message>
+        <source>Set-&amp;up</source>
+        <translation>Config&amp;urar</translation>
+    </message>
+    <message>
+        <source>What is stated of boards and photographs, to change it</source>
+        <translation>Lo indicado sobre tableros y fotos, para cambiarlo</translation>
     </message>
     <message>
         <source>E&amp;xport</source>
@@ -4736,6 +4831,442 @@ Los colores: dónde es pequeña (oscuro) y grande la incertidumbre de la propia 
     <message>
         <source>Some views show the corners less well than the others.</source>
         <translation>Algunas vistas muestran las esquinas peor que las demás.</translation>
+    </message>
+    <message>
+        <source>Tool ± {0} mm, ± {1} degrees (k = 2); robot {2} %, camera {3} %, from {4} poses</source>
+        <translation>Herramienta ± {0} mm, ± {1} grados (k = 2); robot {2} %, cámara {3} %, con {4} poses</translation>
+    </message>
+    <message>
+        <source>The robot&apos;s poses are {0}.</source>
+        <translation>Las poses del robot son {0}.</translation>
+    </message>
+    <message>
+        <source>angles a, b, c of {0} in degrees, {1}</source>
+        <translation>ángulos a, b, c de {0} en grados, {1}</translation>
+    </message>
+    <message>
+        <source>angles a, b, c of {0} in radians, {1}</source>
+        <translation>ángulos a, b, c de {0} en radianes, {1}</translation>
+    </message>
+    <message>
+        <source>rotation vectors in degrees, {0}</source>
+        <translation>vectores de rotación en grados, {0}</translation>
+    </message>
+    <message>
+        <source>rotation vectors in radians, {0}</source>
+        <translation>vectores de rotación en radianes, {0}</translation>
+    </message>
+    <message>
+        <source>quaternions {0}</source>
+        <translation>cuaterniones {0}</translation>
+    </message>
+    <message>
+        <source>x, y, z, w, {0}</source>
+        <translation>x, y, z, w, {0}</translation>
+    </message>
+    <message>
+        <source>w, x, y, z, {0}</source>
+        <translation>w, x, y, z, {0}</translation>
+    </message>
+    <message>
+        <source>matrices row by row, {0}</source>
+        <translation>matrices por filas, {0}</translation>
+    </message>
+    <message>
+        <source>matrices column by column, {0}</source>
+        <translation>matrices por columnas, {0}</translation>
+    </message>
+    <message>
+        <source>rotations transposed, {0}</source>
+        <translation>rotaciones traspuestas, {0}</translation>
+    </message>
+    <message>
+        <source>millimetres, {0}</source>
+        <translation>milímetros, {0}</translation>
+    </message>
+    <message>
+        <source>metres, {0}</source>
+        <translation>metros, {0}</translation>
+    </message>
+    <message>
+        <source>base from hand</source>
+        <translation>base desde mano</translation>
+    </message>
+    <message>
+        <source>hand from base</source>
+        <translation>mano desde base</translation>
+    </message>
+    <message>
+        <source>camera in the hand</source>
+        <translation>cámara en la mano</translation>
+    </message>
+    <message>
+        <source>camera beside the robot</source>
+        <translation>cámara junto al robot</translation>
+    </message>
+    <message>
+        <source>Read so, the board scatters by {0} mm.</source>
+        <translation>Leídas así, el tablero se dispersa {0} mm.</translation>
+    </message>
+    <message>
+        <source>Read so, the board scatters by {0} mm, and by {1} mm in any other way.</source>
+        <translation>Leídas así, el tablero se dispersa {0} mm, y {1} mm de cualquier otro modo.</translation>
+    </message>
+    <message>
+        <source>A pose of the robot is off by {0} mm along each axis and by {1} degrees about each, one standard deviation.</source>
+        <translation>Una pose del robot se desvía {0} mm a lo largo de cada eje y {1} grados en torno a cada uno, una desviación estándar.</translation>
+    </message>
+    <message>
+        <source>The corners are off by {0} px.</source>
+        <translation>Las esquinas se desvían {0} px.</translation>
+    </message>
+    <message>
+        <source>The poses fit as well as {0}.</source>
+        <translation>Las poses encajan igual de bien como {0}.</translation>
+    </message>
+    <message>
+        <source>Turn the hand about more axes, or state where the camera is (above).</source>
+        <translation>Gire la mano en torno a más ejes, o indique arriba dónde está la cámara.</translation>
+    </message>
+    <message>
+        <source>Correct the file.</source>
+        <translation>Corrija el archivo.</translation>
+    </message>
+    <message>
+        <source>{0} have the same pose of the robot: if it moved between them, the file is wrong.</source>
+        <translation>{0} tienen la misma pose del robot: si se movió entre ellas, el archivo está mal.</translation>
+    </message>
+    <message>
+        <source>Open: the camera may be turned about {0} of the hand.</source>
+        <translation>Abierto: la cámara puede estar girada en torno a {0} de la mano.</translation>
+    </message>
+    <message>
+        <source>Open: the camera may be turned about {0} of the base.</source>
+        <translation>Abierto: la cámara puede estar girada en torno a {0} de la base.</translation>
+    </message>
+    <message>
+        <source>any axis</source>
+        <translation>cualquier eje</translation>
+    </message>
+    <message>
+        <source>Turn the hand about another axis as well, or move it without turning.</source>
+        <translation>Gire la mano también en torno a otro eje, o muévala sin girarla.</translation>
+    </message>
+    <message>
+        <source>Open: the camera may be shifted along {0} of the hand.</source>
+        <translation>Abierto: la cámara puede estar desplazada a lo largo de {0} de la mano.</translation>
+    </message>
+    <message>
+        <source>Open: the camera may be shifted along {0} of the base.</source>
+        <translation>Abierto: la cámara puede estar desplazada a lo largo de {0} de la base.</translation>
+    </message>
+    <message>
+        <source>All else is determined, and no ± counts this.</source>
+        <translation>Todo lo demás está determinado, y ningún ± lo cuenta.</translation>
+    </message>
+    <message>
+        <source>Turn the hand about {0}, or measure it.</source>
+        <translation>Gire la mano en torno a {0}, o mídalo.</translation>
+    </message>
+    <message>
+        <source>a second axis</source>
+        <translation>un segundo eje</translation>
+    </message>
+    <message>
+        <source>two axes</source>
+        <translation>dos ejes</translation>
+    </message>
+    <message>
+        <source>other axes</source>
+        <translation>otros ejes</translation>
+    </message>
+    <message>
+        <source>The robot&apos;s pose does not fit in {0}: another moment, or a mistake in the file.</source>
+        <translation>La pose del robot no encaja en {0}: otro momento, o un error en el archivo.</translation>
+    </message>
+    <message>
+        <source>Left out: {0}</source>
+        <translation>Dejado fuera: {0}</translation>
+    </message>
+    <message>
+        <source>No ± counts the camera&apos;s errors: its file does not state them.</source>
+        <translation>Ningún ± cuenta los errores de la cámara: su archivo no los indica.</translation>
+    </message>
+    <message>
+        <source>The robot&apos;s poses do not fit the photographs, however they are read: at best the board scatters by {0} mm in the robot&apos;s frame.</source>
+        <translation>Las poses del robot no encajan con las fotos, se lean como se lean: en el mejor caso el tablero se dispersa {0} mm en el sistema del robot.</translation>
+    </message>
+    <message>
+        <source>Check that they are the poses of these photographs in this order, and that board and camera stayed fixed, one to the hand and the other to the base.</source>
+        <translation>Compruebe que son las poses de estas fotos en este orden, y que tablero y cámara siguieron fijos, uno a la mano y otro a la base.</translation>
+    </message>
+    <message>
+        <source>By the robot&apos;s motions the board&apos;s squares are {0} times as long as stated.</source>
+        <translation>Según los movimientos del robot, los cuadros del tablero miden {0} veces lo indicado.</translation>
+    </message>
+    <message>
+        <source>State the side of a square as it was printed.</source>
+        <translation>Indique el lado de un cuadro tal como se imprimió.</translation>
+    </message>
+    <message>
+        <source>There are {0} different poses of the robot with a board; hand and eye need at least {1}.</source>
+        <translation>Hay {0} poses distintas del robot con un tablero; mano y ojo necesitan al menos {1}.</translation>
+    </message>
+    <message>
+        <source>Photograph the board from ten poses or more, turned about two axes at least.</source>
+        <translation>Fotografíe el tablero desde diez poses o más, giradas en torno a dos ejes al menos.</translation>
+    </message>
+    <message>
+        <source>{0} has {1} poses, and there are {2} photographs.</source>
+        <translation>{0} tiene {1} poses, y hay {2} fotos.</translation>
+    </message>
+    <message>
+        <source>Give a pose for each photograph, in the order of their names, or name the photographs in the first column.</source>
+        <translation>Dé una pose para cada foto, en el orden de sus nombres, o nombre las fotos en la primera columna.</translation>
+    </message>
+    <message>
+        <source>{0} names none of the photographs.</source>
+        <translation>{0} no nombra ninguna de las fotos.</translation>
+    </message>
+    <message>
+        <source>Name them as they are called, as {0}.</source>
+        <translation>Nómbrelas como se llaman, como {0}.</translation>
+    </message>
+    <message>
+        <source>{0} holds no poses.</source>
+        <translation>{0} no contiene poses.</translation>
+    </message>
+    <message>
+        <source>{0} is {1} ms {2} than {3}.</source>
+        <translation>{0} va {1} ms {2} que {3}.</translation>
+    </message>
+    <message>
+        <source>later</source>
+        <translation>más tarde</translation>
+    </message>
+    <message>
+        <source>earlier</source>
+        <translation>antes</translation>
+    </message>
+    <message>
+        <source>Photographs of {0} cameras: {1}.</source>
+        <translation>Fotos de {0} cámaras: {1}.</translation>
+    </message>
+    <message>
+        <source>Paired by their {0}: {1} of several cameras, the first {2}.</source>
+        <translation>Emparejadas por {0}: {1} de varias cámaras, el primero {2}.</translation>
+    </message>
+    <message>
+        <source>before the place {0}</source>
+        <translation>antes de la posición {0}</translation>
+    </message>
+    <message>
+        <source>The order is shifted: each pose stands {0}, and was used for the photograph that it fits.</source>
+        <translation>El orden está desplazado: cada pose está {0}, y se usó para la foto con la que encaja.</translation>
+    </message>
+    <message>
+        <source>one line early</source>
+        <translation>una línea antes</translation>
+    </message>
+    <message>
+        <source>one line late</source>
+        <translation>una línea después</translation>
+    </message>
+    <message>
+        <source>Leave it out {0}.</source>
+        <translation>Déjela fuera {0}.</translation>
+    </message>
+    <message>
+        <source>below</source>
+        <translation>abajo</translation>
+    </message>
+    <message>
+        <source>names</source>
+        <translation>sus nombres</translation>
+    </message>
+    <message>
+        <source>numbers</source>
+        <translation>sus números</translation>
+    </message>
+    <message>
+        <source>times, which are at most {0} ms apart</source>
+        <translation>sus tiempos, a lo sumo a {0} ms entre sí</translation>
+    </message>
+    <message>
+        <source>1 instant</source>
+        <translation>1 instante</translation>
+    </message>
+    <message>
+        <source>{0} instants</source>
+        <translation>{0} instantes</translation>
+    </message>
+    <message>
+        <source>Without a partner: {0}.</source>
+        <translation>Sin pareja: {0}.</translation>
+    </message>
+    <message>
+        <source>{0} cameras at {1}: together they leave {2} px, each alone {3} px.</source>
+        <translation>{0} cámaras, {1}: juntas dejan {2} px, cada una sola {3} px.</translation>
+    </message>
+    <message>
+        <source>{0} cameras at {1}: together they leave {2} px, each alone {3} px, {4} times less.</source>
+        <translation>{0} cámaras, {1}: juntas dejan {2} px, cada una sola {3} px, {4} veces menos.</translation>
+    </message>
+    <message>
+        <source>They agree.</source>
+        <translation>Concuerdan.</translation>
+    </message>
+    <message>
+        <source>The instants disagree.</source>
+        <translation>Los instantes discrepan.</translation>
+    </message>
+    <message>
+        <source>Single instants have {0} mm from where most have it beside {1}; the corners&apos; noise explains {2} mm.</source>
+        <translation>Instantes sueltos sitúan {0} mm de donde la sitúa la mayoría junto a {1}; el ruido de las esquinas explica {2} mm.</translation>
+    </message>
+    <message>
+        <source>Photographs of one instant were not taken at quite the same moment, or the board bends in the hand.</source>
+        <translation>Las fotos de un instante no se tomaron del todo a la vez, o el tablero se dobla en la mano.</translation>
+    </message>
+    <message>
+        <source>Each ± counts it: put the board down for each picture, or trigger the cameras together.</source>
+        <translation>Cada ± lo cuenta: apoye el tablero para cada imagen, o dispare las cámaras a la vez.</translation>
+    </message>
+    <message>
+        <source>The photographs of {0} belong to those of {1} of {2} earlier: nothing above holds.</source>
+        <translation>Las fotos de {0} corresponden a las de {1}, {2} antes: nada de lo anterior vale.</translation>
+    </message>
+    <message>
+        <source>The photographs of {0} belong to those of {1} of {2} later: nothing above holds.</source>
+        <translation>Las fotos de {0} corresponden a las de {1}, {2} después: nada de lo anterior vale.</translation>
+    </message>
+    <message>
+        <source>Pair them so.</source>
+        <translation>Emparéjelas así.</translation>
+    </message>
+    <message>
+        <source>Exchanged with those of {0}: {1}.</source>
+        <translation>Intercambiadas con las de {0}: {1}.</translation>
+    </message>
+    <message>
+        <source>They are left out; give them back their names.</source>
+        <translation>Quedan fuera; devuélvales sus nombres.</translation>
+    </message>
+    <message>
+        <source>The squares were counted {0} times as long as in the others in {1}, and the photographs of {2} beside them.</source>
+        <translation>En {1}, y en las fotos de {2} junto a ellas, los cuadros se cuentan {0} veces más largos que en las demás.</translation>
+    </message>
+    <message>
+        <source>They are left out: is that another board, or another --square?</source>
+        <translation>Quedan fuera: ¿es otro tablero, u otro lado de cuadro?</translation>
+    </message>
+    <message>
+        <source>{0} stands {1} mm otherwise beside {2} from {3} on.</source>
+        <translation>{0} está {1} mm en otro lugar junto a {2} a partir de {3}.</translation>
+    </message>
+    <message>
+        <source>Calibrate the photographs before and after it by themselves.</source>
+        <translation>Calibre por separado las fotos anteriores y posteriores.</translation>
+    </message>
+    <message>
+        <source>The boards stand {0} mm otherwise to each other from {1} on.</source>
+        <translation>Los tableros están {0} mm de otro modo entre sí a partir de {1}.</translation>
+    </message>
+    <message>
+        <source>Fasten them, or calibrate the photographs before and after it by themselves.</source>
+        <translation>Fíjelos, o calibre por separado las fotos anteriores y posteriores.</translation>
+    </message>
+    <message>
+        <source>The focal length of {0} is {1} times as long from {2} on: it was refocused or zoomed.</source>
+        <translation>La distancia focal de {0} es {1} veces mayor a partir de {2}: se reenfocó o se cambió el zoom.</translation>
+    </message>
+    <message>
+        <source>Left out, as the board is elsewhere than in the other cameras&apos; photographs of the instant: {0}.</source>
+        <translation>Fuera, pues el tablero está en otro lugar que en las fotos de las demás cámaras del instante: {0}.</translation>
+    </message>
+    <message>
+        <source>Were they taken at another instant?</source>
+        <translation>¿Se tomaron en otro instante?</translation>
+    </message>
+    <message>
+        <source>Those that agree least with the other cameras: {0}.</source>
+        <translation>Las que menos concuerdan con las demás cámaras: {0}.</translation>
+    </message>
+    <message>
+        <source>Counted from another end of the board, and turned back: {0}.</source>
+        <translation>Contadas desde otro extremo del tablero, y giradas de vuelta: {0}.</translation>
+    </message>
+    <message>
+        <source>Where {0} stands beside {1} is open: no two cameras saw them at one instant.</source>
+        <translation>Dónde está {0} junto a {1} queda abierto: ningún par de cámaras los vio en un mismo instante.</translation>
+    </message>
+    <message>
+        <source>Nothing else depends on it.</source>
+        <translation>Nada más depende de ello.</translation>
+    </message>
+    <message>
+        <source>{0} deviates from its drawing by {1} mm rms, at most {2} mm.</source>
+        <translation>{0} se aparta {1} mm (RMS) de su dibujo, a lo sumo {2} mm.</translation>
+    </message>
+    <message>
+        <source>board {0}</source>
+        <translation>tablero {0}</translation>
+    </message>
+    <message>
+        <source>Board {0}</source>
+        <translation>Tablero {0}</translation>
+    </message>
+    <message>
+        <source>The board</source>
+        <translation>El tablero</translation>
+    </message>
+    <message>
+        <source>The board moved while the cameras&apos; clocks did not agree: with one offset in time for each camera they leave {0} px.</source>
+        <translation>El tablero se movió mientras los relojes de las cámaras no concordaban: con un desfase por cámara dejan {0} px.</translation>
+    </message>
+    <message>
+        <source>--offsets estimates these.</source>
+        <translation>En la configuración se puede estimar.</translation>
+    </message>
+    <message>
+        <source>The kind or the size of {0} is not stated.</source>
+        <translation>No se ha indicado el tipo o el tamaño de {0}.</translation>
+    </message>
+    <message>
+        <source>State both of each board (--target and --board on the command line).</source>
+        <translation>Indique ambos de cada tablero.</translation>
+    </message>
+    <message>
+        <source>Nothing is stated of {0} that tells it from the other boards.</source>
+        <translation>No se indica nada de {0} que lo distinga de los demás tableros.</translation>
+    </message>
+    <message>
+        <source>Several boards have markers or tags: state --target and --board of each, and the --dictionary of a ChArUco board, the --family of one with AprilTags.</source>
+        <translation>Varios tableros llevan marcadores o etiquetas: indique tipo y tamaño de cada uno, y el diccionario de un tablero ChArUco o la familia de uno con AprilTags.</translation>
+    </message>
+    <message>
+        <source>The markers {0} to {1} of {2} are on {3} and on {4}: photographs do not tell the boards apart.</source>
+        <translation>Los marcadores {0} a {1} de {2} están en {3} y en {4}: las fotos no distinguen los tableros.</translation>
+    </message>
+    <message>
+        <source>The tags {0} to {1} of {2} are on {3} and on {4}: photographs do not tell the boards apart.</source>
+        <translation>Las etiquetas {0} a {1} de {2} están en {3} y en {4}: las fotos no distinguen los tableros.</translation>
+    </message>
+    <message>
+        <source>The cameras fall apart into {0} groups that never see the board together: {1}.</source>
+        <translation>Las cámaras se dividen en {0} grupos que nunca ven juntos el tablero: {1}.</translation>
+    </message>
+    <message>
+        <source>The cameras fall apart into {0} groups that nothing joins: {1}.</source>
+        <translation>Las cámaras se dividen en {0} grupos que nada une: {1}.</translation>
+    </message>
+    <message>
+        <source>{0} shows no board of {1} in any photograph, and {2} does.</source>
+        <translation>{0} no muestra ningún tablero de {1} en ninguna foto, y {2} sí.</translation>
+    </message>
+    <message>
+        <source>A rig takes one board before all cameras: photograph the same one, or leave out the camera that saw another.</source>
+        <translation>Un conjunto usa un tablero ante todas las cámaras: fotografíe el mismo, o deje fuera la cámara que vio otro.</translation>
     </message>
 </context>
 <context>
@@ -5738,6 +6269,10 @@ misma escala conserva el tamaño del centro; campo de visión muestra el ángulo
     <message>
         <source>Judging the calibration</source>
         <translation>Juzgando la calibración</translation>
+    </message>
+    <message>
+        <source>SEARCHING CORNERS…</source>
+        <translation>BUSCANDO ESQUINAS…</translation>
     </message>
     <message>
         <source>CALIBRATING…</source>

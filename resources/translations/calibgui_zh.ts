@@ -90,6 +90,73 @@ brings the two closest where corners (dots) were seen.</source>
     </message>
 </context>
 <context>
+    <name>BoardList</name>
+    <message>
+        <source>Boards</source>
+        <translation>标定板</translation>
+    </message>
+    <message>
+        <source>Add a &amp;board</source>
+        <translation>添加标定板(&amp;B)</translation>
+    </message>
+    <message>
+        <source>Re&amp;move</source>
+        <translation>移除(&amp;M)</translation>
+    </message>
+    <message>
+        <source>A further board that stands fast to the first and is told from it by its markers or tags</source>
+        <translation>与第一块固定在一起、靠标记或标签与之区分的另一块标定板</translation>
+    </message>
+    <message>
+        <source>As the photo&amp;graphs show it</source>
+        <translation>以照片所示为准(&amp;G)</translation>
+    </message>
+    <message>
+        <source>Take the board that the photographs show; turn it off to state it.</source>
+        <translation>采用照片中显示的标定板;关闭后可自行填写。</translation>
+    </message>
+    <message>
+        <source>not stated</source>
+        <translation type="unfinished">未填写</translation>
+    </message>
+    <message>
+        <source> mm</source>
+        <translation type="unfinished"> mm</translation>
+    </message>
+    <message>
+        <source>taken as {0} mm</source>
+        <translation>按 {0} mm 计</translation>
+    </message>
+    <message>
+        <source>Not measured if 0: all lengths then hold for squares so long</source>
+        <translation>0 表示未测量:此时所有长度按该方格边长计算</translation>
+    </message>
+    <message>
+        <source>Side of a square</source>
+        <translation type="unfinished">方格边长</translation>
+    </message>
+    <message>
+        <source>Stands where I &amp;know</source>
+        <translation>位置已知(&amp;K)</translation>
+    </message>
+    <message>
+        <source>State where the board stands beside the first one; turn it off to have that estimated with the rig.</source>
+        <translation>填写该板相对第一块的位置;关闭则随相机组一起估计。</translation>
+    </message>
+    <message>
+        <source>{0}, mm</source>
+        <translation>{0},mm</translation>
+    </message>
+    <message>
+        <source>rotation vector, {0}, degrees</source>
+        <translation>旋转向量 {0},度</translation>
+    </message>
+    <message>
+        <source>Board {0}</source>
+        <translation>标定板 {0}</translation>
+    </message>
+</context>
+<context>
     <name>BoardPanel</name>
     <message>
         <source>&amp;Counted in the images</source>
@@ -190,18 +257,6 @@ brings the two closest where corners (dots) were seen.</source>
     <message>
         <source>Interlaced</source>
         <translation>隔行</translation>
-    </message>
-    <message>
-        <source>Tag</source>
-        <translation>标签</translation>
-    </message>
-    <message>
-        <source>Square</source>
-        <translation>方格</translation>
-    </message>
-    <message>
-        <source>Distance</source>
-        <translation>间距</translation>
     </message>
     <message>
         <source>What is printed on the board.</source>
@@ -3521,10 +3576,6 @@ where the outermost corner lies; negative towards it</source>
         <translation>无</translation>
     </message>
     <message>
-        <source>The lowest number of a tag on the board: 0 on most.</source>
-        <translation>板上标签的最小编号：多为 0。</translation>
-    </message>
-    <message>
         <source>The number of squares from one tag to the next in its row.</source>
         <translation>同一行中相邻标签之间的方格数。</translation>
     </message>
@@ -3589,12 +3640,20 @@ where the outermost corner lies; negative towards it</source>
         <translation>编号</translation>
     </message>
     <message>
+        <source>First marker</source>
+        <translation>首个标记</translation>
+    </message>
+    <message>
         <source>First tag</source>
         <translation>首个标签</translation>
     </message>
     <message>
         <source>First corner</source>
         <translation>首个角点</translation>
+    </message>
+    <message>
+        <source>The lowest number of a marker or tag on the board: 0 on most.</source>
+        <translation>标定板上标记或标签的最小编号:多数为 0。</translation>
     </message>
     <message>
         <source>Choose a file…</source>
@@ -3718,6 +3777,18 @@ where the outermost corner lies; negative towards it</source>
     <message>
         <source>Inner corners</source>
         <translation>内角点</translation>
+    </message>
+    <message>
+        <source>Distance</source>
+        <translation type="unfinished">间距</translation>
+    </message>
+    <message>
+        <source>Tag</source>
+        <translation type="unfinished">标签</translation>
+    </message>
+    <message>
+        <source>Square</source>
+        <translation type="unfinished">方格</translation>
     </message>
 </context>
 <context>
@@ -4259,6 +4330,10 @@ The circle: how the boards were tilted; the middle is facing the camera, the rim
         <translation>相机的位置</translation>
     </message>
     <message>
+        <source>Where the boards stand</source>
+        <translation>标定板位置</translation>
+    </message>
+    <message>
         <source>Cameras</source>
         <translation>相机</translation>
     </message>
@@ -4334,20 +4409,32 @@ The circle: how the boards were tilted; the middle is facing the camera, the rim
         <source>Angle between the two cameras, degrees</source>
         <translation>两台相机的夹角，度</translation>
     </message>
+    <message>
+        <source>{0} from {1}</source>
+        <translation>{0}(自 {1})</translation>
+    </message>
+    <message>
+        <source>board</source>
+        <translation>标定板</translation>
+    </message>
+    <message>
+        <source>from board {0}</source>
+        <translation>距板 {0}</translation>
+    </message>
+    <message>
+        <source>Distance of the boards&apos; origins, mm</source>
+        <translation>各板原点间距离,mm</translation>
+    </message>
+    <message>
+        <source>Angle between the boards, degrees</source>
+        <translation>各板间夹角,度</translation>
+    </message>
 </context>
 <context>
     <name>RigForm</name>
     <message>
-        <source> mm</source>
-        <translation type="unfinished"> mm</translation>
-    </message>
-    <message>
-        <source>not measured (as if {0} mm)</source>
-        <translation type="unfinished">未测量（按 {0} mm）</translation>
-    </message>
-    <message>
-        <source>Side of a square</source>
-        <translation type="unfinished">方格边长</translation>
+        <source>Shape of the boards</source>
+        <translation>标定板形状</translation>
     </message>
     <message>
         <source> ms</source>
@@ -4394,8 +4481,8 @@ The circle: how the boards were tilted; the middle is facing the camera, the rim
         <translation>根据移动的标定板（视频或按时间配对的照片）：每台相机的时钟可能有延迟</translation>
     </message>
     <message>
-        <source>Side of a square (distance of circles)</source>
-        <translation type="unfinished">方格边长（圆的间距）</translation>
+        <source>The boards are</source>
+        <translation>标定板为</translation>
     </message>
     <message>
         <source>Frames of videos</source>
@@ -4431,6 +4518,14 @@ The circle: how the boards were tilted; the middle is facing the camera, the rim
     <message>
         <source>C&amp;lose</source>
         <translation>关闭(&amp;L)</translation>
+    </message>
+    <message>
+        <source>Set-&amp;up</source>
+        <translation>设置(&amp;U)</translation>
+    </message>
+    <message>
+        <source>What is stated of boards and photographs, to change it</source>
+        <translation>查看并修改标定板和照片的设置</translation>
     </message>
     <message>
         <source>E&amp;xport</source>
@@ -4736,6 +4831,442 @@ The colours: where the calibration&apos;s own uncertainty is small (dark) and la
     <message>
         <source>Some views show the corners less well than the others.</source>
         <translation>一些视图中的角点不如其他视图清楚。</translation>
+    </message>
+    <message>
+        <source>Tool ± {0} mm, ± {1} degrees (k = 2); robot {2} %, camera {3} %, from {4} poses</source>
+        <translation>工具 ± {0} mm,± {1} 度(k = 2);机器人 {2} %,相机 {3} %,来自 {4} 个位姿</translation>
+    </message>
+    <message>
+        <source>The robot&apos;s poses are {0}.</source>
+        <translation>机器人的位姿为:{0}。</translation>
+    </message>
+    <message>
+        <source>angles a, b, c of {0} in degrees, {1}</source>
+        <translation>{0} 的角 a、b、c(度),{1}</translation>
+    </message>
+    <message>
+        <source>angles a, b, c of {0} in radians, {1}</source>
+        <translation>{0} 的角 a、b、c(弧度),{1}</translation>
+    </message>
+    <message>
+        <source>rotation vectors in degrees, {0}</source>
+        <translation>旋转向量(度),{0}</translation>
+    </message>
+    <message>
+        <source>rotation vectors in radians, {0}</source>
+        <translation>旋转向量(弧度),{0}</translation>
+    </message>
+    <message>
+        <source>quaternions {0}</source>
+        <translation>四元数 {0}</translation>
+    </message>
+    <message>
+        <source>x, y, z, w, {0}</source>
+        <translation>x、y、z、w,{0}</translation>
+    </message>
+    <message>
+        <source>w, x, y, z, {0}</source>
+        <translation>w、x、y、z,{0}</translation>
+    </message>
+    <message>
+        <source>matrices row by row, {0}</source>
+        <translation>按行排列的矩阵,{0}</translation>
+    </message>
+    <message>
+        <source>matrices column by column, {0}</source>
+        <translation>按列排列的矩阵,{0}</translation>
+    </message>
+    <message>
+        <source>rotations transposed, {0}</source>
+        <translation>旋转已转置,{0}</translation>
+    </message>
+    <message>
+        <source>millimetres, {0}</source>
+        <translation>毫米,{0}</translation>
+    </message>
+    <message>
+        <source>metres, {0}</source>
+        <translation>米,{0}</translation>
+    </message>
+    <message>
+        <source>base from hand</source>
+        <translation>手到基座</translation>
+    </message>
+    <message>
+        <source>hand from base</source>
+        <translation>基座到手</translation>
+    </message>
+    <message>
+        <source>camera in the hand</source>
+        <translation>相机在手上</translation>
+    </message>
+    <message>
+        <source>camera beside the robot</source>
+        <translation>相机在机器人旁</translation>
+    </message>
+    <message>
+        <source>Read so, the board scatters by {0} mm.</source>
+        <translation>如此读取时,标定板散布为 {0} mm。</translation>
+    </message>
+    <message>
+        <source>Read so, the board scatters by {0} mm, and by {1} mm in any other way.</source>
+        <translation>如此读取时,标定板散布为 {0} mm,其他任何读法为 {1} mm。</translation>
+    </message>
+    <message>
+        <source>A pose of the robot is off by {0} mm along each axis and by {1} degrees about each, one standard deviation.</source>
+        <translation>机器人位姿沿各轴偏差 {0} mm,绕各轴偏差 {1} 度(一个标准差)。</translation>
+    </message>
+    <message>
+        <source>The corners are off by {0} px.</source>
+        <translation>角点偏差 {0} px。</translation>
+    </message>
+    <message>
+        <source>The poses fit as well as {0}.</source>
+        <translation>这些位姿同样符合:{0}。</translation>
+    </message>
+    <message>
+        <source>Turn the hand about more axes, or state where the camera is (above).</source>
+        <translation>请让手绕更多轴转动,或在上方指明相机位置。</translation>
+    </message>
+    <message>
+        <source>Correct the file.</source>
+        <translation>请改正文件。</translation>
+    </message>
+    <message>
+        <source>{0} have the same pose of the robot: if it moved between them, the file is wrong.</source>
+        <translation>{0} 的机器人位姿相同:若其间机器人移动过,则文件有误。</translation>
+    </message>
+    <message>
+        <source>Open: the camera may be turned about {0} of the hand.</source>
+        <translation>未定:相机可能绕手的 {0} 转动。</translation>
+    </message>
+    <message>
+        <source>Open: the camera may be turned about {0} of the base.</source>
+        <translation>未定:相机可能绕基座的 {0} 转动。</translation>
+    </message>
+    <message>
+        <source>any axis</source>
+        <translation>任意轴</translation>
+    </message>
+    <message>
+        <source>Turn the hand about another axis as well, or move it without turning.</source>
+        <translation>请让手也绕另一轴转动,或只平移不转动。</translation>
+    </message>
+    <message>
+        <source>Open: the camera may be shifted along {0} of the hand.</source>
+        <translation>未定:相机可能沿手的 {0} 平移。</translation>
+    </message>
+    <message>
+        <source>Open: the camera may be shifted along {0} of the base.</source>
+        <translation>未定:相机可能沿基座的 {0} 平移。</translation>
+    </message>
+    <message>
+        <source>All else is determined, and no ± counts this.</source>
+        <translation>其余均已确定,但任何 ± 都未计入此项。</translation>
+    </message>
+    <message>
+        <source>Turn the hand about {0}, or measure it.</source>
+        <translation>请让手绕{0}转动,或直接测量。</translation>
+    </message>
+    <message>
+        <source>a second axis</source>
+        <translation>第二个轴</translation>
+    </message>
+    <message>
+        <source>two axes</source>
+        <translation>两个轴</translation>
+    </message>
+    <message>
+        <source>other axes</source>
+        <translation>其他轴</translation>
+    </message>
+    <message>
+        <source>The robot&apos;s pose does not fit in {0}: another moment, or a mistake in the file.</source>
+        <translation>{0} 中机器人位姿不符:时刻不同,或文件有误。</translation>
+    </message>
+    <message>
+        <source>Left out: {0}</source>
+        <translation>已排除:{0}</translation>
+    </message>
+    <message>
+        <source>No ± counts the camera&apos;s errors: its file does not state them.</source>
+        <translation>任何 ± 都未计入相机误差:其文件未给出。</translation>
+    </message>
+    <message>
+        <source>The robot&apos;s poses do not fit the photographs, however they are read: at best the board scatters by {0} mm in the robot&apos;s frame.</source>
+        <translation>无论如何读取,机器人位姿都与照片不符:标定板在机器人坐标系中至少散布 {0} mm。</translation>
+    </message>
+    <message>
+        <source>Check that they are the poses of these photographs in this order, and that board and camera stayed fixed, one to the hand and the other to the base.</source>
+        <translation>请检查这些位姿是否按此顺序属于这些照片,且标定板与相机是否分别固定在手上和基座上。</translation>
+    </message>
+    <message>
+        <source>By the robot&apos;s motions the board&apos;s squares are {0} times as long as stated.</source>
+        <translation>根据机器人的运动,标定板方格为所述长度的 {0} 倍。</translation>
+    </message>
+    <message>
+        <source>State the side of a square as it was printed.</source>
+        <translation>请给出实际打印的方格边长。</translation>
+    </message>
+    <message>
+        <source>There are {0} different poses of the robot with a board; hand and eye need at least {1}.</source>
+        <translation>有标定板的不同机器人位姿为 {0} 个;手眼标定至少需要 {1} 个。</translation>
+    </message>
+    <message>
+        <source>Photograph the board from ten poses or more, turned about two axes at least.</source>
+        <translation>请从至少十个位姿拍摄标定板,并至少绕两个轴转动。</translation>
+    </message>
+    <message>
+        <source>{0} has {1} poses, and there are {2} photographs.</source>
+        <translation>{0} 有 {1} 个位姿,而照片有 {2} 张。</translation>
+    </message>
+    <message>
+        <source>Give a pose for each photograph, in the order of their names, or name the photographs in the first column.</source>
+        <translation>请按名称顺序为每张照片给出一个位姿,或在第一列写明照片名称。</translation>
+    </message>
+    <message>
+        <source>{0} names none of the photographs.</source>
+        <translation>{0} 未提及任何照片。</translation>
+    </message>
+    <message>
+        <source>Name them as they are called, as {0}.</source>
+        <translation>请使用照片的实际名称,例如 {0}。</translation>
+    </message>
+    <message>
+        <source>{0} holds no poses.</source>
+        <translation>{0} 不含位姿。</translation>
+    </message>
+    <message>
+        <source>{0} is {1} ms {2} than {3}.</source>
+        <translation>{0} 比 {3} {2} {1} ms。</translation>
+    </message>
+    <message>
+        <source>later</source>
+        <translation>晚</translation>
+    </message>
+    <message>
+        <source>earlier</source>
+        <translation>早</translation>
+    </message>
+    <message>
+        <source>Photographs of {0} cameras: {1}.</source>
+        <translation>{0} 台相机的照片:{1}。</translation>
+    </message>
+    <message>
+        <source>Paired by their {0}: {1} of several cameras, the first {2}.</source>
+        <translation>按{0}配对:多台相机的{1},第一个为 {2}。</translation>
+    </message>
+    <message>
+        <source>before the place {0}</source>
+        <translation>(位于位置之前){0}</translation>
+    </message>
+    <message>
+        <source>The order is shifted: each pose stands {0}, and was used for the photograph that it fits.</source>
+        <translation>顺序有偏移:每个位姿{0},已用于与之相符的照片。</translation>
+    </message>
+    <message>
+        <source>one line early</source>
+        <translation>早了一行</translation>
+    </message>
+    <message>
+        <source>one line late</source>
+        <translation>晚了一行</translation>
+    </message>
+    <message>
+        <source>Leave it out {0}.</source>
+        <translation>请在{0}将其排除。</translation>
+    </message>
+    <message>
+        <source>below</source>
+        <translation>下方</translation>
+    </message>
+    <message>
+        <source>names</source>
+        <translation>名称</translation>
+    </message>
+    <message>
+        <source>numbers</source>
+        <translation>编号</translation>
+    </message>
+    <message>
+        <source>times, which are at most {0} ms apart</source>
+        <translation>时间(相差至多 {0} ms)</translation>
+    </message>
+    <message>
+        <source>1 instant</source>
+        <translation>1 个时刻</translation>
+    </message>
+    <message>
+        <source>{0} instants</source>
+        <translation>{0} 个时刻</translation>
+    </message>
+    <message>
+        <source>Without a partner: {0}.</source>
+        <translation>无配对:{0}。</translation>
+    </message>
+    <message>
+        <source>{0} cameras at {1}: together they leave {2} px, each alone {3} px.</source>
+        <translation>{0} 台相机,{1}:联合残差 {2} px,各自单独 {3} px。</translation>
+    </message>
+    <message>
+        <source>{0} cameras at {1}: together they leave {2} px, each alone {3} px, {4} times less.</source>
+        <translation>{0} 台相机,{1}:联合残差 {2} px,各自单独 {3} px,小 {4} 倍。</translation>
+    </message>
+    <message>
+        <source>They agree.</source>
+        <translation>它们一致。</translation>
+    </message>
+    <message>
+        <source>The instants disagree.</source>
+        <translation>各时刻不一致。</translation>
+    </message>
+    <message>
+        <source>Single instants have {0} mm from where most have it beside {1}; the corners&apos; noise explains {2} mm.</source>
+        <translation>单个时刻将 {0} mm 偏离多数时刻相对 {1} 的位置;角点噪声可解释 {2} mm。</translation>
+    </message>
+    <message>
+        <source>Photographs of one instant were not taken at quite the same moment, or the board bends in the hand.</source>
+        <translation>同一时刻的照片并非完全同时拍摄,或标定板在手中弯曲。</translation>
+    </message>
+    <message>
+        <source>Each ± counts it: put the board down for each picture, or trigger the cameras together.</source>
+        <translation>每个 ± 均已计入:请每次拍摄时放稳标定板,或同步触发相机。</translation>
+    </message>
+    <message>
+        <source>The photographs of {0} belong to those of {1} of {2} earlier: nothing above holds.</source>
+        <translation>{0} 的照片属于 {1} 早 {2} 的照片:以上结果均无效。</translation>
+    </message>
+    <message>
+        <source>The photographs of {0} belong to those of {1} of {2} later: nothing above holds.</source>
+        <translation>{0} 的照片属于 {1} 晚 {2} 的照片:以上结果均无效。</translation>
+    </message>
+    <message>
+        <source>Pair them so.</source>
+        <translation>请如此配对。</translation>
+    </message>
+    <message>
+        <source>Exchanged with those of {0}: {1}.</source>
+        <translation>与 {0} 的照片互换:{1}。</translation>
+    </message>
+    <message>
+        <source>They are left out; give them back their names.</source>
+        <translation>它们已被排除;请恢复其名称。</translation>
+    </message>
+    <message>
+        <source>The squares were counted {0} times as long as in the others in {1}, and the photographs of {2} beside them.</source>
+        <translation>在 {1} 及与之对应的 {2} 照片中,方格被当作其余照片的 {0} 倍长。</translation>
+    </message>
+    <message>
+        <source>They are left out: is that another board, or another --square?</source>
+        <translation>它们已被排除:是另一块板,还是方格边长不同?</translation>
+    </message>
+    <message>
+        <source>{0} stands {1} mm otherwise beside {2} from {3} on.</source>
+        <translation>自 {3} 起,{0} 相对 {2} 偏移 {1} mm。</translation>
+    </message>
+    <message>
+        <source>Calibrate the photographs before and after it by themselves.</source>
+        <translation>请将其前后的照片分别标定。</translation>
+    </message>
+    <message>
+        <source>The boards stand {0} mm otherwise to each other from {1} on.</source>
+        <translation>自 {1} 起,各标定板之间相对偏移 {0} mm。</translation>
+    </message>
+    <message>
+        <source>Fasten them, or calibrate the photographs before and after it by themselves.</source>
+        <translation>请将其固定,或将其前后的照片分别标定。</translation>
+    </message>
+    <message>
+        <source>The focal length of {0} is {1} times as long from {2} on: it was refocused or zoomed.</source>
+        <translation>自 {2} 起,{0} 的焦距变为 {1} 倍:曾重新对焦或变焦。</translation>
+    </message>
+    <message>
+        <source>Left out, as the board is elsewhere than in the other cameras&apos; photographs of the instant: {0}.</source>
+        <translation>已排除,因为标定板位置与其他相机同一时刻的照片不符:{0}。</translation>
+    </message>
+    <message>
+        <source>Were they taken at another instant?</source>
+        <translation>它们是否在另一时刻拍摄?</translation>
+    </message>
+    <message>
+        <source>Those that agree least with the other cameras: {0}.</source>
+        <translation>与其他相机最不一致的:{0}。</translation>
+    </message>
+    <message>
+        <source>Counted from another end of the board, and turned back: {0}.</source>
+        <translation>从标定板另一端计数,已转正:{0}。</translation>
+    </message>
+    <message>
+        <source>Where {0} stands beside {1} is open: no two cameras saw them at one instant.</source>
+        <translation>{0} 相对 {1} 的位置未定:没有两台相机在同一时刻看到它们。</translation>
+    </message>
+    <message>
+        <source>Nothing else depends on it.</source>
+        <translation>其他结果不受影响。</translation>
+    </message>
+    <message>
+        <source>{0} deviates from its drawing by {1} mm rms, at most {2} mm.</source>
+        <translation>{0} 与图纸偏差 {1} mm(RMS),最大 {2} mm。</translation>
+    </message>
+    <message>
+        <source>board {0}</source>
+        <translation>标定板 {0}</translation>
+    </message>
+    <message>
+        <source>Board {0}</source>
+        <translation>标定板 {0}</translation>
+    </message>
+    <message>
+        <source>The board</source>
+        <translation>标定板</translation>
+    </message>
+    <message>
+        <source>The board moved while the cameras&apos; clocks did not agree: with one offset in time for each camera they leave {0} px.</source>
+        <translation>相机时钟不一致时标定板在移动:若每台相机有一个时间偏移,残差为 {0} px。</translation>
+    </message>
+    <message>
+        <source>--offsets estimates these.</source>
+        <translation>可在设置中估计该偏移。</translation>
+    </message>
+    <message>
+        <source>The kind or the size of {0} is not stated.</source>
+        <translation>未给出 {0} 的类型或尺寸。</translation>
+    </message>
+    <message>
+        <source>State both of each board (--target and --board on the command line).</source>
+        <translation>请给出每块板的类型和尺寸。</translation>
+    </message>
+    <message>
+        <source>Nothing is stated of {0} that tells it from the other boards.</source>
+        <translation>未给出能将 {0} 与其他板区分的信息。</translation>
+    </message>
+    <message>
+        <source>Several boards have markers or tags: state --target and --board of each, and the --dictionary of a ChArUco board, the --family of one with AprilTags.</source>
+        <translation>多块板须带标记或标签:请给出每块的类型和尺寸,以及 ChArUco 板的字典或 AprilTag 板的家族。</translation>
+    </message>
+    <message>
+        <source>The markers {0} to {1} of {2} are on {3} and on {4}: photographs do not tell the boards apart.</source>
+        <translation>{2} 的标记 {0} 至 {1} 同时出现在 {3} 和 {4} 上:照片无法区分这些板。</translation>
+    </message>
+    <message>
+        <source>The tags {0} to {1} of {2} are on {3} and on {4}: photographs do not tell the boards apart.</source>
+        <translation>{2} 的标签 {0} 至 {1} 同时出现在 {3} 和 {4} 上:照片无法区分这些板。</translation>
+    </message>
+    <message>
+        <source>The cameras fall apart into {0} groups that never see the board together: {1}.</source>
+        <translation>相机分成 {0} 组,从未共同看到标定板:{1}。</translation>
+    </message>
+    <message>
+        <source>The cameras fall apart into {0} groups that nothing joins: {1}.</source>
+        <translation>相机分成 {0} 组,彼此没有联系:{1}。</translation>
+    </message>
+    <message>
+        <source>{0} shows no board of {1} in any photograph, and {2} does.</source>
+        <translation>{0} 的照片中没有 {1} 的板,而 {2} 有。</translation>
+    </message>
+    <message>
+        <source>A rig takes one board before all cameras: photograph the same one, or leave out the camera that saw another.</source>
+        <translation>所有相机须拍摄同一块板:请拍摄同一块,或排除看到另一块板的相机。</translation>
     </message>
 </context>
 <context>
@@ -5738,6 +6269,10 @@ same scale keeps the size of the middle; field of view shows an angle of your ch
     <message>
         <source>Judging the calibration</source>
         <translation>正在评估标定</translation>
+    </message>
+    <message>
+        <source>SEARCHING CORNERS…</source>
+        <translation>正在查找角点…</translation>
     </message>
     <message>
         <source>CALIBRATING…</source>

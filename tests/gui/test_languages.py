@@ -71,6 +71,19 @@ def test_sentences_of_the_engine_are_translated_with_their_numbers(language: str
     assert other == "view of Anna is upside down.", "what is not listed stays"
 
 
+@pytest.mark.usefixtures("language")
+def test_phrases_within_a_sentence_are_translated() -> None:
+    said = translate_sentences(
+        "The robot's poses are angles a, b, c of Rz(a) Ry(b) Rx(c) in degrees, millimetres, base "
+        "from hand. Read so, the board scatters by 2 mm, and by 300 mm in any other way."
+    )
+    assert "Rz(a) Ry(b) Rx(c)" in said and "300 mm" in said
+    assert not re.search("robot's|angles|degrees|millimetres|hand|board|other", said), said
+    assert "instants" not in translate_sentences(
+        "Paired by their names: 6 instants of several cameras, the first a.png."
+    )
+
+
 def test_the_engine_says_what_is_listed() -> None:
     root = Path(calibgui.__file__).parent
     files = [
@@ -78,11 +91,19 @@ def test_the_engine_says_what_is_listed() -> None:
         root / "engine/calibration/partial/degeneracy.py",
         root / "app/calibrating/best_camera.py",
         root / "report/verdict.py",
+        *(root / f"report/{name}.py" for name in ("hand_eye", "rig", "numbers")),
+        *(root / f"engine/{name}.py" for name in ("boards/marks", "rig/joining")),
+        *root.glob("engine/hand_eye/*.py"),
+        *root.glob("app/rig/*.py"),
+        root / "app/calibrating/hand_eye.py",
+        root / "formats/robot_poses.py",
     ]
     nodes = (node for file in files for node in ast.walk(ast.parse(file.read_text("utf-8"))))
     said = [n.value for n in nodes if isinstance(n, ast.Constant) and isinstance(n.value, str)]
     for sentence in LISTED:
-        words = max(re.split(r"\{\d\}|: |; |, which leaves| \(", sentence), key=len).strip(" .")
+        words = max(
+            re.split(r"\{\d\}|: |; |, which leaves| \(| in degrees| in radians", sentence), key=len
+        ).strip(" .,")
         assert any(words[1:] in text for text in said), sentence
 
 

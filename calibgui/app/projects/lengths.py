@@ -28,7 +28,7 @@ def set_square(project: Project, square: float) -> Project:
     the length: it needs no confirmation. Results from other squares, or for which other lengths
     were stated, stay as they are. The length stays as uncertain as it was, unless it is shorter.
     """
-    pattern = _scale_pattern(project.pattern, project.square / square)
+    pattern = scale_pattern(project.pattern, project.square / square)
     sigma = project.square_sigma if project.square_sigma < square else 0.0
     after = replace(
         project, square=square, square_sigma=sigma, pattern=pattern, lengths_confirmed=True
@@ -79,7 +79,7 @@ def scale_result(result: Result, square: float, square_sigma: float = 0.0) -> Re
             board.rows,
             board.cols,
             square,
-            _scale_pattern(board.pattern, 1 / ratio),
+            scale_pattern(board.pattern, 1 / ratio),
             square_sigma,
         ),
         lengths_confirmed=True,
@@ -125,7 +125,7 @@ def confirm_lengths(project: Project) -> Project:
     return replace(project, lengths_confirmed=True, results=MappingProxyType(results))
 
 
-def _scale_pattern(pattern: Pattern, ratio: float) -> Pattern:
+def scale_pattern(pattern: Pattern, ratio: float) -> Pattern:
     """Return the pattern with its own lengths, in squares, times `ratio`; unknown if these do not
     fit the squares."""
     try:

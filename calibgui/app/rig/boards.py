@@ -22,7 +22,7 @@ from calibgui.engine.geometry import Pose
 from calibgui.engine.rig import RigBoard
 
 
-@dataclass(frozen=True, eq=False, slots=True)
+@dataclass(frozen=True, slots=True)
 class StatedBoard:
     """A board as a user states it; what is None the photographs tell, if it is the only one."""
 
@@ -100,7 +100,7 @@ def _check_boards(boards: Sequence[StatedBoard]) -> None:
         if board.grid_size is None or board.pattern is None:
             raise CalibrationError(
                 f"The kind or the size of {name} is not stated.",
-                "Of several boards each is stated with --target and --board.",
+                "State both of each board (--target and --board on the command line).",
             )
         stated.append(Board(*board.grid_size, board.square or DEFAULT_SQUARE, board.pattern))
     check_boards_differ(stated, names)

@@ -30,7 +30,10 @@ if TYPE_CHECKING:
         ListedCircles as ListedCircles,
         list_circles as list_circles,
     )
-    from calibgui.engine.boards.marks import check_boards_differ as check_boards_differ
+    from calibgui.engine.boards.marks import (
+        check_boards_differ as check_boards_differ,
+        list_marks as list_marks,
+    )
     from calibgui.engine.boards.pattern import Pattern as Pattern, Symmetry as Symmetry
     from calibgui.engine.boards.printed_pattern import (
         PrintedDiscs as PrintedDiscs,
@@ -61,7 +64,7 @@ load_on_demand(
         "circle_grid": ["Circles"],
         "kinds": ["KINDS"],
         "listed_circles": ["ListedCircles", "list_circles"],
-        "marks": ["check_boards_differ"],
+        "marks": ["check_boards_differ", "list_marks"],
         "pattern": ["Pattern", "Symmetry"],
         "printed_pattern": [
             "PrintedDiscs",

@@ -24,6 +24,7 @@ from calibgui.formats.robot_poses import read_robot_poses
 from calibgui.gui.jobs.jobs import Jobs
 from calibgui.gui.panels.latest import Latest
 from calibgui.gui.panels.parts.estimates import estimate_columns
+from calibgui.gui.verdict.sentences import translate_sentences
 from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.actions import make_buttons
 from calibgui.gui.widgets.buttons import Button
@@ -95,6 +96,7 @@ class HandEyeDialog(QDialog):
         self.save.clicked.connect(self._ask_and_save)
         self.said = WrappedLabel()
         self._lay_out()
+        self.setMinimumSize(640, 440)
         self.resize(1000, 600)
         self._invite()
 
@@ -174,7 +176,7 @@ class HandEyeDialog(QDialog):
 
     def _fail(self, error: Exception) -> None:
         """Say why nothing is found, and let what was left out be used again."""
-        self._clear(str(error))
+        self._clear(translate_sentences(str(error)))
         if self._without:
             self._tabulate_errors({}, set())
             self._shown.setVisible(True)
@@ -196,10 +198,10 @@ class HandEyeDialog(QDialog):
     def _show(self, hand_eye_set: HandEyeSet) -> None:
         self.found = hand_eye_set
         line = describe_in_a_line(hand_eye_set)
-        self.headline.setText(line[0].upper() + line[1:])
+        self.headline.setText(translate_sentences(line[0].upper() + line[1:]))
         self.headline.show()
         remarks = list_hand_eye_remarks(hand_eye_set, mount="above", leave_out="below")
-        self.words.setText("\n".join(remarks))
+        self.words.setText("\n".join(map(translate_sentences, remarks)))
         self._tabulate_poses(hand_eye_set)
         found = hand_eye_set.found
         errors = dict(zip(found.names, measure_errors(found).tolist(), strict=True))

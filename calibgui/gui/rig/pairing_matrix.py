@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Mapping, Sequence
 from statistics import fmean, median
+from typing import NamedTuple
 
 import numpy as np
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QColor
 from PySide6.QtWidgets import QAbstractItemView, QHeaderView, QTableWidget, QTableWidgetItem
 
-from calibgui.dataset import CornerSet, RigPairing, RigResult, ViewStatus
+from calibgui.dataset import CornerSet, RigPairing, RigResult, View, ViewStatus
 from calibgui.engine.numbers import format_two_digits
+from calibgui.engine.rig import RigView
 from calibgui.gui.widgets import theme
 
 _WIDTH = 88
@@ -21,6 +23,17 @@ _SEEN_AT_ONCE = 2
 """Number of columns that are seen beside each other."""
 _STRONG, _WEAK = 150, 60
 """Opacity of a cell with three times the usual residuals, and of one where the board was found."""
+
+
+class _Fit(NamedTuple):
+    """How well all boards in a photograph fit."""
+
+    corners: int
+    """Number of their corners."""
+    rms: float
+    """Root mean square length of their residuals, px."""
+    alone: float
+    """The same with the camera as it was calibrated alone, px."""
 
 
 class PairingMatrix(QTableWidget):
@@ -51,14 +64,15 @@ class PairingMatrix(QTableWidget):
     def show_pairing(
         self,
         pairing: RigPairing,
-        corner_sets: Mapping[str, CornerSet],
+        corner_sets: Sequence[Mapping[str, CornerSet]],
         result: RigResult | None,
     ) -> None:
         """Show which photographs belong together.
 
         Args:
             pairing: the cameras and instants.
-            corner_sets: what was found in the photographs, as far as they were searched.
+            corner_sets: what was found in the photographs of each board, as far as they were
+                searched.
             result: the rig; None while there is none.
         """
         at, chosen = (self.currentRow(), self.currentColumn()), self.list_chosen()
@@ -69,12 +83,11 @@ class PairingMatrix(QTableWidget):
         self.setColumnCount(len(pairing.cameras))
         self.setVerticalHeaderLabels(self._label_instants(pairing, result))
         self.setHorizontalHeaderLabels([camera.name for camera in pairing.cameras])
-        fits = {} if result is None else {(v.camera, v.instant): v for v in result.rig.views}
+        fits = _gather_fits(result)
         out = set() if result is None else {(v.camera, v.instant) for v in result.rig.left_out}
         usual = median(view.rms for view in fits.values()) if fits else 0.0
         for c, camera in enumerate(pairing.cameras):
-            views = corner_sets[camera.name].views if camera.name in corner_sets else ()
-            found = {view.image: view for view in views}
+            found = _choose_views(corner_sets, camera.name)
             for row, instant in enumerate(pairing.instants):
                 item = QTableWidgetItem()
                 self.setItem(row, c, item)
@@ -97,7 +110,7 @@ class PairingMatrix(QTableWidget):
                     item.setText(self.tr("{0} px").format(format_two_digits(fit.rms)))
                     item.setToolTip(
                         self.tr("{0}: {1} corners, {2} px rms; alone {3} px").format(
-                            file, len(fit.residuals), f"{fit.rms:.3f}", f"{fit.alone:.3f}"
+                            file, fit.corners, f"{fit.rms:.3f}", f"{fit.alone:.3f}"
                         )
                     )
                 elif view is not None and view.status is not ViewStatus.FOUND:
@@ -152,6 +165,33 @@ class PairingMatrix(QTableWidget):
         ground = QColor(colour)
         ground.setAlpha(opacity)
         item.setBackground(ground)
+
+
+def _choose_views(corner_sets: Sequence[Mapping[str, CornerSet]], camera: str) -> dict[str, View]:
+    """Return a view of each photograph of a camera: of a board that it shows, if there is one."""
+    found: dict[str, View] = {}
+    for corner_set in corner_sets:
+        for view in corner_set[camera].views if camera in corner_set else ():
+            if view.image not in found or view.status is ViewStatus.FOUND:
+                found[view.image] = view
+    return found
+
+
+def _gather_fits(result: RigResult | None) -> dict[tuple[int, int], _Fit]:
+    """Return how well the boards in a photograph fit, by the numbers of camera and instant."""
+    views: dict[tuple[int, int], list[RigView]] = {}
+    for view in () if result is None else result.rig.views:
+        views.setdefault((view.camera, view.instant), []).append(view)
+    return {place: _measure_fit(each) for place, each in views.items()}
+
+
+def _measure_fit(views: Sequence[RigView]) -> _Fit:
+    counts = [len(view.residuals) for view in views]
+    rms, alone = (
+        float(np.sqrt(np.average(np.square(values), weights=counts)))
+        for values in ([view.rms for view in views], [view.alone for view in views])
+    )
+    return _Fit(sum(counts), rms, alone)
 
 
 def _shorten(name: str) -> str:

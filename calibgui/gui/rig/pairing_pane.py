@@ -1,17 +1,19 @@
-"""The pairing, which is corrected by hand: the matrix of photographs, and what changes it."""
+"""What is stated of a rig: its pairing, corrected by hand in a matrix, and changes taken back."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from dataclasses import replace
 
 from PySide6.QtCore import Signal
-from PySide6.QtWidgets import QHBoxLayout, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QWidget
 
 from calibgui.app.rig.pairing import leave_photographs_out, move_photographs
-from calibgui.dataset import CornerSet, RigPairing, RigResult
+from calibgui.app.rig.setup import RigSetup, SearchedBoards
+from calibgui.dataset import RigPairing, RigResult
 from calibgui.gui.rig.pairing_matrix import PairingMatrix
 from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.buttons import Button
+from calibgui.gui.widgets.layouts import make_column, make_row
 
 _WIDTH = 300
 """Width, device-independent px."""
@@ -21,12 +23,12 @@ class PairingPane(QWidget):
     """Moves chosen photographs to other instants, leaves them out, and takes that back."""
 
     changed = Signal()
-    """The pairing is another one; the rig of the last one no longer holds."""
+    """Pairing or boards are others; the rig of the last ones no longer holds."""
 
     def __init__(self) -> None:
         super().__init__()
-        self.pairing: RigPairing | None = None
-        self._undo: list[RigPairing] = []
+        self.setup: RigSetup | None = None
+        self._undo: list[RigSetup] = []
         self._is_running = False
         self.matrix = PairingMatrix()
         self.earlier, self.later = Button(self.tr("Earli&er")), Button(self.tr("La&ter"))
@@ -38,12 +40,6 @@ class PairingPane(QWidget):
             self.tr("Move the chosen photographs of a camera to the instant after")
         )
         self.setFixedWidth(_WIDTH)
-        column = QVBoxLayout(self)
-        column.setContentsMargins(0, 0, 0, theme.SPACING)
-        column.addWidget(self.matrix, 1)
-        row = QHBoxLayout()
-        row.setContentsMargins(theme.SPACING, 0, theme.SPACING, 0)
-        row.setSpacing(theme.SPACING // 2)
         for button, run in (
             (self.earlier, lambda: self._move(-1)),
             (self.later, lambda: self._move(1)),
@@ -51,27 +47,38 @@ class PairingPane(QWidget):
             (self.undo, self._take_back),
         ):
             button.clicked.connect(run)
-            row.addWidget(button)
-        row.addStretch(1)
-        column.addLayout(row)
+        gap, around = theme.SPACING // 2, (theme.SPACING, 0, theme.SPACING, 0)
+        make_column(
+            (self.matrix, 1),
+            make_row(self.earlier, self.later, None, spacing=gap, margins=around),
+            make_row(self.leave_out, self.undo, None, spacing=gap, margins=around),
+            of=self,
+            spacing=gap,
+            margins=(0, 0, 0, theme.SPACING),
+        )
         self.matrix.itemSelectionChanged.connect(self._show_buttons)
         self._show_buttons()
 
-    def begin(self, pairing: RigPairing) -> None:
+    def begin(self, setup: RigSetup) -> None:
         """Take another set of photographs."""
-        self.pairing, self._undo = pairing, []
+        self.setup, self._undo = setup, []
 
-    def change(self, pairing: RigPairing) -> None:
-        """Take another pairing of the same photographs, which can be taken back."""
-        assert self.pairing is not None
-        self._undo.append(self.pairing)
-        self.pairing = pairing
+    def change(self, setup: RigSetup) -> None:
+        """Take what else is stated of the same photographs, which can be taken back."""
+        assert self.setup is not None
+        self._undo.append(self.setup)
+        self.setup = setup
         self.changed.emit()
 
-    def show_pairing(self, found: Mapping[str, CornerSet], result: RigResult | None) -> None:
+    def change_pairing(self, pairing: RigPairing) -> None:
+        """Take another pairing of the same photographs."""
+        assert self.setup is not None
+        self.change(replace(self.setup, pairing=pairing))
+
+    def show_pairing(self, found: SearchedBoards, result: RigResult | None) -> None:
         """Show the pairing, with what was found in the photographs and how well each fits."""
-        assert self.pairing is not None
-        self.matrix.show_pairing(self.pairing, found, result)
+        assert self.setup is not None
+        self.matrix.show_pairing(self.setup.pairing, found.corner_sets, result)
         self._show_buttons()
 
     def hold(self, is_running: bool) -> None:
@@ -81,8 +88,8 @@ class PairingPane(QWidget):
 
     def _move(self, step: int) -> None:
         """Move the chosen photographs to other instants."""
-        assert self.pairing is not None
-        pairing = self.pairing
+        assert self.setup is not None
+        pairing = self.setup.pairing
         chosen: dict[int, list[int]] = {}
         for camera, instants in self.matrix.list_chosen().items():
             files = pairing.cameras[camera].files
@@ -90,18 +97,18 @@ class PairingPane(QWidget):
             pairing = move_photographs(pairing, camera, instants, step)
             there = pairing.cameras[camera].files
             chosen[camera] = [instant for instant, file in there.items() if file in moved]
-        self.change(pairing)
+        self.change_pairing(pairing)
         self.matrix.choose(chosen)
 
     def _leave_out(self) -> None:
-        assert self.pairing is not None
-        pairing = self.pairing
+        assert self.setup is not None
+        pairing = self.setup.pairing
         for camera, instants in self.matrix.list_chosen().items():
             pairing = leave_photographs_out(pairing, camera, instants)
-        self.change(pairing)
+        self.change_pairing(pairing)
 
     def _take_back(self) -> None:
-        self.pairing = self._undo.pop()
+        self.setup = self._undo.pop()
         self.changed.emit()
 
     def _show_buttons(self) -> None:

@@ -3,25 +3,29 @@
 from __future__ import annotations
 
 from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QLabel, QSizePolicy, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QLabel, QSizePolicy, QWidget
 
 from calibgui.dataset import RigResult
+from calibgui.engine.numbers import format_two_digits
 from calibgui.engine.rig import estimate_point_uncertainty
+from calibgui.gui.verdict.sentences import translate_sentences
 from calibgui.gui.widgets import theme
-from calibgui.gui.widgets.tables import Column, Table, with_decimals, with_digits
+from calibgui.gui.widgets.layouts import make_column
+from calibgui.gui.widgets.tables import Column, Table, with_decimals
 from calibgui.gui.widgets.wrapped_label import WrappedLabel
 from calibgui.report.numbers import format_with_sigma
 from calibgui.report.rig import (
+    describe_boards,
     describe_disagreement,
     describe_fit,
     describe_mistake,
     describe_offsets,
     describe_turned,
+    measure_board_distance,
+    measure_board_turn,
     measure_distance,
     measure_turn,
 )
-
-_POINT_DIGITS = with_digits(2)
 
 
 class RigAnswer(QWidget):
@@ -30,31 +34,24 @@ class RigAnswer(QWidget):
     def __init__(self) -> None:
         super().__init__()
         self._is_sound = True
-        self.headline = QLabel()
+        self.headline, self.words = WrappedLabel(), WrappedLabel()
         self.headline.setFont(theme.make_font(theme.HEADLINE, bold=True))
-        self.headline.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
-        self.words = WrappedLabel()
-        self.places, self.cameras, self.points = Table(), Table(), Table()
+        self.places, self.boards, self.cameras, self.points = (Table() for _ in range(4))
         self.condition = WrappedLabel()
-        column = QVBoxLayout(self)
-        column.setContentsMargins(0, 0, 0, 0)
-        column.setSpacing(theme.SPACING)
-        column.addWidget(self.headline)
-        column.addWidget(self.words)
+        self._titles: dict[Table, QLabel] = {}
         for text, table in (
             (self.tr("Where the cameras stand"), self.places),
+            (self.tr("Where the boards stand"), self.boards),
             (self.tr("Cameras"), self.cameras),
             (self.tr("Points ahead"), self.points),
         ):
-            title = QLabel(text)
+            title = self._titles[table] = QLabel(text)
             title.setFont(theme.make_font(theme.CAPTION, bold=True))
-            column.addWidget(title)
             table.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
             table.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
             table.setVerticalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
-            column.addWidget(table)
-        column.addWidget(self.condition)
-        column.addStretch(1)
+        tables = (part for table, title in self._titles.items() for part in (title, table))
+        make_column(self.headline, self.words, *tables, self.condition, None, of=self)
         theme.follow(self._restyle)
 
     def _restyle(self) -> None:
@@ -79,13 +76,15 @@ class RigAnswer(QWidget):
             *describe_disagreement(result),
             *(describe_mistake(result, mistake) for mistake in rig.mistakes),
             *describe_turned(result),
+            *describe_boards(rig),
             *result.remarks,
         ]
-        self.words.setText("\n\n".join(remarks))
+        self.words.setText("\n\n".join(map(translate_sentences, remarks)))
         self.condition.setText(
             self.tr("All lengths hold {0}.").format(result.condition) if result.condition else ""
         )
         self._show_places(result)
+        self._show_boards(result)
         counted = range(len(rig.cameras))
         self.cameras.show_columns(
             [
@@ -122,13 +121,13 @@ class RigAnswer(QWidget):
                 Column(
                     self.tr("± along"),
                     [p.along for p in seen],
-                    _POINT_DIGITS,
+                    format_two_digits,
                     self.tr(
                         "Standard deviation along the line of sight, with this rig's noise, mm"
                     ),
                     unit="mm",
                 ),
-                Column(self.tr("± across"), [p.across for p in seen], _POINT_DIGITS, unit="mm"),
+                Column(self.tr("± across"), [p.across for p in seen], format_two_digits, unit="mm"),
                 Column(
                     self.tr("calib."),
                     [100 * p.share_of_calibration for p in seen],
@@ -138,8 +137,10 @@ class RigAnswer(QWidget):
                 ),
             ]
         )
-        for table in (self.places, self.cameras, self.points):
+        for table, title in self._titles.items():
             _fit_height(table)
+            for part in (title, table):
+                part.setVisible(table.model().rowCount() > 0)
 
     def tell(self, text: str) -> None:
         """Tell what was written, or why it could not be."""
@@ -160,6 +161,36 @@ class RigAnswer(QWidget):
                     self.tr("turn"),
                     [format_with_sigma(*measure_turn(rig, c)) for c in rows],
                     tip=self.tr("Angle between the two cameras, degrees"),
+                    unit="°",
+                ),
+            ]
+        )
+
+    def _show_boards(self, result: RigResult) -> None:
+        """Show how several boards stand to each other, as far as it is known."""
+        rig, boards = result.rig, result.rig.placed_boards
+        rows = [b for b, board in enumerate(boards) if board.reference != b]
+        beside = {boards[b].reference for b in rows}
+        names = [str(b + 1) for b in range(len(boards))]
+        places = [
+            self.tr("{0} from {1}").format(names[b], names[boards[b].reference])
+            if len(beside) > 1
+            else names[b]
+            for b in rows
+        ]
+        self.boards.show_columns(
+            [
+                Column(self.tr("board"), places),
+                Column(
+                    self.tr("from board {0}").format(1) if beside <= {0} else self.tr("distance"),
+                    [format_with_sigma(*measure_board_distance(rig, b)) for b in rows],
+                    tip=self.tr("Distance of the boards' origins, mm"),
+                    unit="mm",
+                ),
+                Column(
+                    self.tr("turn"),
+                    [format_with_sigma(*measure_board_turn(rig, b)) for b in rows],
+                    tip=self.tr("Angle between the boards, degrees"),
                     unit="°",
                 ),
             ]

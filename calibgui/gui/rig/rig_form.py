@@ -2,10 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from PySide6.QtCore import QSignalBlocker, Signal
 from PySide6.QtWidgets import QCheckBox, QFormLayout, QSpinBox, QWidget
 
-from calibgui.dataset import DEFAULT_SQUARE, RigPairing
+from calibgui.app.rig.setup import RigSetup
+from calibgui.dataset import RigPairing
+from calibgui.engine.boards import Board, BoardShapeModel
+from calibgui.gui.rig.board_list import BoardList
+from calibgui.gui.settings.board_shape_choice import add_board_shapes
+from calibgui.gui.widgets.narrow_combo import NarrowCombo
 from calibgui.gui.widgets.number_box import NumberBox
 from calibgui.gui.widgets.wrapped_label import WrappedLabel
 
@@ -15,16 +22,18 @@ class RigForm(QWidget):
 
     pairing_wanted = Signal()
     """Photographs are to be paired anew, by other times or of other frames."""
+    changed = Signal()
+    """The user states something else of boards, or of how the rig is calibrated."""
 
     def __init__(self) -> None:
         super().__init__()
         self.words = WrappedLabel()
-        self.square = NumberBox(decimals=3, minimum=0.0, maximum=10_000.0)
-        self.square.setSuffix(self.tr(" mm"))
-        self.square.setSpecialValueText(
-            self.tr("not measured (as if {0} mm)").format(f"{DEFAULT_SQUARE:g}")
-        )
-        self.square.setAccessibleName(self.tr("Side of a square"))
+        self.boards = BoardList()
+        self.boards.changed.connect(self.changed)
+        self.shape = NarrowCombo()
+        self.shape.setAccessibleName(self.tr("Shape of the boards"))
+        add_board_shapes(self.shape)
+        self.shape.activated.connect(self.changed)
         self.within = NumberBox(decimals=1, minimum=0.0, maximum=1e6)
         self.within.setSuffix(self.tr(" ms"))
         self.within.setSpecialValueText(self.tr("automatic"))
@@ -51,36 +60,57 @@ class RigForm(QWidget):
                 "clock of each camera may be late"
             )
         )
+        for choice in (self.robust, self.offsets):
+            choice.clicked.connect(self.changed)
         self._rows = QFormLayout(self)
         self._rows.setContentsMargins(0, 0, 0, 0)
         self._rows.setRowWrapPolicy(QFormLayout.RowWrapPolicy.WrapAllRows)
         self._rows.addRow(self.words)
-        self._rows.addRow(self.tr("Side of a square (distance of circles)"), self.square)
+        self._rows.addRow(self.boards)
+        self._rows.addRow(self.tr("The boards are"), self.shape)
         self._rows.addRow(self.tr("Pair photographs taken within"), self.within)
         self._rows.addRow(self.tr("Frames of videos"), self.every)
         self._rows.addRow(self.robust)
         self._rows.addRow(self.offsets)
-        self.show_choices(None, False)
+        self.show_setup(None, (), False)
 
-    def show_choices(self, pairing: RigPairing | None, is_of_videos: bool) -> None:
-        """Offer what the photographs leave to choose."""
-        has_times = pairing is not None and all(camera.times for camera in pairing.cameras)
+    def show_setup(
+        self, setup: RigSetup | None, seen: Sequence[Board | None], is_of_videos: bool
+    ) -> None:
+        """Show what is stated, and offer what the photographs leave to choose.
+
+        Args:
+            setup: what is stated of the rig; None if there are no photographs.
+            seen: the boards as the photographs show them; none if they were not searched.
+            is_of_videos: True if the photographs are frames of videos.
+        """
+        has_times = setup is not None and all(camera.times for camera in setup.pairing.cameras)
         self._rows.setRowVisible(self.every, is_of_videos)
-        self._rows.setRowVisible(self.within, pairing is not None and not is_of_videos)
+        self._rows.setRowVisible(self.within, setup is not None and not is_of_videos)
         self._rows.setRowVisible(self.offsets, has_times)
-        if not has_times:
-            self.offsets.setChecked(False)
+        for row in (self.boards, self.shape, self.robust):
+            self._rows.setRowVisible(row, setup is not None)
+        if setup is not None:
+            self.boards.show_boards(setup.boards, seen)
+            self.shape.setCurrentIndex(self.shape.findData(setup.shape))
+            self.robust.setChecked(setup.robust)
+            self.offsets.setChecked(setup.estimate_offsets and has_times)
+
+    def state_setup(self, pairing: RigPairing) -> RigSetup:
+        """Return what is stated of the rig whose photographs are paired so."""
+        return RigSetup(
+            pairing,
+            self.boards.boards,
+            BoardShapeModel(self.shape.currentData()),
+            self.robust.isChecked(),
+            self.offsets.isChecked(),
+        )
 
     def begin(self) -> None:
         """Forget how other photographs were paired."""
         with QSignalBlocker(self.within), QSignalBlocker(self.every):
             self.within.setValue(self.within.minimum())
             self.every.setValue(self.every.minimum())
-
-    @property
-    def side(self) -> float | None:
-        """Side of a square, mm; None if it is not stated."""
-        return self.square.value() or None
 
     @property
     def tolerance(self) -> float | None:

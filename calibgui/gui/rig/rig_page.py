@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Mapping, Sequence
+from collections.abc import Callable, Collection, Sequence
 from functools import partial
 from pathlib import Path
 from typing import TypeVar
@@ -11,19 +11,17 @@ from PySide6.QtCore import Signal
 from PySide6.QtGui import QColor, QPainter, QPaintEvent
 from PySide6.QtWidgets import (
     QFileDialog,
-    QHBoxLayout,
     QLabel,
     QMenu,
     QProgressBar,
     QStackedWidget,
-    QVBoxLayout,
     QWidget,
 )
 
-from calibgui.app.calibrating.settings import Settings
 from calibgui.app.rig.frames import find_videos
-from calibgui.app.rig.pairing import leave_photographs_out, recall_pairing
-from calibgui.dataset import CornerSet, RigPairing, RigResult
+from calibgui.app.rig.pairing import leave_photographs_out
+from calibgui.app.rig.setup import RigSetup, SearchedBoards, recall_setup
+from calibgui.dataset import RigPairing, RigResult
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.images import read_colour
 from calibgui.formats.rig_files import RIG_EXPORTERS
@@ -42,8 +40,10 @@ from calibgui.gui.rig.rig_work import (
     rectify_photographs,
     search_and_calibrate,
 )
+from calibgui.gui.verdict.sentences import translate_sentences
 from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.buttons import Button, Kind
+from calibgui.gui.widgets.layouts import make_column, make_row
 from calibgui.gui.widgets.save_names import ask_for_name
 from calibgui.gui.widgets.scrolling import make_scrollable
 from calibgui.gui.widgets.tab_bar import TabWidget
@@ -71,7 +71,7 @@ class RigPage(QWidget):
         self._names: list[str] = []
         """Folders or videos that the photographs are of; empty for those of a saved rig."""
         self.result: RigResult | None = None
-        self._found: Mapping[str, CornerSet] = {}
+        self._found = SearchedBoards()
         self._at = (0, 0)
         """Camera and instant that are looked at."""
         self._photographs, self._rectified = Latest(jobs, self), Latest(jobs, self)
@@ -83,13 +83,15 @@ class RigPage(QWidget):
         self.matrix.instant_chosen.connect(self._look_at)
         self.pane.changed.connect(self._forget_result)
         self.form.pairing_wanted.connect(self._pair_again)
+        self.form.changed.connect(self._take_setup)
+        self.form.boards.pattern.failed.connect(self._show_failure)
         self.scene.picked.connect(self._pick)
         self._show_start()
 
     @property
     def pairing(self) -> RigPairing | None:
         """The cameras and instants; None while there are no photographs."""
-        return self.pane.pairing
+        return None if self.pane.setup is None else self.pane.setup.pairing
 
     @property
     def is_running(self) -> bool:
@@ -112,7 +114,7 @@ class RigPage(QWidget):
             for c, camera in enumerate(pairing.cameras):
                 left_out = [k for k, file in camera.files.items() if file.name in without]
                 pairing = leave_photographs_out(pairing, c, left_out)
-            self._begin(pairing)
+            self._begin(RigSetup(pairing))
 
         self._pair(names, done)
 
@@ -126,7 +128,7 @@ class RigPage(QWidget):
 
         def done(result: RigResult) -> None:
             self._names = []
-            self._begin(recall_pairing(result))
+            self._begin(recall_setup(result))
             self._show_result(result)
 
         self._run(self.tr("Opening {0}").format(path.name), read, done)
@@ -138,14 +140,8 @@ class RigPage(QWidget):
 
     def _pair_again(self) -> None:
         """Pair the same photographs by other times, or other frames of the same videos."""
-
-        def done(pairing: RigPairing) -> None:
-            if find_videos(self._names):
-                self._found = {}
-            self.pane.change(pairing)
-
         if self._names and not self.is_running:
-            self._pair(self._names, done)
+            self._pair(self._names, self.pane.change_pairing)
 
     def _run(self, label: str, work: Callable[[Job], T], done: Callable[[T], None]) -> None:
         """Work beside the window, with the progress at the right."""
@@ -167,6 +163,9 @@ class RigPage(QWidget):
         self.add, self.open = Button(self.tr("&Folders…")), Button(self.tr("O&pen rig…"))
         self.calibrate = Button(self.tr("&Calibrate rig"), Kind.MAIN)
         self.stop, self.leave = Button(self.tr("&Stop")), Button(self.tr("C&lose"))
+        self.set_up = Button(self.tr("Set-&up"))
+        self.set_up.setCheckable(True)
+        self.set_up.setToolTip(self.tr("What is stated of boards and photographs, to change it"))
         self.export = Button(self.tr("E&xport"), Kind.MAIN)
         menu = QMenu(self.export)
         menu.addAction(self.tr("Rig, with everything (JSON)…"), self._save)
@@ -179,6 +178,7 @@ class RigPage(QWidget):
             (self.calibrate, self._calibrate),
             (self.stop, self._stop),
             (self.leave, self._leave),
+            (self.set_up, self._choose_side),
         ):
             button.clicked.connect(run)
 
@@ -194,27 +194,18 @@ class RigPage(QWidget):
         self._side.addWidget(make_scrollable(self.answer))
         side = QWidget()
         side.setFixedWidth(_SIDE)
-        beside = QVBoxLayout(side)
-        beside.setContentsMargins(theme.MARGIN, 12, theme.MARGIN, 12)
-        beside.setSpacing(12)
-        beside.addWidget(title)
-        beside.addWidget(self._side, 1)
-        beside.addWidget(self.state)
-        beside.addWidget(self.progress)
-        for buttons in ((self.add, self.open), (self.calibrate, self.stop, self.export)):
-            row = QHBoxLayout()
-            for button in buttons:
-                row.addWidget(button)
-            row.addStretch(1)
-            if self.export in buttons:
-                row.addWidget(self.leave)
-            beside.addLayout(row)
-        whole = QHBoxLayout(self)
-        whole.setContentsMargins(0, 0, 0, 0)
-        whole.setSpacing(0)
-        whole.addWidget(self.pane)
-        whole.addWidget(self.tabs, 1)
-        whole.addWidget(side)
+        make_column(
+            title,
+            (self._side, 1),
+            self.state,
+            self.progress,
+            make_row(self.add, self.open, None, self.leave),
+            make_row(self.calibrate, self.stop, self.export, self.set_up, None),
+            of=side,
+            spacing=12,
+            margins=(theme.MARGIN, 12, theme.MARGIN, 12),
+        )
+        make_row(self.pane, (self.tabs, 1), side, of=self, spacing=0)
 
     def _show_start(self) -> None:
         self._tell(
@@ -225,15 +216,16 @@ class RigPage(QWidget):
             )
         )
         self.photographs.show_words(self.tr("No photographs yet."))
-        self.rectified.show_words(self.tr("Calibrate the rig first."))
+        self._show_no_result()
         self._show_buttons()
 
-    def _begin(self, pairing: RigPairing) -> None:
-        """Show a new pairing."""
-        self.pane.begin(pairing)
-        self.result, self._found = None, {}
-        self._side.setCurrentIndex(0)
+    def _begin(self, setup: RigSetup) -> None:
+        """Show other photographs."""
+        self.pane.begin(setup)
+        self.result, self._found = None, SearchedBoards()
+        self._show_form(True)
         self._show_pairing()
+        pairing = setup.pairing
         shared = pairing.shared or tuple(pairing.instants)
         self.matrix.setCurrentCell(list(pairing.instants).index(shared[0]), 0)
 
@@ -293,27 +285,39 @@ class RigPage(QWidget):
     def _forget_result(self) -> None:
         """Show another pairing; the rig of the last one no longer holds."""
         self.result = None
-        self._side.setCurrentIndex(0)
-        self.rectified.show_words(self.tr("Calibrate the rig first."))
-        self.scene.show_scene((), (), (), "")
+        self._show_form(True)
+        self._show_no_result()
         self._show_pairing()
+
+    def _show_no_result(self) -> None:
+        """Say where results will stand that there are none."""
+        words = self.tr("Calibrate the rig first.")
+        self.rectified.show_words(words)
+        self.scene.show_scene((), (), (), words)
+
+    def _take_setup(self) -> None:
+        """Take what the form states."""
+        assert self.pairing is not None
+        self.pane.change(self.form.state_setup(self.pairing))
+
+    def _show_form(self, is_shown: bool) -> None:
+        """Show what is stated in place of the answer, or the answer."""
+        self._side.setCurrentIndex(0 if is_shown else 1)
+        self.set_up.setChecked(is_shown)
+
+    def _choose_side(self) -> None:
+        self._show_form(self.set_up.isChecked())
 
     def _calibrate(self) -> None:
         """Search what was not searched, and calibrate."""
-        assert self.pairing is not None
+        self.calibrate.setFocus()  # what is being typed is meant now
+        assert self.pane.setup is not None
 
-        def done(answer: tuple[Mapping[str, CornerSet], RigResult]) -> None:
+        def done(answer: tuple[SearchedBoards, RigResult]) -> None:
             self._found, result = answer
             self._show_result(result)
 
-        work = partial(
-            search_and_calibrate,
-            self.pairing,
-            self._found,
-            self.form.side,
-            Settings(robust=self.form.robust.isChecked()),
-            self.form.offsets.isChecked(),
-        )
+        work = partial(search_and_calibrate, self.pane.setup, self._found)
         self._run(self.tr("Searching"), work, done)
 
     def _show_progress(self) -> None:
@@ -334,7 +338,7 @@ class RigPage(QWidget):
     def _show_result(self, result: RigResult) -> None:
         self.result = result
         self.answer.show_result(result)
-        self._side.setCurrentIndex(1)
+        self._show_form(False)
         self._show_pairing()
         boards = [result.instants[instant] for instant in result.rig.instants]
         count = len(boards)
@@ -349,20 +353,20 @@ class RigPage(QWidget):
 
     def _show_failure(self, error: Exception) -> None:
         if isinstance(error, CalibrationError):
-            self._side.setCurrentIndex(0)
+            self._show_form(True)
             self._tell(f"{error.message} {error.hint}", theme.current().bad)
         else:
             self._jobs.failed.emit(error)
 
     def _tell(self, text: str, colour: str | None = None) -> None:
         """Say in the form what is to do, or what went wrong."""
-        self.form.words.setText(text)
+        self.form.words.setText(translate_sentences(text))
         theme.set_text_colour(self.form.words, colour or theme.current().text)
 
     def _show_buttons(self) -> None:
         running, pairing = self.is_running, self.pairing
         self.pane.hold(running)
-        self.form.show_choices(pairing, bool(find_videos(self._names)))
+        self.form.show_setup(self.pane.setup, self._found.seen, bool(find_videos(self._names)))
         self.form.setEnabled(not running)
         for button in (self.add, self.open):
             button.setEnabled(not running)
@@ -371,7 +375,8 @@ class RigPage(QWidget):
         self.stop.setVisible(running)
         self.progress.setVisible(running)
         self.state.setVisible(running)
-        self.export.setVisible(self.result is not None)
+        for button in (self.export, self.set_up):
+            button.setVisible(self.result is not None and not running)
 
     def _ask_for_folder(self) -> None:
         folder = QFileDialog.getExistingDirectory(

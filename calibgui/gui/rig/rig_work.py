@@ -15,12 +15,14 @@ from calibgui.app.calibrating.settings import Settings
 from calibgui.app.photographs.board_recognition import explain_missing_board, find_any_board
 from calibgui.app.photographs.detection import Detection, find_views
 from calibgui.app.photographs.videos import DecodingProgress
-from calibgui.app.rig.calibrating import calibrate_photographs, search_cameras
+from calibgui.app.rig.boards import StatedBoard, name_boards, search_boards
+from calibgui.app.rig.calibrating import calibrate_photographs
 from calibgui.app.rig.frames import find_videos, read_frame_times, write_frames
 from calibgui.app.rig.pairing import pair_files, pair_photographs, state_times
+from calibgui.app.rig.setup import RigSetup, SearchedBoards
 from calibgui.dataset import DEFAULT_SQUARE, CornerSet, RigPairing, RigResult, relate_cameras
 from calibgui.engine.arrays import GridSize
-from calibgui.engine.boards import Board, Pattern
+from calibgui.engine.boards import Pattern
 from calibgui.engine.images import Pixels, read_colour
 from calibgui.engine.rig import rectify_pair, rectify_stereo_image
 from calibgui.gui.jobs.job import Job
@@ -55,40 +57,40 @@ def _show_progress(job: Job, what: str, _unit: str) -> Iterator[DecodingProgress
 
 
 def search_and_calibrate(
-    pairing: RigPairing,
-    known: Mapping[str, CornerSet],
-    square: float | None,
-    settings: Settings,
-    estimate_offsets: bool,
-    job: Job,
-) -> tuple[Mapping[str, CornerSet], RigResult]:
+    setup: RigSetup, found: SearchedBoards, job: Job
+) -> tuple[SearchedBoards, RigResult]:
     """Search photographs that were not searched, and calibrate the rig.
 
     Args:
-        pairing: the cameras with their photographs.
-        known: what was found in them; empty if they were not searched.
-        square: side of a square, mm; None if it is not stated.
-        settings: how each camera is calibrated alone.
-        estimate_offsets: True to estimate by how much the clock of each camera is late.
+        setup: what is stated of the rig.
+        found: what was found in photographs before.
         job: that is told of the progress, and may be stopped.
     """
-    found = known
-    if not known:
+    pairing, boards = setup.pairing, setup.boards
+    if not found.answers(setup):
         job.rename(translate("RigPage", "Searching"))
-        found = search_cameras(pairing, partial(_search, job), square)
-    found = {name: _state_square(each, square) for name, each in found.items()}
+        sets = search_boards(pairing, boards, partial(_search, job, len(boards) == 1))
+        found = SearchedBoards(boards, tuple(sets))
+    found = SearchedBoards(
+        boards,
+        tuple(
+            {name: _state_square(each, board.square) for name, each in corner_set.items()}
+            for board, corner_set in zip(boards, found.corner_sets, strict=True)
+        ),
+    )
     result = calibrate_photographs(
         pairing,
-        [_keep_paired(found, pairing)],
-        settings,
-        estimate_offsets=estimate_offsets,
+        [_keep_paired(corner_set, pairing) for corner_set in found.corner_sets],
+        Settings(robust=setup.robust),
+        estimate_offsets=setup.estimate_offsets,
         tell=lambda name: job.rename(translate("RigPage", "Calibrating {0}").format(name)),
+        boards=name_boards(boards, setup.shape),
     )
     return found, result
 
 
-def _search(job: Job, files: Sequence[str], board: Board | None) -> Detection:
-    """Search photographs of one camera, for a board that another camera may have told."""
+def _search(job: Job, is_only: bool, files: Sequence[str], board: StatedBoard) -> Detection:
+    """Search photographs of one camera for a board; the only one has to be there."""
     images = [Path(file) for file in files]
 
     def find(pattern: Pattern, grid_size: GridSize | None) -> Detection:
@@ -100,12 +102,14 @@ def _search(job: Job, files: Sequence[str], board: Board | None) -> Detection:
             pattern=pattern,
         )
 
-    if board is not None:
-        return find(board.pattern, board.grid_size)
-    detection = find_any_board(find, None)
-    error, _ = explain_missing_board(detection, None, True)
-    if error is not None:
-        raise error
+    if board.pattern is None:
+        detection = find_any_board(find, board.grid_size)
+    else:
+        detection = find(board.pattern, board.grid_size)
+    if is_only:
+        error, _ = explain_missing_board(detection, board.grid_size, board.pattern is None)
+        if error is not None:
+            raise error
     return detection
 
 

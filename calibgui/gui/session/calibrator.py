@@ -59,6 +59,11 @@ class Calibrator(QObject):
         """Return whether a calibration is under way, or waits for the search to end."""
         return self._wanted or (self._job is not None and not self._job.cancelled)
 
+    @property
+    def waiting(self) -> bool:
+        """Return whether a calibration waits for the search to end."""
+        return self._wanted
+
     def calibrate(self) -> None:
         """Search what has not been searched, and solve for a new result."""
         if not self.running:

@@ -18,7 +18,6 @@ from PySide6.QtWidgets import (
 from calibgui.app.photographs.interlacing import INTERLACED
 from calibgui.app.projects.lengths import set_square, set_square_sigma
 from calibgui.app.projects.project import (
-    GRID_LINES,
     Project,
     Unit,
     set_field,
@@ -27,20 +26,18 @@ from calibgui.app.projects.project import (
     set_pattern,
 )
 from calibgui.engine.arrays import GridSize
-from calibgui.engine.boards import AprilGrid, ListedCircles, Pattern
+from calibgui.engine.boards import ListedCircles, Pattern
 from calibgui.engine.images import Field
 from calibgui.gui.session.session import Session
 from calibgui.gui.settings.pattern_choice import PatternChoice
+from calibgui.gui.settings.size_boxes import UNKNOWN, make_size_boxes
 from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.layouts import INDENTED, make_row
 from calibgui.gui.widgets.narrow_combo import NarrowCombo
 from calibgui.gui.widgets.number_box import NumberBox
-from calibgui.gui.widgets.pattern_texts import name_points
+from calibgui.gui.widgets.pattern_texts import name_points, name_side
 from calibgui.gui.widgets.sizes import set_times_signs
 from calibgui.report.boards import describe_recognised_board
-
-_UNKNOWN = GRID_LINES.start - 1
-"""Value of a box for a number of rows or columns that is not known."""
 
 
 class BoardPanel(QWidget):
@@ -56,19 +53,10 @@ class BoardPanel(QWidget):
         self.inferred.setToolTip(
             self.tr("Take the size that most images show; turn it off to state it.")
         )
-        self.rows, self.cols = (
-            QSpinBox(minimum=_UNKNOWN, maximum=GRID_LINES[-1]) for _ in range(2)
-        )
+        self.rows, self.cols = make_size_boxes()
         self._document = session.document
         self._typing = False
         """True if the boxes show what is being typed in place of the project's board."""
-        self.rows.setAccessibleName(self.tr("rows of inner corners"))
-        self.cols.setAccessibleName(self.tr("columns of inner corners"))
-        for box in (self.rows, self.cols):
-            box.setToolTip(
-                self.tr("Corners where four squares meet: one fewer than squares each way.")
-            )
-            box.setSpecialValueText("–")
         self.square = NumberBox(decimals=3, minimum=0.001, maximum=100_000.0)
         self.square.setToolTip(
             self.tr(
@@ -181,10 +169,8 @@ class BoardPanel(QWidget):
         is_interlaced = any(INTERLACED in f"{view.note}{view.reason}" for view in project.views)
         self._form.setRowVisible(self.field, is_interlaced or project.field is not None)
         self.by_hand.setChecked(project.by_hand)
-        tags = isinstance(project.pattern, AprilGrid)
         self.counted.setText(name_points(project.pattern))
-        square = self.tr("Tag") if tags else self.tr("Square")
-        self.side.setText(self.tr("Distance") if circles else square)
+        self.side.setText(name_side(project.pattern))
         if not self._typing:
             self._show_board()
         for box, mm in ((self.square, project.square), (self.square_sigma, project.square_sigma)):
@@ -204,7 +190,7 @@ class BoardPanel(QWidget):
         project = self._session.project
         inferred = project.grid_size is None
         self.inferred.setChecked(inferred)
-        rows, cols = project.board.grid_size if project.board else (_UNKNOWN, _UNKNOWN)
+        rows, cols = project.board.grid_size if project.board else (UNKNOWN, UNKNOWN)
         for box, value in ((self.rows, rows), (self.cols, cols)):
             with QSignalBlocker(box):
                 box.setValue(value)
@@ -217,7 +203,7 @@ class BoardPanel(QWidget):
         self._typing = not self.inferred.isChecked()
         if self.inferred.isChecked():
             self._state_board(None)
-        elif _UNKNOWN in (self.rows.value(), self.cols.value()):
+        elif UNKNOWN in (self.rows.value(), self.cols.value()):
             self.rows.setFocus()
             self.rows.selectAll()
         else:
@@ -234,7 +220,7 @@ class BoardPanel(QWidget):
     def finish_typing(self) -> None:
         """State the rows and columns that were typed, once both are known."""
         stated = self.rows.value(), self.cols.value()
-        if self._typing and _UNKNOWN not in stated:
+        if self._typing and UNKNOWN not in stated:
             self._typing = False
             self._state_board(stated)
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import Signal
+from PySide6.QtCore import QCoreApplication, Signal
 from PySide6.QtWidgets import (
     QCheckBox,
     QFileDialog,
@@ -18,12 +18,49 @@ from calibgui.gui.widgets.layouts import make_row
 from calibgui.gui.widgets.narrow_combo import NarrowCombo
 from calibgui.gui.widgets.number_box import NumberBox
 
+translate = QCoreApplication.translate
 _OFFICE_PRIOR = BoardShapePrior(in_plane=0.1, out_of_plane=0.3)
 """Standard deviations of a board from an office printer that is glued to something stiff, mm."""
 
 _KNOWN = (BoardShapeModel.NOMINAL, BoardShapeModel.FREE)
 """Choices beside which it can be stated how far corners may be from where they should be."""
 _FROM_FILE = "file"
+
+
+def add_board_shapes(combo: NarrowCombo) -> None:
+    """Add the shapes that can be estimated to a choice, each with what it means."""
+    for model, text, tip in (
+        (
+            BoardShapeModel.NOMINAL,
+            translate("BoardShapeChoice", "as drawn"),
+            translate(
+                "BoardShapeChoice",
+                "Flat and printed true (nominal). Its errors become the camera's.",
+            ),
+        ),
+        (
+            BoardShapeModel.AFFINE,
+            translate("BoardShapeChoice", "stretched or askew"),
+            translate(
+                "BoardShapeChoice", "Sides of unequal scale, not quite at right angles (affine)."
+            ),
+        ),
+        (
+            BoardShapeModel.BOW,
+            translate("BoardShapeChoice", "bowed"),
+            translate("BoardShapeChoice", "Bent along rows and columns (bow)."),
+        ),
+        (
+            BoardShapeModel.FREE,
+            translate("BoardShapeChoice", "free: every corner"),
+            translate(
+                "BoardShapeChoice",
+                "Every corner is estimated in three dimensions (free). Needs 6 views, and "
+                "every corner in 4 of them, or a prior.",
+            ),
+        ),
+    ):
+        combo.add_explained(text, model, tip)
 
 
 class BoardShapeChoice(QWidget):
@@ -41,33 +78,12 @@ class BoardShapeChoice(QWidget):
         """The choice, as in `Settings.board_shape`."""
         self.model = NarrowCombo()
         self.model.setAccessibleName(self.tr("Shape of the board"))
-        for model, text, tip in (
-            (
-                BoardShapeModel.NOMINAL,
-                self.tr("as drawn"),
-                self.tr("Flat and printed true (nominal). Its errors become the camera's."),
-            ),
-            (
-                BoardShapeModel.AFFINE,
-                self.tr("stretched or askew"),
-                self.tr("Sides of unequal scale, not quite at right angles (affine)."),
-            ),
-            (BoardShapeModel.BOW, self.tr("bowed"), self.tr("Bent along rows and columns (bow).")),
-            (
-                BoardShapeModel.FREE,
-                self.tr("free: every corner"),
-                self.tr(
-                    "Every corner is estimated in three dimensions (free). Needs 6 views, and "
-                    "every corner in 4 of them, or a prior."
-                ),
-            ),
-            (
-                None,
-                self.tr("what predicts best"),
-                self.tr("Of these, the one that predicts views best that it has not seen. Slow."),
-            ),
-        ):
-            self.model.add_explained(text, model, tip)
+        add_board_shapes(self.model)
+        self.model.add_explained(
+            self.tr("what predicts best"),
+            None,
+            self.tr("Of these, the one that predicts views best that it has not seen. Slow."),
+        )
         self.model.add_explained(
             self.tr("as in a file…"), _FROM_FILE, self.tr("Hold a shape that was saved before.")
         )

@@ -113,7 +113,9 @@ class PatternChoice(QWidget):
             (self.tr("none"), False),
         )
         self.first_tag = QSpinBox(minimum=-1, maximum=9999)
-        self.first_tag.setToolTip(self.tr("The lowest number of a tag on the board: 0 on most."))
+        self.first_tag.setToolTip(
+            self.tr("The lowest number of a marker or tag on the board: 0 on most.")
+        )
         self.first_tag.setSpecialValueText(undecided)
         self.first_tag.setKeyboardTracking(False)
         self.step = QSpinBox(minimum=0, maximum=64, singleStep=2)
@@ -151,7 +153,9 @@ class PatternChoice(QWidget):
         self.form.addRow(self.tr("Tag step"), self.step)
         self.form.addRow(self.tr("Numbered"), self.order)
         self.form.addRow(self.tr("Small squares"), self.corner_squares)
-        self.form.addRow(self.tr("First tag"), self.first_tag)
+        self.first_label = QLabel()
+        self._show_first_number(self.tr("First marker"), None)
+        self.form.addRow(self.first_label, self.first_tag)
         self.form.addRow(self.tr("First corner"), self.origin)
         self._pattern: Pattern = KINDS["checkerboard"]
         self._side = 1.0
@@ -196,7 +200,7 @@ class PatternChoice(QWidget):
             (self.step, tagged),
             (self.order, grid or tagged),
             (self.corner_squares, grid),
-            (self.first_tag, grid),
+            (self.first_tag, grid or charuco),
             (self.origin, isinstance(pattern, PuzzleBoard)),
         ):
             self.form.setRowVisible(field, shown)
@@ -205,6 +209,7 @@ class PatternChoice(QWidget):
             self.dictionary.setCurrentIndex(self.dictionary.findData(pattern.dictionary))
             self.layout_used.setCurrentIndex(self.layout_used.findData(pattern.legacy))
             self.marker.show_value((pattern.marker or 0.0) * side)
+            self._show_first_number(self.tr("First marker"), pattern.first_marker)
         if isinstance(pattern, ListedCircles):
             text = self.tr("Choose a file…")
             if pattern.places is not None:
@@ -221,8 +226,7 @@ class PatternChoice(QWidget):
             self.corner_squares.setCurrentIndex(
                 self.corner_squares.findData(pattern.corner_squares)
             )
-            with QSignalBlocker(self.first_tag):
-                self.first_tag.setValue(-1 if pattern.first_tag is None else pattern.first_tag)
+            self._show_first_number(self.tr("First tag"), pattern.first_tag)
         if isinstance(pattern, TaggedCheckerboard):
             with QSignalBlocker(self.step):
                 self.step.setValue(pattern.step or 0)
@@ -230,6 +234,13 @@ class PatternChoice(QWidget):
             for line, number in zip((self.first_row, self.first_col), pattern.origin, strict=True):
                 with QSignalBlocker(line):
                     line.setValue(number)
+
+    def _show_first_number(self, label: str, number: int | None) -> None:
+        """Show the lowest number of the marks."""
+        self.first_label.setText(label)
+        self.first_tag.setAccessibleName(label)
+        with QSignalBlocker(self.first_tag):
+            self.first_tag.setValue(-1 if number is None else number)
 
     def _ask_for_layout(self) -> None:
         """Take the circles that a file of the user's choice lists."""
@@ -248,6 +259,7 @@ class PatternChoice(QWidget):
 
     def _edit(self) -> None:
         pattern = KINDS[self.kind.currentData()]
+        first = None if self.first_tag.value() < 0 else self.first_tag.value()
         try:
             if isinstance(pattern, Charuco) and isinstance(self._pattern, Charuco):
                 marker = self.marker.value() / self._side
@@ -255,7 +267,7 @@ class PatternChoice(QWidget):
                     self.dictionary.currentData(),
                     marker or None,
                     self.layout_used.currentData(),
-                    self._pattern.first_marker,
+                    first,
                 )
             if (
                 isinstance(self._pattern, Circles | ListedCircles)
@@ -270,7 +282,7 @@ class PatternChoice(QWidget):
                     self.border.currentData(),
                     self.order.currentData(),
                     self.corner_squares.currentData(),
-                    None if self.first_tag.value() < 0 else self.first_tag.value(),
+                    first,
                     self._pattern.tag_turn,
                 )
             if isinstance(pattern, TaggedCheckerboard) and pattern.kind == self._pattern.kind:

@@ -11,6 +11,8 @@ from functools import cache
 
 from PySide6.QtCore import QT_TRANSLATE_NOOP, QCoreApplication
 
+from calibgui.gui.verdict.rig_sentences import HAND_EYE, RIGS
+
 _CONTEXT = "Sentences"
 _PLACE = re.compile(r"\\{\d\\}")
 _END = re.compile(r"(?<=\.) (?=[A-Z])")
@@ -76,8 +78,10 @@ LISTED = (
         "Switch autofocus and stabilisation off, and do not touch zoom and focus.",
     ),
     QT_TRANSLATE_NOOP("Sentences", "Some views show the corners less well than the others."),
+    *HAND_EYE,
+    *RIGS,
 )
-"""The sentences, with places for numbers and names."""
+"""The sentences, with places for numbers, names, and phrases that are listed themselves."""
 
 
 def translate_sentences(text: str) -> str:
@@ -88,7 +92,9 @@ def translate_sentences(text: str) -> str:
 def _translate(sentence: str) -> str:
     for listed in map(str, LISTED):
         if (found := _compile(listed).fullmatch(sentence)) is not None:
-            return QCoreApplication.translate(_CONTEXT, listed).format(*found.groups())
+            return QCoreApplication.translate(_CONTEXT, listed).format(
+                *map(_translate, found.groups())
+            )
     return sentence
 
 

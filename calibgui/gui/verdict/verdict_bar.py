@@ -80,7 +80,7 @@ class VerdictBar(QWidget):
         self._document = session.document
         self._age = ""
         """The sentence that says that the shown result is out of date; "" if it is not."""
-        self._is_running = False
+        self._is_running = self._is_searching = False
         self.verdict: Verdict | None = None
         self._glass: Mapping[str, float] | None = None
         """The ± that would come with a board of glass, where they are worth being told.
@@ -138,10 +138,15 @@ class VerdictBar(QWidget):
         )
         self.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Fixed)
 
-    def show_running(self, running: bool) -> None:
-        """Say that a better result is on its way, or judge the one that there is."""
-        if running is not self._is_running:
-            self._is_running = running
+    def show_running(self, running: bool, searching: bool) -> None:
+        """Say that a better result is on its way, or judge the one that there is.
+
+        Args:
+            running: whether a calibration is under way.
+            searching: whether it waits for corners that are searched.
+        """
+        if (running, searching) != (self._is_running, self._is_searching):
+            self._is_running, self._is_searching = running, searching
             if self._glass is None:
                 self._judge(self._result)
 
@@ -237,6 +242,8 @@ class VerdictBar(QWidget):
     def _describe_state(self) -> str:
         """Say in capitals what goes on while there is no verdict at all."""
         if self._result is None:
+            if self._is_searching:
+                return self.tr("SEARCHING CORNERS…")
             return self.tr("CALIBRATING…") if self._is_running else self.tr("NOT CALIBRATED")
         if is_held(self._result.calibration):
             return self.tr("KNOWN CAMERA")

@@ -79,3 +79,12 @@ def name_points(pattern: Pattern) -> str:
     if isinstance(pattern, AprilGrid):
         return translate("PatternTexts", "Corners")
     return translate("PatternTexts", "Inner corners")
+
+
+def name_side(pattern: Pattern) -> str:
+    """Name the length that a board's others are measured by, in the user's language."""
+    if not pattern.has_squares:
+        return translate("PatternTexts", "Distance")
+    if isinstance(pattern, AprilGrid):
+        return translate("PatternTexts", "Tag")
+    return translate("PatternTexts", "Square")

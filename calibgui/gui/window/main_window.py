@@ -387,7 +387,7 @@ class MainWindow(QMainWindow):
 
     def _show_calibrate(self) -> None:
         running = self.calibrator.running
-        self.verdict.show_running(running)
+        self.verdict.show_running(running, self.calibrator.waiting)
         self.calibrate.setEnabled(bool(self.session.project.views) and not running)
         for button in (self.header.report, self.header.export):
             button.setEnabled(self.session.result is not None)

@@ -62,7 +62,7 @@ def test_numbers_are_those_of_the_files(tmp_path: Path) -> None:
     assert pairing.shared == (3, 16)
     assert [file.name for file in pairing.left_over] == ["right20.jpg"]
     said = describe_pairing(pairing)
-    assert "left (2 photographs), right (3 photographs)" in said
+    assert "Photographs of 2 cameras: left (2), right (3)." in said
     assert "2 instants" in said and "left3.jpg, right3.jpg" in said and "right20.jpg" in said
 
 

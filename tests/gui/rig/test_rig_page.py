@@ -81,7 +81,7 @@ def test_a_rig_is_calibrated_written_and_opened(
 ) -> None:
     assert page.matrix.rowCount() == INSTANTS
     assert "8 instants of several cameras" in page.form.words.text()
-    page.form.square.setValue(30.0)
+    page.form.boards.square.setValue(30.0)
     calibrate()
     assert page.result is not None
     assert page.result.rig.poses[1].tvec == pytest.approx(RIGHT.tvec, abs=0.5)

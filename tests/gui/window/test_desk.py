@@ -404,7 +404,7 @@ def test_a_first_calibration_is_said_to_be_on_its_way(window: MainWindow, qtbot:
     headline = window.verdict.headline
     assert headline.text() == "NOT CALIBRATED"
     window.files.open_sample()
-    qtbot.waitUntil(lambda: headline.text() == "CALIBRATING…", timeout=20_000)
+    qtbot.waitUntil(lambda: headline.text() == "SEARCHING CORNERS…", timeout=20_000)
     window.progress.cancel.click()
     qtbot.waitUntil(lambda: headline.text() == "NOT CALIBRATED", timeout=20_000)
     qtbot.waitUntil(lambda: not window.session.jobs.running, timeout=20_000)

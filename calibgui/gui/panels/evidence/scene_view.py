@@ -123,7 +123,8 @@ class SceneView(QWidget):
             polygons: boards, or cameras, in space.
             numbers: of the views.
             colours: of the views.
-            condition: a sentence on what lengths rest on; empty if they are confirmed.
+            condition: a sentence on what lengths rest on; empty if they are confirmed. Where there
+                are no polygons it says why.
         """
         self._condition, self._room_below = condition, None
         self._polygons, self._numbers, self._colours = polygons, numbers, colours
@@ -167,6 +168,9 @@ class SceneView(QWidget):
         painter.fillRect(self.rect().adjusted(0, 0, 1, 1), QColor(theme.current().base))
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
         if not self._drawn:
+            painter.setPen(QColor(theme.current().muted))
+            centred = Qt.AlignmentFlag.AlignCenter | Qt.TextFlag.TextWordWrap
+            painter.drawText(self.rect(), int(centred), self._condition)
             return
         self.axis_numbers = self._paint_axes(painter)
         # What is pointed at shows through all that stands before it.
