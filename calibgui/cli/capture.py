@@ -125,12 +125,12 @@ def _watch(
     recorder: Recorder, session: JointSession, frames: PairedFrames, console: Console
 ) -> None:
     """Look at frames to the end, and say what is new."""
-    said, absent, readouts = "", dict[int, str](), list[str]()
+    said, absent, readouts = "", list[str](), list[str]()
     for recorded in recorder.record(frames, lambda: False):
-        if frames.list_absent() != absent:
-            absent = frames.list_absent()
-            for c, problem in absent.items():
-                console.print_text(f"{session.names[c]}: {problem}")
+        if (told := recorder.describe_absent(frames)) != absent:
+            absent = told
+            for problem in absent:
+                console.print_text(problem)
         if recorded.files:
             _tell_taken(recorded, session, console)
         instruction = recorded.state.instruction

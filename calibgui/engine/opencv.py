@@ -47,12 +47,18 @@ def use_threads(count: int) -> None:
 
 
 def halve_image(image: GreyImage) -> GreyImage:
-    """Halve `image` (h, w): each pixel is the mean of a 2 x 2 block; an odd edge is dropped.
+    """Halve `image` (h, w): each pixel is the mean of a 2 x 2 block; an odd edge is dropped."""
+    return shrink_image(image, 2)
 
-    An odd size would make the blocks unequal, and corners drift by whole pixels.
+
+def shrink_image(image: GreyImage, step: int) -> GreyImage:
+    """Shrink `image` (h, w) or (h, w, 3): each pixel is the mean of a block of `step` x `step`.
+
+    What is left at the edges is dropped: a size that is no multiple of `step` would make the blocks
+    unequal, and corners drift by whole pixels.
     """
-    height, width = image.shape[0] // 2, image.shape[1] // 2
-    even = image[: 2 * height, : 2 * width]
+    height, width = image.shape[0] // step, image.shape[1] // step
+    even = image[: step * height, : step * width]
     return np.asarray(cv2.resize(even, (width, height), interpolation=cv2.INTER_AREA))
 
 
@@ -297,51 +303,65 @@ def open_stream(source: int | str, *, is_live: bool) -> Stream:
     return Stream(cv2.VideoCapture(source, cv2.CAP_FFMPEG, limits if is_live else []))
 
 
-def follow_points(before: GreyImage, after: GreyImage, uv: Array) -> tuple[Array, Array]:
+def follow_points(
+    before: GreyImage, after: GreyImage, uv: Array, spacing: float
+) -> tuple[Array, Array]:
     """Follow points (n, 2) px to the next image by optical flow, and from there back again.
+
+    Where the windows around points do not overlap in images of half the size, these are looked at:
+    they take some half of the time, and points are still followed to 0.04 px.
+
+    Args:
+        before, after: images of one size, grey (h, w) or RGB (h, w, 3).
+        uv: the points in the image before.
+        spacing: smallest distance between two points, px.
 
     Returns:
         Where they are in the image after, and where the flow leads these in the image before, both
         (n, 2) px; NaN where it leads nowhere.
     """
-    before, after = _take_8_bits(before), _take_8_bits(after)
-    forward = _follow(before, after, uv.astype(np.float32))
-    return forward.astype(np.float64), _follow(after, before, forward).astype(np.float64)
+    halvings = int(spacing >= 2 * _FLOW_WINDOW)
+    corner, part = _cut_out_reach(uv, halvings)
+    images = [_prepare_for_flow(image[part], halvings) for image in (before, after)]
+    forward = _follow(images[0], images[1], (uv - corner) / (1 << halvings))
+    back = _follow(images[1], images[0], forward)
+    return corner + (1 << halvings) * forward, corner + (1 << halvings) * back
 
 
-def _take_8_bits(image: GreyImage) -> GreyImage:
-    """Return an image of 8 bits, as the flow needs it."""
-    if image.dtype == np.uint8:
-        return image
-    scale = 1 / 257 if image.dtype == np.uint16 else 1.0
-    return np.asarray(cv2.convertScaleAbs(image, alpha=scale))
+def _prepare_for_flow(image: GreyImage, halvings: int) -> GreyImage:
+    """Return an image in grey levels of 8 bits, as the flow needs it, halved so many times.
+
+    Pixel (u, v) of the halved image lies at (2 u, 2 v).
+    """
+    grey = np.asarray(cv2.cvtColor(image, cv2.COLOR_RGB2GRAY)) if image.ndim == 3 else image
+    if grey.dtype != np.uint8:
+        scale = 1 / 257 if grey.dtype == np.uint16 else 1.0
+        grey = np.asarray(cv2.convertScaleAbs(grey, alpha=scale))
+    for _ in range(halvings):
+        grey = np.asarray(cv2.pyrDown(grey))
+    return grey
 
 
-def _follow(before: GreyImage, after: GreyImage, uv: FloatImage) -> FloatImage:
+def _follow(before: GreyImage, after: GreyImage, uv: Array) -> Array:
     if not np.isfinite(uv).any():
         return uv
-    corner, part = _cut_out_reach(before.shape, uv)
-    moved, status, _ = cv2.calcOpticalFlowPyrLK(
-        before[part], after[part], np.nan_to_num(uv - corner), None
-    )
-    moved += corner
+    start = np.nan_to_num(uv).astype(np.float32)
+    moved, status, _ = cv2.calcOpticalFlowPyrLK(before, after, start, None)
     return np.where((status.ravel() > 0)[:, None] & np.isfinite(uv), moved, np.nan)
 
 
-def _cut_out_reach(
-    shape: tuple[int, ...], uv: FloatImage
-) -> tuple[FloatImage, tuple[slice, slice]]:
-    """Cut out what the flow of points (n, 2) px reaches in an image; its pyramid is as that of all.
+def _cut_out_reach(uv: Array, halvings: int) -> tuple[Array, tuple[slice, slice]]:
+    """Cut out what the flow of points (n, 2) px reaches; its pyramid is as that of the whole image.
 
     Returns:
         The upper left corner (2,), px, and the rows and columns.
     """
-    reach = _FLOW_WINDOW << _FLOW_LEVELS
-    first = np.maximum(0, np.nanmin(uv, axis=0) - reach).astype(np.int64)
-    first -= first % (1 << _FLOW_LEVELS)
-    last = np.nanmax(uv, axis=0).astype(np.int64) + reach
-    rows, cols = (slice(int(first[k]), min(int(last[k]), shape[1 - k])) for k in (1, 0))
-    return first.astype(np.float32), (rows, cols)
+    reach = _FLOW_WINDOW << (_FLOW_LEVELS + halvings)
+    first = np.maximum(0, uv.min(axis=0) - reach).astype(np.int64)
+    first -= first % (1 << (_FLOW_LEVELS + halvings))
+    last = np.maximum(first + 1, uv.max(axis=0).astype(np.int64) + reach)
+    rows, cols = (slice(int(first[k]), int(last[k])) for k in (1, 0))
+    return first.astype(np.float64), (rows, cols)
 
 
 def measure_sharpness(image: GreyImage) -> float:
@@ -500,6 +520,7 @@ def draw_marker_cells(dictionary: str, number: int) -> BoolArray:
     return np.asarray(cv2.aruco.generateImageMarker(source, number, side)) == 0
 
 
+@cache
 def _load_dictionary(name: str) -> Any:
     known = {key.upper(): value for key, value in vars(cv2.aruco).items() if key[:5] == "DICT_"}
     return cv2.aruco.getPredefinedDictionary(known[name])

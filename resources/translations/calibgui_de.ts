@@ -1390,7 +1390,7 @@ nach der Drehung, die beide dort am nächsten zusammenbringt, wo Ecken (Punkte) 
         <translation>Radial: entlang Strahlen von der Mitte. Dezentrierung: von Linsen, die nicht fluchten.</translation>
     </message>
     <message>
-        <source>&amp;Only where corners were seen</source>
+        <source>Only &amp;where corners were seen</source>
         <translation>&amp;Nur wo Ecken gesehen wurden</translation>
     </message>
     <message>

@@ -1390,7 +1390,7 @@ tras el giro que más las acerca donde se vieron esquinas (puntos).</translation
         <translation>Radial: a lo largo de rayos desde el centro. Descentrado: de lentes no alineadas.</translation>
     </message>
     <message>
-        <source>&amp;Only where corners were seen</source>
+        <source>Only &amp;where corners were seen</source>
         <translation>&amp;Solo donde se vieron esquinas</translation>
     </message>
     <message>

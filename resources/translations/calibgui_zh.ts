@@ -1390,8 +1390,8 @@ after the rotation that brings the two closest where corners (dots) were seen.</
         <translation>径向：沿从中心出发的射线。偏心：来自未对准的镜片。</translation>
     </message>
     <message>
-        <source>&amp;Only where corners were seen</source>
-        <translation>只在见到角点之处(&amp;O)</translation>
+        <source>Only &amp;where corners were seen</source>
+        <translation>只在见到角点之处(&amp;W)</translation>
     </message>
     <message>
         <source>Beyond the corners&apos; convex hull the correction is an extrapolation.</source>

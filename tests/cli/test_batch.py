@@ -51,7 +51,7 @@ def test_the_boards_scale_may_be_uncertain(fleet: Path, tmp_path: Path) -> None:
     ledger = tmp_path / "fleet.db"
     manifest = tmp_path / "manifest.csv"
     manifest.write_text(f"id,paths,board\na,{fleet / 'c0'},6x7 30+-0.03mm\nb,{fleet / 'c0'},6x7\n")
-    options = ["--workers", "1", "--square", "30+-0.06", "--once"]
+    options = ["--workers", "1", "--square", "30+-0.06", "--once", "--model", "lucchese"]
     assert main(["batch", str(manifest), "-o", str(ledger), *options]) == 0
     with open_ledger(ledger) as kept:
         found = {camera.id: read_result(tmp_path / str(camera.result)) for camera in kept.read()}

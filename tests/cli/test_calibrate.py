@@ -511,27 +511,6 @@ def test_wrong_usage_is_said_before_any_work(wrong: list[str], capsys: Capture) 
     assert "usage: calibgui calibrate" in capsys.readouterr().err
 
 
-# --- the paper's images ---------------------------------------------------------------------------
-
-
-@pytest.mark.data
-@pytest.mark.slow
-def test_the_papers_images(bouguet: Path, tmp_path: Path) -> None:
-    """Bouguet's published camera, from nothing but his 25 photographs."""
-    file = tmp_path / "result.json"
-    images = [str(bouguet / f"Image{number}.tif") for number in range(1, 26)]
-    options = ["--as-asked", "--square", "30", "--board", "12x13", "-q", "-o", str(file)]
-    assert main(["calibrate", *images, *options]) == 0
-    record = json.loads(file.read_text())
-    assert [view["corners"] for view in record["views"]] == [156] * 25
-    assert {view["status"] for view in record["views"]} == {"found"}
-    assert record["residuals"]["sigma_x_px"] <= 0.102
-    assert record["residuals"]["sigma_y_px"] <= 0.112
-    params = record["camera"]["params"]
-    assert abs(params["fx"] - 657.30) < 1.0 and abs(params["fy"] - 657.75) < 1.0
-    assert abs(params["cx"] - 302.98) < 1.5 and abs(params["cy"] - 242.48) < 1.5
-
-
 @pytest.mark.parametrize("reader", ["opencv", "kalibr"])
 def test_a_reader_gets_the_camera_as_it_was_calibrated(
     reader: str, corners_file: Path, tmp_path: Path, capsys: Capture

@@ -33,7 +33,7 @@ POSES = [
 def film(tmp_path: Path) -> Path:
     frames = Film(CAMERA, BOARD)
     return write_film(
-        tmp_path / "film.avi", (frames.take(pose) for pose in POSES for _ in range(8))
+        tmp_path / "film.avi", (frame for pose in POSES for frame in [frames.take(pose)] * 8)
     )
 
 
@@ -70,7 +70,7 @@ def test_two_films_become_the_pictures_of_a_rig(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     beside = Pose([0.01, -0.12, 0.0], [-60.0, 1.0, 6.0])
-    walk = Walk(spread_places(BOARD, 7, np.array([30.0, 0.0, 330.0])), hold=0.32, move=0.0)
+    walk = Walk(spread_places(BOARD, 5, np.array([30.0, 0.0, 330.0])), hold=0.32, move=0.0)
     films = []
     for name, pose in (("left", Pose([0, 0, 0], [0, 0, 0])), ("right", beside)):
         camera = RenderedCamera(CAMERA, pose, BOARD, walk, seconds=walk.seconds)
@@ -82,7 +82,7 @@ def test_two_films_become_the_pictures_of_a_rig(
     assert "cam0 and cam1: 1 common view." in said
     assert f"Now: calibgui rig {folder}" in said
     names = [sorted(file.name for file in (folder / f"cam{c}").glob("*.png")) for c in (0, 1)]
-    assert 3 <= len(names[0]) <= 7
+    assert 3 <= len(names[0]) <= 5
     assert names[0] == names[1]
     rows = (folder / "times.csv").read_text().splitlines()
     assert rows[0] == "file,time_s"

@@ -23,7 +23,7 @@ from tests.scenes.fleet import write_fleet
 
 pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="reads /proc")
 
-_MOMENTS = 6
+_MOMENTS = 4
 _WITH_WORKERS = 3
 """Processes of a window that searches: its own, Python's resource tracker, and a worker."""
 _BY_THE_HANDLER, _BY_THE_SYSTEM = 143, -signal.SIGTERM
@@ -112,7 +112,6 @@ def check_fleet(out: Path) -> None:
 @pytest.mark.parametrize(
     ("command", "check"),
     [
-        ("detect {fleet}/c0 -o {out}/corners.json", check_files),
         ("calibrate {fleet}/c0 --square 30 -o {out}/result.json", check_files),
         ("batch {fleet} --square 30 --board 6x7 --workers 2 -o {out}/fleet.db", check_fleet),
     ],
@@ -152,7 +151,7 @@ def test_a_command_ends_at_any_moment(
 def test_the_window_ends_at_any_moment(fleet: Path, tmp_path: Path) -> None:
     pytest.importorskip("PySide6.QtWidgets", exc_type=ImportError)
     codes = []
-    for moment in range(4):
+    for moment in range(3):
         with start([fleet / "c0"], tmp_path, QT_QPA_PLATFORM="offscreen", DISPLAY=":0") as process:
             time.sleep(random.Random(moment).uniform(0.5, 8))
             process.terminate()

@@ -37,6 +37,7 @@ from calibgui.formats.nerfstudio_json import format_transforms
 from calibgui.formats.opencv_file import format_storage
 from calibgui.formats.openvins_yaml import format_chain
 from calibgui.formats.orb_slam_yaml import format_settings
+from calibgui.formats.origin import is_own
 from calibgui.formats.result_json import read_result
 from calibgui.formats.ros_yaml import format_camera_info
 from tests.formats.records import same
@@ -46,6 +47,7 @@ _GOLDEN = Path(__file__).parents[1] / "golden"
 
 @pytest.mark.parametrize("name", EXPORTERS)
 def test_every_exporter_writes_what_it_lists(tmp_path: Path, name: str, result: Result) -> None:
+    """What it writes is known again as a file of its kind."""
     exporter = EXPORTERS[name]
     assert exporter.name == name
     for suffix in exporter.suffixes:
@@ -53,6 +55,7 @@ def test_every_exporter_writes_what_it_lists(tmp_path: Path, name: str, result: 
         report = export(result, name, file)
         assert report.path.read_bytes().strip()
         assert report.note
+        assert [kind for kind in EXPORTERS if is_own(report.path, kind)] == [name]
         if report.largest_error_px is not None:
             assert 0 < report.largest_error_px < 1
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import gc
 import os
+import sys
 import threading
 from collections.abc import Iterator
 from pathlib import Path
@@ -33,11 +34,19 @@ def qapp_args() -> list[str]:
     return ["calibgui-test"]
 
 
-@pytest.fixture(scope="session", autouse=True)
-def imported() -> None:
-    """What is imported stays: the collection after each test need not look at it."""
+_frozen_modules = 0
+
+
+def collect_garbage() -> None:
+    """Collect what tests leave; what is imported stays, and later collections need not look at it.
+
+    A panel imports what it needs when it is first shown.
+    """
+    global _frozen_modules
     gc.collect()
-    gc.freeze()
+    if len(sys.modules) > _frozen_modules:
+        _frozen_modules = len(sys.modules)
+        gc.freeze()
 
 
 @pytest.fixture(scope="session", autouse=True)
@@ -95,7 +104,7 @@ def clean(
             widget.close()
         # Plots that are gone hang together in cycles: their end is not left to another test.
         QApplication.sendPostedEvents(None, QEvent.Type.DeferredDelete)
-        gc.collect()
+        collect_garbage()
     left = [t.name for t in set(threading.enumerate()) - threads if t.is_alive() and not t.daemon]
     assert not left, f"threads left behind: {left}"
     running = [

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections import defaultdict
 from collections.abc import Iterator
 
-import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QAction, QKeySequence
 from PySide6.QtWidgets import QAbstractButton, QApplication, QLabel, QMenu, QTabWidget, QWidget
@@ -13,7 +12,6 @@ from pytestqt.qtbot import QtBot
 
 from calibgui.gui.panels.analysis import PANELS
 from calibgui.gui.panels.evidence.residuals import ResidualsPanel
-from calibgui.gui.panels.panel import Panel
 from calibgui.gui.window.main_window import MainWindow
 
 
@@ -43,16 +41,11 @@ def test_no_letter_means_two_things_in_the_empty_window(window: MainWindow) -> N
     assert clashes(labels(window)) == {}
 
 
-@pytest.mark.parametrize("kind", PANELS, ids=lambda kind: kind.__name__)
-def test_no_letter_means_two_things_beside_a_panel(
-    full: MainWindow, qtbot: QtBot, kind: type[Panel]
-) -> None:
-    full.need_analysis().show_panel(kind)
-    assert clashes(labels(full)) == {}
-    qtbot.waitUntil(lambda: not full.session.jobs.running, timeout=60_000)
-
-
-def test_no_letter_means_two_things_beside_the_set_up_and_the_layers(full: MainWindow) -> None:
+def test_no_letter_means_two_things_in_the_full_window(full: MainWindow, qtbot: QtBot) -> None:
+    for kind in PANELS:
+        full.need_analysis().show_panel(kind)
+        assert clashes(labels(full)) == {}, kind.__name__
+        qtbot.waitUntil(lambda: not full.session.jobs.running, timeout=60_000)
     full.show_setup()
     assert clashes(labels(full)) == {}
     full.header.setup.setChecked(False)

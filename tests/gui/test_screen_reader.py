@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterator
 from pathlib import Path
 
-import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QAccessible, QAccessibleInterface, QAction
 from PySide6.QtWidgets import QAbstractButton, QAbstractScrollArea, QApplication, QComboBox, QWidget
@@ -19,7 +18,6 @@ from calibgui.gui.dialogs.manual_dialog import ManualDialog
 from calibgui.gui.dialogs.print_dialog import PrintDialog
 from calibgui.gui.dialogs.series_dialog import SeriesDialog
 from calibgui.gui.panels.analysis import PANELS
-from calibgui.gui.panels.panel import Panel
 from calibgui.gui.window.main_window import MainWindow
 from calibgui.gui.window.palette import Palette
 from calibgui.report.fleet_overview import make_overview
@@ -87,26 +85,22 @@ def test_the_empty_window(window: MainWindow) -> None:
     assert list_nameless(window) == []
 
 
-@pytest.mark.parametrize("kind", PANELS, ids=lambda kind: kind.__name__)
-def test_the_window_with_each_panel(full: MainWindow, qtbot: QtBot, kind: type[Panel]) -> None:
-    full.need_analysis().show_panel(kind)
-    qtbot.waitUntil(lambda: not full.session.jobs.running, timeout=60_000)
-    assert list_nameless(full) == []
-    assert list_nameless_stops(full) == []
-    shown = full.need_analysis().shown
-    for control in [*shown.findChildren(QAbstractButton), *shown.findChildren(QComboBox)]:
-        if control.isVisible() and not control.objectName().startswith("qt_"):
-            assert control.toolTip(), control
+def test_the_window_with_each_panel(full: MainWindow, qtbot: QtBot) -> None:
+    for kind in PANELS:
+        shown = full.need_analysis().show_panel(kind)
+        qtbot.waitUntil(lambda: not full.session.jobs.running, timeout=60_000)
+        assert list_nameless(full) == [], kind.__name__
+        assert list_nameless_stops(full) == [], kind.__name__
+        for control in [*shown.findChildren(QAbstractButton), *shown.findChildren(QComboBox)]:
+            if control.isVisible() and not control.objectName().startswith("qt_"):
+                assert control.toolTip(), control
 
 
-def test_the_bars_of_marking(full: MainWindow) -> None:
+def test_the_bars_of_marking_the_dialogs_and_the_palette(full: MainWindow, qtbot: QtBot) -> None:
     full.page.marker.roi_bar.show()
     full.page.marker.corner_bar.show()
     full.banner.show_text("?", {"&Yes": lambda: None})
     assert list_nameless(full) == []
-
-
-def test_the_dialogs(full: MainWindow, qtbot: QtBot) -> None:
     result = full.session.result
     assert result is not None
     dialogs = (
@@ -123,9 +117,7 @@ def test_the_dialogs(full: MainWindow, qtbot: QtBot) -> None:
         dialog.show()
         qtbot.waitUntil(lambda: not full.session.jobs.running, timeout=60_000)
         assert list_nameless(dialog) == [], type(dialog).__name__
-
-
-def test_the_palette(full: MainWindow) -> None:
+        dialog.close()
     find = next(a for a in full.findChildren(QAction) if a.shortcut().toString() == "Ctrl+Shift+P")
     find.trigger()
     palette = QApplication.activeModalWidget()

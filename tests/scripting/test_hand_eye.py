@@ -37,6 +37,7 @@ def test_a_calibrated_camera_is_found_in_the_hand(tmp_path: Path) -> None:
 
 @pytest.mark.slow
 @pytest.mark.data
+@pytest.mark.usefixtures("search_here")
 def test_a_rendered_robot_of_others() -> None:
     """handeye_cs_synthetic_1, whose truth is in its file."""
     folder = DATA / "handeye_cs_synthetic_1"

@@ -15,9 +15,11 @@ from calibgui.engine.errors import CalibrationError
 from calibgui.engine.images import read_image
 from calibgui.formats.corners_json import write_corners
 
+pytestmark = pytest.mark.usefixtures("search_here")  # tests/test_manual.py has workers
+
 
 @pytest.fixture(scope="module")
-def camera(photographs: Path) -> calibgui.CalibratedCamera:
+def camera(photographs: Path, search_here: None) -> calibgui.CalibratedCamera:  # noqa: ARG001
     return calibgui.calibrate(photographs, square=30)
 
 

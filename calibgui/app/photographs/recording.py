@@ -226,6 +226,11 @@ class Recorder:
             self._toggle_pictures()
             yield self._look_at(instant, frames)
 
+    def describe_absent(self, frames: PairedFrames) -> list[str]:
+        """Say what is wrong with cameras that send nothing, or images of another size."""
+        absent = frames.list_absent() | self._session.changed
+        return [f"{self._session.names[c]}: {problem}" for c, problem in absent.items()]
+
     def measure_progress(self, c: int = 0) -> CaptureProgress:
         """Measure how far a camera is known; between two instants."""
         camera = self._session.cameras[c]
@@ -261,6 +266,7 @@ class Recorder:
     def _look_at(self, instant: Instant, frames: PairedFrames) -> RecordedInstant:
         session, is_wanted = self._session, self._is_wanted
         self._is_wanted = False
+        instant = session.leave_out_changed(instant)
         state = (
             session.observe(instant, is_live=frames.is_live)
             if frames.is_continuous

@@ -19,6 +19,7 @@ from calibgui.engine import opencv
 from calibgui.engine.arrays import GreyImage
 from calibgui.engine.features.corners import Corners
 from calibgui.engine.geometry.homography import apply_homography, fit_homography
+from calibgui.engine.uncertainty.next_view import measure_spacing
 
 _MAX_RETURN_PX = 0.5
 """Distance from where it came to which the flow must lead a corner back, px: a plausibility
@@ -34,14 +35,14 @@ def track_corners(before: GreyImage, after: GreyImage, corners: Corners) -> Corn
     """Follow the corners of a board to the next frame.
 
     Args:
-        before, after: the frames (h, w), of one size.
+        before, after: the frames, of one size, grey (h, w) or RGB (h, w, 3).
         corners: the corners in the frame before.
 
     Returns:
         Those that could be followed, without covariances; None if the board was lost.
     """
-    uv, back = opencv.follow_points(before, after, corners.uv)
-    h, w = after.shape
+    uv, back = opencv.follow_points(before, after, corners.uv, measure_spacing(corners.uv))
+    h, w = after.shape[:2]
     good = np.linalg.norm(back - corners.uv, axis=1) <= _MAX_RETURN_PX
     good &= ((uv >= 0) & (uv <= [w - 1, h - 1])).all(axis=1)
     least = max(4, round(_MIN_SHARE * len(uv)))

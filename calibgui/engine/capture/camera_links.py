@@ -12,7 +12,7 @@ camera is, and comes down with the square root of the number of instants.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -26,6 +26,7 @@ from calibgui.engine.errors import CalibrationError
 from calibgui.engine.geometry.pose import Pose
 from calibgui.engine.geometry.rotations import rotation_from_vector
 from calibgui.engine.rig.calibrate_rig import calibrate_rig
+from calibgui.engine.rig.consensus import Relation
 from calibgui.engine.rig.records import RigCamera
 
 _STEP = np.cbrt(np.finfo(np.float64).eps)
@@ -45,6 +46,8 @@ class Link:
     worst: float
     """Uncertainty of the worst place at which the second sees what the first sees, px; infinite if
     it is not known."""
+    relation: Relation | None
+    """The place of the second camera beside the first; None if it is not known."""
 
     def count_missing(self, limit: float) -> int:
         """Count the instants that are missing, about, for an uncertainty of `limit` px.
@@ -60,18 +63,19 @@ class Link:
 def measure_link(
     calibrations: tuple[Calibration, Calibration],
     views: tuple[Mapping[int, Observation], Mapping[int, Observation]],
-) -> float:
-    """Measure the uncertainty of the worst place, px, at which a camera sees what another sees.
+) -> tuple[float, Relation | None]:
+    """Measure how two cameras stand to each other, and how well it is known.
 
     Args:
         calibrations: both cameras, as far as they are known.
         views: what each sees of the board, by instants that both share.
 
     Returns:
-        Infinity if a camera is not determined, or the views do not tell how they stand.
+        The uncertainty of the worst place, px, at which the second sees what the first sees, and
+        the relation; infinity and None if a camera is not determined, or the views do not tell.
     """
     if any(each.diagnosis is not None for each in calibrations):
-        return np.inf
+        return np.inf, None
     cameras = [
         RigCamera(name, each.camera, seen, model_error=each.model_error).hold()
         for name, each, seen in zip("ab", calibrations, views, strict=True)
@@ -79,12 +83,59 @@ def measure_link(
     try:
         rig = calibrate_rig(cameras)
     except CalibrationError:
-        return np.inf
+        return np.inf, None
     place = rig.layout.pose(1)
     covariance = rig.covariance[place, place]
     distances = [float(np.linalg.norm(pose.tvec)) for pose in rig.boards]
     points = _spread_points(rig.cameras[0], min(distances), max(distances))
-    return _measure_worst(rig.cameras[1], rig.poses[1], covariance, points)
+    pose = rig.poses[1]
+    relation = Relation(rotation_from_vector(np.array(pose.rvec)), np.array(pose.tvec))
+    return _measure_worst(rig.cameras[1], pose, covariance, points), relation
+
+
+def find_relations(links: Sequence[Link], first: int) -> dict[int, tuple[Relation, float]]:
+    """Find how cameras stand to one of them, along the links that are known.
+
+    Returns:
+        By the numbers of the cameras, also for the first: the relation, and the uncertainty of the
+        worst place, px, as if those of all links on the way added up as independent ones do.
+    """
+    found = {first: (Relation(np.eye(3), np.zeros(3)), 0.0)}
+    waiting = [first]
+    while waiting:
+        here = waiting.pop()
+        for link in links:
+            if link.relation is None or here not in (link.first, link.second):
+                continue
+            there = link.second if here == link.first else link.first
+            if there in found:
+                continue
+            step = link.relation if here == link.first else link.relation.invert()
+            relation, worst = found[here]
+            found[there] = step.after(relation), float(np.hypot(worst, link.worst))
+            waiting.append(there)
+    return found
+
+
+def show_board(board: Array, pose: Pose, relation: Relation, camera: Camera) -> Array | None:
+    """Return where a camera sees a board that another one sees in a pose.
+
+    Args:
+        board: (n, 2) corners on the board, mm.
+        pose: other_from_board.
+        relation: the place of the camera beside the other one.
+        camera: the camera.
+
+    Returns:
+        (n, 2) px, which may lie outside of the image; None if all do, or one has no image.
+    """
+    R = relation.R @ rotation_from_vector(np.array(pose.rvec))
+    points = board @ R[:, :2].T + relation.R @ pose.tvec + relation.T
+    uv = pixels_from_rays(points, camera)
+    is_seen = ((uv >= 0) & (uv <= np.array(camera.size) - 1)).all(axis=1).any()
+    rays = points / np.linalg.norm(points, axis=1)[:, None]
+    is_sound = np.allclose(rays_from_pixels(uv, camera), rays)  # where it folds, others are there
+    return uv if is_seen and is_sound else None
 
 
 def _spread_points(camera: Camera, near: float, far: float) -> Array:

@@ -26,7 +26,7 @@ from calibgui.engine.camera.projection import measure_axis_scale
 from calibgui.engine.geometry.pose import Pose
 from calibgui.engine.geometry.rotations import rotation_from_vector, vector_from_rotation
 
-_EASY_SHIFT = 0.05
+EASY_SHIFT = 0.05
 """Distance in the image, and difference in the board's size there, to which a hand is easily exact,
 widths of the image: a choice."""
 _EASY_TURN = np.deg2rad(12.0)
@@ -53,26 +53,31 @@ def guide_board(seen: Pose, wanted: Pose, board: Array, camera: Camera) -> Guida
         board: (n, 2) places of the corners on the board, mm.
         camera: the camera, as far as it is known.
     """
-    middle = (board.min(axis=0) + board.max(axis=0)) / 2
-    goal = project_points(board, camera, wanted)
-    size = np.linalg.norm(np.ptp(goal, axis=0))
-    corners = [project_points(xy, camera, seen) for xy in (board, 2 * middle - board)]
-    off = min(np.sqrt(np.mean(np.sum((uv - goal) ** 2, axis=1))) for uv in corners)
-    match = float(np.clip(1 - np.nan_to_num(off / size, nan=1.0), 0.0, 1.0))
-    return Guidance(match, _describe_move(seen, wanted, middle, np.ptp(board, axis=0), camera))
+    middle, size = (board.min(axis=0) + board.max(axis=0)) / 2, np.ptp(board, axis=0)
+    here, *either_way = np.split(
+        project_points(np.concatenate([[middle], board, 2 * middle - board]), camera, seen),
+        [1, 1 + len(board)],
+    )
+    there, goal = np.split(project_points(np.concatenate([[middle], board]), camera, wanted), [1])
+    off = min(np.sqrt(np.mean(np.sum((uv - goal) ** 2, axis=1))) for uv in either_way)
+    share = off / np.linalg.norm(np.ptp(goal, axis=0))
+    match = float(np.clip(1 - np.nan_to_num(share, nan=1.0), 0.0, 1.0))
+    return Guidance(match, _describe_move(seen, wanted, middle, size, (there - here)[0], camera))
 
 
-def _describe_move(seen: Pose, wanted: Pose, middle: Array, size: Array, camera: Camera) -> str:
-    """Describe what is farthest off; say to hold still if nothing is."""
-    shift = project_points(middle, camera, wanted) - project_points(middle, camera, seen)
-    u, v = shift / camera.size[0] / _EASY_SHIFT
+def _describe_move(
+    seen: Pose, wanted: Pose, middle: Array, size: Array, shift: Array, camera: Camera
+) -> str:
+    """Describe what is farthest off, with the middle by `shift` px; say to hold still if nothing
+    is."""
+    u, v = shift / camera.size[0] / EASY_SHIFT
     nearness = 1 / _measure_distance(wanted, middle) - 1 / _measure_distance(seen, middle)
     growth = nearness * np.linalg.norm(size) * measure_axis_scale(camera) / camera.size[0]
     x, y, z = _find_turn(seen, wanted) / _EASY_TURN
     moves = [
         (u, "Move it to the right.", "Move it to the left."),
         (v, "Move it down.", "Move it up."),
-        (growth / _EASY_SHIFT, "Bring it closer.", "Take it farther away."),
+        (growth / EASY_SHIFT, "Bring it closer.", "Take it farther away."),
         (x, "Tilt its lower side away.", "Tilt its upper side away."),
         (y, "Tilt its left side away.", "Tilt its right side away."),
         (z, "Turn it clockwise.", "Turn it anticlockwise."),

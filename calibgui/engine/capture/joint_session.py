@@ -19,15 +19,24 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from calibgui.engine.arrays import Array
 from calibgui.engine.calibration.result import Calibration
 from calibgui.engine.capture.board_tracking import measure_motion
-from calibgui.engine.capture.camera_links import Link, measure_link
+from calibgui.engine.capture.camera_links import (
+    Link,
+    find_relations,
+    measure_link,
+    show_board,
+)
 from calibgui.engine.capture.clock_offsets import Seen, Track, estimate_clock_offset
+from calibgui.engine.capture.frame_sources import Frame
+from calibgui.engine.capture.guidance import EASY_SHIFT
 from calibgui.engine.capture.latest_frames import Instant
 from calibgui.engine.capture.scattered_mean import ScatteredMean
 from calibgui.engine.capture.session import MIN_MATCH, CaptureSession, CaptureState, Picture
+from calibgui.engine.errors import CalibrationError
 from calibgui.engine.features.corners import Corners
-from calibgui.engine.rig.consensus import find_tree
+from calibgui.engine.rig.consensus import Relation, find_tree
 
 _TRACK_FRAMES = 100
 """Number of frames of a moving board that tell an offset in time, at most: two cameras take 0.4 s
@@ -42,6 +51,9 @@ class JointState:
     """The state of each camera; None of one that sent no frame."""
     leading: int
     """Number of the camera whose wanted view is to be followed."""
+    goals: tuple[Array | None, ...]
+    """(rows, cols, 2) px, where each camera sees the corners in that view, perhaps not all of them;
+    None of a camera that sees none, or of which it is not known well enough how it stands."""
     instruction: str
     """The one thing that the user is to do."""
 
@@ -66,12 +78,16 @@ class JointSession:
 
     def __init__(self, cameras: Sequence[CaptureSession], names: Sequence[str]) -> None:
         self.cameras, self.names = tuple(cameras), tuple(names)
+        self.changed: dict[int, str] = {}
+        """What is said of cameras whose last images had another size, by their numbers."""
         self.instants: list[Instant] = []
         """The frames that were taken together."""
         self.links: tuple[Link, ...] = ()
         """The pairs of cameras that join all of them, or are to."""
         self._offsets: dict[tuple[int, int], ScatteredMean] = {}
         self._tracks = [deque[Seen](maxlen=_TRACK_FRAMES) for _ in cameras]
+        self._found_goals: tuple[Array, tuple[Array | None, ...]] | None = None
+        """The goal of a leading camera, and where all see that view."""
         self._is_decided = False
         """True if it was decided whether to take this pose, since the board last moved."""
         self._link_cameras()
@@ -90,6 +106,26 @@ class JointSession:
         """State the uncertainty at which the capture is complete, px."""
         for camera in self.cameras:
             camera.limit = limit
+
+    def leave_out_changed(self, frames: Instant) -> Instant:
+        """Leave out the frames of cameras that changed their size; the others go on without them.
+
+        Raises:
+            CalibrationError: if the images of a single camera change their size.
+        """
+        kept: list[Frame | None] = []
+        self.changed = {}
+        for c, frame in enumerate(frames):
+            kept.append(frame)
+            try:
+                if frame is not None:
+                    self.cameras[c].check_size(frame.image)
+            except CalibrationError as error:
+                if len(frames) == 1:
+                    raise
+                self.changed[c] = f"{error.message} It counts again when they have their size."
+                kept[c] = None
+        return tuple(kept)
 
     def observe(self, frames: Instant, *, is_live: bool = True) -> JointState:
         """Look at the frames of an instant, and take them if they are worth it.
@@ -175,7 +211,28 @@ class JointSession:
         """Say one thing: to the camera that is known worst, or on the pair that is."""
         present = [c for c, state in enumerate(states) if state is not None]
         leading = min(present, key=self._rank_camera, default=0)
-        return JointState(tuple(states), leading, self._instruct(states, leading))
+        goals = self._find_goals(leading)
+        return JointState(tuple(states), leading, goals, self._instruct(states, leading))
+
+    def _find_goals(self, leading: int) -> tuple[Array | None, ...]:
+        """Find where each camera sees the view that is wanted of the leading one."""
+        goal, wanted = self.cameras[leading].goal, self.cameras[leading].wanted
+        board = self.cameras[leading].board
+        goals = [goal if c == leading else None for c in range(len(self.cameras))]
+        if goal is None or wanted is None or board is None or len(goals) == 1:
+            return tuple(goals)
+        if self._found_goals is not None and self._found_goals[0] is goal:
+            return self._found_goals[1]
+        for c, (relation, worst) in find_relations(self.links, leading).items():
+            calibration = self.cameras[c].calibration
+            if c == leading or calibration is None:
+                continue
+            camera = calibration.camera
+            if worst <= EASY_SHIFT * camera.size[0]:
+                uv = show_board(board.points(), wanted.pose, relation, camera)
+                goals[c] = None if uv is None else uv.reshape(goal.shape)
+        self._found_goals = goal, tuple(goals)
+        return tuple(goals)
 
     def _instruct(self, states: Sequence[CaptureState | None], leading: int) -> str:
         state = states[leading]
@@ -208,6 +265,7 @@ class JointSession:
 
     def _link_cameras(self) -> None:
         """Find the pairs that join the cameras, and how well each is known."""
+        self._found_goals = None
         count = len(self.cameras)
         pictures = [self.find_pictures(frames) for frames in self.instants]
         shared = np.zeros((count, count), dtype=np.int64)
@@ -218,11 +276,13 @@ class JointSession:
         joined = {0, *(second for _, second in tree)}
         tree += [(0, c) for c in range(count) if c not in joined]
         self.links = tuple(
-            Link(a, b, int(shared[a, b]), self._measure_link(a, b, pictures)) for a, b in tree
+            Link(a, b, int(shared[a, b]), *self._measure_link(a, b, pictures)) for a, b in tree
         )
 
-    def _measure_link(self, a: int, b: int, pictures: list[list[Picture | None]]) -> float:
-        """Measure how well it is known how two cameras stand to each other, px."""
+    def _measure_link(
+        self, a: int, b: int, pictures: list[list[Picture | None]]
+    ) -> tuple[float, Relation | None]:
+        """Measure how two cameras stand to each other, and how well it is known, px."""
         calibrations = self._get_calibrations(a, b)
         views = tuple(
             {
@@ -233,7 +293,7 @@ class JointSession:
             for c in (a, b)
         )
         if calibrations is None or not views[0]:
-            return np.inf
+            return np.inf, None
         return measure_link(calibrations, (views[0], views[1]))
 
     def _get_calibrations(self, a: int, b: int) -> tuple[Calibration, Calibration] | None:

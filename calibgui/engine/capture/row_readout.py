@@ -22,14 +22,12 @@ from __future__ import annotations
 import numpy as np
 
 from calibgui.engine.arrays import Array
+from calibgui.engine.calibration.observations import Observations
+from calibgui.engine.calibration.refinement.residuals import State, compute_image_residuals
 from calibgui.engine.camera.camera import Camera
-from calibgui.engine.camera.distortion import project_points
 from calibgui.engine.capture.scattered_mean import ScatteredMean
 from calibgui.engine.geometry.pose import Pose
-
-_STEP = np.cbrt(np.finfo(np.float64).eps)
-"""Step of the central differences by the pose, rad, and over the distance: with it rounding and
-curvature err alike."""
+from calibgui.engine.geometry.rotations import rotation_from_vector
 
 
 class RowReadout:
@@ -48,9 +46,12 @@ class RowReadout:
             uv: (n, 2) where they were found, px.
             motion: (n, 2) how they move in the image, px/s.
         """
-        J = _differentiate_by_pose(camera, pose, xy)
+        R = rotation_from_vector(np.array(pose.rvec))
+        state = State(camera.params, R[None], np.array(pose.tvec)[None])
+        view = Observations(uv[None], xy[None], np.ones((1, len(uv))), None)
+        found = compute_image_residuals(state, view, camera.model)
+        J, r = found.by_pose[0].reshape(-1, 6), -found.residual.ravel()
         g = (motion * (uv[:, 1:] / camera.size[1])).ravel()
-        r = (uv - project_points(xy, camera, pose)).ravel()
         if not (np.isfinite(J).all() and np.isfinite(r).all()) or len(r) <= 7:
             return
         basis = np.linalg.qr(J)[0]
@@ -75,18 +76,3 @@ class RowReadout:
             f"Rolling shutter: rows are read over {1000 * abs(time):.0f} ± {1000 * sigma:.0f} ms. "
             "Let the board stand by itself."
         )
-
-
-def _differentiate_by_pose(camera: Camera, pose: Pose, xy: Array) -> Array:
-    """Return the derivatives (2n, 6) of the corners by rvec and tvec, by central differences."""
-    rvec, tvec = np.array(pose.rvec), np.array(pose.tvec)
-    steps = np.repeat([_STEP, _STEP * np.linalg.norm(tvec)], 3)
-    columns = []
-    for k in range(6):
-        step = steps[k] * np.eye(6)[k]
-        ahead, behind = (
-            project_points(xy, camera, Pose(rvec + sign * step[:3], tvec + sign * step[3:]))
-            for sign in (1, -1)
-        )
-        columns.append((ahead - behind).ravel() / (2 * steps[k]))
-    return np.stack(columns, axis=-1)

@@ -140,13 +140,12 @@ class CaptureSession:
         """The view to take next; None before the first picture, and at the end."""
         self.goal: Array | None = None
         """(rows, cols, 2) px, where that view shows the corners; None if there is none."""
-        self._before: GreyImage | None = None
+        self._before: Frame | None = None
         self._corners: Corners | None = None
         self._pose: Pose | None = None
         """The pose of the board in the frame before, as long as it is followed."""
         self._found_at = -np.inf
         self._motions: deque[float] = deque(maxlen=_STILL_FRAMES)
-        self._before_time = -np.inf
         self._readout = RowReadout()
         self._has_judged = False
         """True if this pose was judged since the board last moved."""
@@ -188,9 +187,8 @@ class CaptureSession:
         Raises:
             CalibrationError: if its size is not that of the frames before.
         """
-        grey = check_grey_levels(frame.image)
-        self._check_size(grey)
-        self._follow(grey, frame.time)
+        self.check_size(frame.image)
+        self._follow(frame)
         if self._corners is None:
             self.is_new = False
             return self._state(_WHOLE_BOARD)
@@ -200,6 +198,7 @@ class CaptureSession:
             self._has_judged, self.is_new, self._advice = False, False, ""
             return self._state(instruction, match)
         if not self._has_judged:
+            grey = check_grey_levels(frame.image)
             self._advice = judge_exposure(grey, self._corners) if is_live else ""
             self._has_judged = not self._advice  # the light may change while the board does not
             self.is_new = self._has_judged and self._is_worth_taking(self._corners, pose, match)
@@ -237,10 +236,9 @@ class CaptureSession:
             CalibrationError: if its size is not that of those before.
         """
         self.is_new = False
-        grey = check_grey_levels(frame.image)
-        self._check_size(grey)
+        self.check_size(frame.image)
         try:
-            corners = self._find_board(grey)
+            corners = self._find_board(frame.image)
         except NoBoardError as error:
             self._advice = error.message
             return None
@@ -291,8 +289,8 @@ class CaptureSession:
         """
         if self.calibration is None:
             return np.empty((0, 3))
-        poses = self.calibration.poses
-        return np.array([-rotation_from_vector(np.array(pose.rvec))[:, 2] for pose in poses])
+        rvecs = np.array([pose.rvec for pose in self.calibration.poses])
+        return -rotation_from_vector(rvecs)[..., 2]
 
     def measure_unseen_error(self) -> float:
         """Measure the rms distance, px, of corners put aside from where they are expected.
@@ -314,8 +312,13 @@ class CaptureSession:
     ) -> CaptureState:
         return CaptureState(self._corners, self.wanted, self.goal, match, instruction, taken)
 
-    def _check_size(self, grey: GreyImage) -> None:
-        size = (grey.shape[1], grey.shape[0])
+    def check_size(self, image: GreyImage) -> None:
+        """Check the size of an image.
+
+        Raises:
+            CalibrationError: if it is not that of those before.
+        """
+        size = (image.shape[1], image.shape[0])
         self._size = self._size or size
         if size != self._size:
             raise CalibrationError(
@@ -325,24 +328,24 @@ class CaptureSession:
                 "is kept.",
             )
 
-    def _follow(self, grey: GreyImage, time: float) -> None:
+    def _follow(self, frame: Frame) -> None:
         """Follow the board to this frame, or find it."""
-        before, self._before = self._before, grey
-        seconds, self._before_time = time - self._before_time, time
+        before, self._before = self._before, frame
+        image, time = frame
         corners, motion = None, np.inf
         if self._corners is not None and before is not None:
-            corners = track_corners(before, grey, self._corners)
+            corners = track_corners(before.image, image, self._corners)
             if corners is not None:
                 motion = measure_motion(self._corners, corners)
         self._motions.append(motion)
         if corners is None or time - self._found_at >= LOOK_SECONDS:
             with suppress(NoBoardError):  # a blurred one can be followed where it cannot be found
-                found = self._find_board(grey)
+                found = self._find_board(image)
                 self._found_at = time
                 if corners is None or not measure_motion(corners, found) <= MAX_OFF_PX:
                     self._pose = None  # it may be counted from another end
-                if corners is not None and self._corners is not None:
-                    self._time_rows(found, self._corners, corners, seconds)
+                if corners is not None and self._corners is not None and before is not None:
+                    self._time_rows(found, self._corners, corners, time - before.time)
                 corners = found
         self._corners = corners
         if corners is None:
@@ -373,13 +376,13 @@ class CaptureSession:
         full = len(self._motions) == _STILL_FRAMES
         return full and max(self._motions) <= _STILL_PX
 
-    def _find_board(self, grey: GreyImage) -> Corners:
+    def _find_board(self, image: GreyImage) -> Corners:
         """Find the board, and with it those of earlier pictures if it is larger than they told.
 
         Raises:
             NoBoardError: if there is none.
         """
-        corners = self._find(grey)
+        corners = self._find(check_grey_levels(image))
         board = self._board
         if board is not None and corners.shape != board.grid_size:
             self._board = Board(*corners.shape, self._square, corners.pattern)

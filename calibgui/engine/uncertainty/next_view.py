@@ -241,7 +241,7 @@ def _list_candidates(
 ) -> tuple[_Candidates, Array]:
     """List the views that show the whole board large enough, with their corners (C, n, 2), px."""
     camera = calibration.camera
-    finest = min(_measure_spacing(view.uv) for view in views)
+    finest = min(measure_spacing(view.uv) for view in views)
     is_partial = calibration.diagnosis is not None
     # No information tells what a partial calibration assumes; tilted views determine it. Their
     # corners lie closer to each other than those of a board that was held parallel.
@@ -251,7 +251,7 @@ def _list_candidates(
     posed = posed.choose(_are_within_image(posed.project(around, camera), camera))
     corners = posed.project(board, camera)
     good = _are_within_image(corners, camera)
-    good[good] = [_measure_spacing(uv) >= finest for uv in corners[good]]
+    good[good] = [measure_spacing(uv) >= finest for uv in corners[good]]
     return posed.choose(good), corners[good]
 
 
@@ -304,7 +304,7 @@ def _is_y_down(calibration: Calibration) -> bool:
     return bool(np.sign(R[:, 2, 2]).sum() >= 0)
 
 
-def _measure_spacing(corners: Array) -> float:
+def measure_spacing(corners: Array) -> float:
     """Return the smallest distance between corners (n, 2), px."""
     return float(np.asarray(scipy.spatial.cKDTree(corners).query(corners, k=2)[0])[:, 1].min())
 

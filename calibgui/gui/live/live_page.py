@@ -80,7 +80,7 @@ class _Seen(NamedTuple):
     progress: CaptureProgress
     """The progress of the camera whose wanted view is followed."""
     absent: list[str]
-    """Sentences on cameras that send nothing."""
+    """Sentences on cameras that send nothing, or images of another size."""
 
 
 class LivePage(QWidget):
@@ -306,9 +306,7 @@ class LivePage(QWidget):
                 self._frames, self._remark = frames, frames.remark
                 for recorded in recorder.record(frames, lambda: job.stopping):
                     progress = recorder.measure_progress(recorded.state.leading)
-                    absent = frames.list_absent()
-                    told = [f"{session.names[c]}: {problem}" for c, problem in absent.items()]
-                    job.send(_Seen(recorded, progress, told))
+                    job.send(_Seen(recorded, progress, recorder.describe_absent(frames)))
 
         self.view.begin(session.names)
         self.view.show_words(self.tr("Opening…"))

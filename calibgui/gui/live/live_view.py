@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import numpy as np
-from PySide6.QtCore import QPointF, QRectF, Qt, QTimer
+from PySide6.QtCore import QPointF, QRectF, QSizeF, Qt, QTimer
 from PySide6.QtGui import QColor, QFontMetricsF, QImage, QPainter, QPaintEvent, QPen, QPolygonF
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from calibgui.engine.arrays import Array, GreyImage
 from calibgui.engine.capture import CaptureState
 from calibgui.gui.canvas.layers import choose_arm_length, draw_rings
+from calibgui.gui.live.frame_image import make_frame_image
 from calibgui.gui.widgets import theme
 
 _LETTERS = 24
@@ -35,33 +36,24 @@ class LiveView(QWidget):
         self._size = (1, 1)
         """Width and height of the camera's images, px."""
         self._state: CaptureState | None = None
-        self._shows_goal = True
+        self._goal: Array | None = None
         self._words = ""
         self._flash = QTimer(self, singleShot=True, interval=_FLASH)
         self._flash.timeout.connect(self.update)
+        self.setAttribute(Qt.WidgetAttribute.WA_OpaquePaintEvent)  # what lies below is not painted
         self.setMinimumSize(240, 180)
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Expanding)
         self.setAccessibleName(name or self.tr("Live image"))
 
     def show_image(self, image: GreyImage) -> None:
         """Show an image, grey (h, w) or RGB (h, w, 3), of 8 bits or more."""
-        height, width = image.shape[:2]
-        self._size = width, height
-        ratio = self.devicePixelRatioF()
-        step = max(1, int(max(width / (self.width() * ratio), height / (self.height() * ratio))))
-        small = image[::step, ::step]
-        if small.dtype != np.uint8:
-            small = small >> 8
-        pixels = np.ascontiguousarray(small, dtype=np.uint8)
-        kind = QImage.Format.Format_Grayscale8 if pixels.ndim == 2 else QImage.Format.Format_RGB888
-        rows, cols = pixels.shape[:2]
-        self._image = QImage(pixels.data, cols, rows, pixels.strides[0], kind).copy()
+        self._size = image.shape[1], image.shape[0]
+        self._image = make_frame_image(image, QSizeF(self.size()) * self.devicePixelRatioF())
         self.update()
 
-    def show_state(self, state: CaptureState | None, words: str, shows_goal: bool) -> None:
-        """Show where the board is, what to do and, if that is about this camera, where it is wanted
-        next."""
-        self._state, self._words, self._shows_goal = state, words, shows_goal
+    def show_state(self, state: CaptureState | None, words: str, goal: Array | None) -> None:
+        """Show where the board is, what to do, and where its corners (rows, cols, 2) are wanted."""
+        self._state, self._words, self._goal = state, words, goal
         self.setAccessibleDescription(words)
         if state is not None and state.taken is not None:
             self._flash.start()
@@ -107,8 +99,8 @@ class LiveView(QWidget):
     def _paint_marks(self, painter: QPainter, state: CaptureState) -> None:
         painter.save()
         painter.setClipRect(self._place)
-        if state.goal is not None and self._shows_goal:
-            self._paint_goal(painter, self._to_screen(state.goal))
+        if self._goal is not None:
+            self._paint_goal(painter, self._to_screen(self._goal))
         if state.corners is not None:
             uv = self._to_screen(state.corners.uv)
             draw_rings(painter, uv, theme.PATH, min(3.0, choose_arm_length(uv)))

@@ -13,7 +13,8 @@ from calibgui.gui.widgets import theme
 
 
 class LiveViews(QWidget):
-    """Shows a live image for each camera, and what to do in that of the camera that it is about."""
+    """Shows a live image for each camera, with the place where the board is wanted, and what to do
+    in that of the camera that it is about."""
 
     def __init__(self) -> None:
         super().__init__()
@@ -50,8 +51,8 @@ class LiveViews(QWidget):
     def show_state(self, state: JointState) -> None:
         """Show where the board is, where it is wanted, and what to do."""
         for k, (view, own) in enumerate(zip(self.views, state.cameras, strict=True)):
-            is_leading = k == state.leading
-            view.show_state(own, state.instruction if is_leading else "", is_leading)
+            words = state.instruction if k == state.leading else ""
+            view.show_state(own, words, state.goals[k])
         self.setAccessibleDescription(state.instruction)
 
     def show_words(self, words: str) -> None:

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from pathlib import Path
+
 import numpy as np
 from PySide6.QtCore import QPointF, QRectF, QSize, Qt
 from PySide6.QtGui import QColor, QFontMetricsF, QPainter, QPaintEvent, QPen
@@ -9,6 +12,7 @@ from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from calibgui.app.photographs.recording import CaptureProgress
 from calibgui.engine.arrays import Array, Size
+from calibgui.engine.capture import Picture
 from calibgui.engine.numbers import format_two_digits
 from calibgui.gui.widgets import theme
 
@@ -38,6 +42,8 @@ class ProgressFigure(QWidget):
         super().__init__()
         self.limit = limit
         self._progress: CaptureProgress | None = None
+        self._shown: tuple[Mapping[Path, Picture], float, float] | None = None
+        """What was last painted: the pictures, and what is known and asked for, px."""
         self._size: Size = (4, 3)
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
         self.setAccessibleName(self.tr("How far the capture has come"))
@@ -55,7 +61,10 @@ class ProgressFigure(QWidget):
 
     def show_progress(self, progress: CaptureProgress | None) -> None:
         """Show what was taken; None for nothing."""
-        self._progress = progress
+        shown = None if progress is None else (progress.pictures, progress.worst, self.limit)
+        if shown is not None and shown == self._shown:
+            return
+        self._progress, self._shown = progress, shown
         for picture in progress.pictures.values() if progress else ():
             height, width = picture.frame.image.shape[:2]
             self._size = width, height

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from pathlib import Path
 
-import numpy as np
-from PySide6.QtCore import QSize, Qt, Signal
-from PySide6.QtGui import QColor, QIcon, QImage, QPainter, QPixmap
+from PySide6.QtCore import QSize, QSizeF, Qt, Signal
+from PySide6.QtGui import QColor, QIcon, QPainter, QPixmap
 from PySide6.QtWidgets import QListView, QListWidget, QListWidgetItem, QVBoxLayout, QWidget
 
 from calibgui.engine.capture import Picture
+from calibgui.gui.live.frame_image import make_frame_image
 from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.buttons import Button
 from calibgui.gui.widgets.scrolling import make_thin
@@ -103,13 +103,7 @@ class TakenStrip(QWidget):
 
 def _draw_thumbnail(picture: Picture) -> QIcon:
     """Draw a picture small."""
-    image = picture.frame.image
-    step = max(1, image.shape[1] // (_FINEST * _THUMBNAIL.width()))
-    small = image[::step, ::step]
-    pixels = np.ascontiguousarray(small >> 8 if small.dtype != np.uint8 else small, dtype=np.uint8)
-    kind = QImage.Format.Format_Grayscale8 if pixels.ndim == 2 else QImage.Format.Format_RGB888
-    rows, cols = pixels.shape[:2]
-    found = QImage(pixels.data, cols, rows, pixels.strides[0], kind)
+    found = make_frame_image(picture.frame.image, QSizeF(_THUMBNAIL * _FINEST))
     whole = QPixmap(_THUMBNAIL * _FINEST)
     whole.fill(Qt.GlobalColor.transparent)
     fitted = QPixmap.fromImage(found).scaled(

@@ -48,7 +48,7 @@ def test_a_bowed_board_is_estimated_and_said(bowed: CornerSet) -> None:
     assert errors[1] < 0.5 * errors[0]
 
 
-@pytest.mark.parametrize("seed", range(4))
+@pytest.mark.parametrize("seed", range(2))
 def test_a_laser_print_on_foam_board_gives_a_good_camera(seed: int) -> None:
     """15 photographs of a print that is stretched by 0.2 %, uneven by 0.03 mm and bowed."""
     rng, xy = np.random.default_rng(seed), BOARD.points()

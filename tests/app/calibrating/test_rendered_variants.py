@@ -29,7 +29,7 @@ from tests.engine import scenes
 SIZE = (320, 240)
 SETTINGS = Settings(model="brown-conrady", improve=True, once=True)
 """Nothing of the lens is chosen, which takes most of the time; what does not belong is left out."""
-ASPECTS = (1.33, 1.5, 1.8, 2.0, 910 / 834, 0.5, 0.6, 0.75, 834 / 910, 1.2)
+ASPECTS = (1.33, 2.0, 0.5, 834 / 910)
 
 
 def search(folder: Path, images: Iterator[GreyImage], board: Board, stated: bool) -> Detection:
@@ -66,7 +66,7 @@ def test_pixels_that_are_not_square(seed: int, tmp_path: Path) -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("seed", range(5))
+@pytest.mark.parametrize("seed", range(3))
 def test_a_circle_of_light_on_black(seed: int, tmp_path: Path) -> None:
     rng, board = np.random.default_rng([seed, 53]), Board(8, 11, 3.0)
     f, k1 = rng.uniform(240, 300), rng.uniform(-0.4, -0.25)

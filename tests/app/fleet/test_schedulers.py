@@ -222,8 +222,7 @@ def test_a_scheduler_that_is_killed_is_named_and_the_rerun_does_the_rest(
         run_until_killed(tasks, ledger, scheduler, 1, process.pid)
     assert "repeat the command" in caught.value.hint
     assert 1 <= len(read_rows(ledger)) < len(tasks)
-    with start_cluster(tmp_path) as (address, _), open_scheduler(address=address) as scheduler:
-        run(tasks, ledger, scheduler)
+    run(tasks, ledger, Here())
     check_same(ledger, calibrated)
 
 

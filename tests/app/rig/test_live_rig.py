@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from pathlib import Path
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -14,10 +15,13 @@ from calibgui.app.rig.calibrating import calibrate_photographs, search_cameras
 from calibgui.app.rig.pairing import pair_photographs
 from calibgui.engine.boards import CHECKERBOARD, Board
 from calibgui.engine.camera.camera import Camera
-from calibgui.engine.capture import JointSession, PairedFrames
+from calibgui.engine.capture import Frame, JointSession, JointState, PairedFrames
+from calibgui.engine.capture.camera_links import show_board
 from calibgui.engine.geometry.pose import Pose
+from calibgui.engine.geometry.rotations import rotation_from_vector
+from calibgui.engine.rig.consensus import Relation
 from calibgui.formats.times_csv import read_times
-from tests.scenes.hand import RenderedCamera, Walk, spread_places
+from tests.scenes.hand import RenderedCamera, Walk, follow, spread_places
 
 CAMERAS = (
     Camera((320, 240), [300, 300, 157, 122, -0.2, 0.05, 0, 0, 0], "brown-conrady"),
@@ -31,21 +35,61 @@ LATE = 0.037
 """Time by which the second camera is late, s: nearly a frame."""
 
 
-def _capture(folder: Path, places: int, fails_at: float = np.inf) -> tuple[JointSession, Recorder]:
-    """Take pictures of a board in so many places; the second camera may fail."""
+class ChangingCamera(RenderedCamera):
+    """Sends images of twice the size in a while."""
+
+    def __init__(self, *args: Any, changed: tuple[float, float], **options: Any) -> None:
+        super().__init__(*args, **options)
+        self._changed = changed
+
+    def read(self) -> Frame | None:
+        frame = super().read()
+        if frame is None or not self._changed[0] <= frame.time < self._changed[1]:
+            return frame
+        return Frame(np.kron(frame.image, np.ones((2, 2), np.uint8)), frame.time)
+
+
+class Captured(NamedTuple):
+    """What a capture left."""
+
+    session: JointSession
+    recorder: Recorder
+    said: list[str]
+    """What was said of cameras that are absent, each once."""
+    last: JointState
+
+
+def _capture(
+    folder: Path,
+    places: int,
+    fails_at: float = np.inf,
+    changed: tuple[float, float] = (np.inf, np.inf),
+) -> Captured:
+    """Take pictures of a board in so many places; the second camera may fail, or change its size
+    from one time to another."""
     walk = Walk(spread_places(BOARD, places, np.array([30.0, 0.0, 330.0])), hold=HOLD, move=MOVE)
     sources = [
         RenderedCamera(CAMERAS[0], POSES[0], BOARD, walk, seconds=walk.seconds),
-        RenderedCamera(
-            CAMERAS[1], POSES[1], BOARD, walk, LATE, 0.013, walk.seconds, fails_at=fails_at
+        ChangingCamera(
+            CAMERAS[1],
+            POSES[1],
+            BOARD,
+            walk,
+            LATE,
+            0.013,
+            walk.seconds,
+            fails_at=fails_at,
+            changed=changed,
         ),
     ]
     session = begin_session(2, BoardFinder(CHECKERBOARD, BOARD.grid_size), BOARD.square, 0.01)
     recorder = Recorder(session, folder)
     frames = PairedFrames(sources, 1.0)
-    places_taken = set()
+    places_taken, said = set(), list[str]()
     for recorded in recorder.record(frames, lambda: False):
-        assert recorded.state.instruction
+        state = recorded.state
+        assert state.instruction
+        said += [each for each in recorder.describe_absent(frames) if each not in said]
         time = next(frame.time for frame in (c.newest for c in frames.cameras) if frame)
         place, since = divmod(time, HOLD + MOVE)
         if recorded.files:
@@ -54,11 +98,13 @@ def _capture(folder: Path, places: int, fails_at: float = np.inf) -> tuple[Joint
             recorder.ask_for_picture()
             places_taken.add(place)
     frames.close()
-    return session, recorder
+    return Captured(session, recorder, said, state)
 
 
 def test_the_pictures_become_a_rig_and_the_clocks_are_compared(tmp_path: Path) -> None:
-    session, _ = _capture(tmp_path, 9)
+    session, _, said, last = _capture(tmp_path, 6)
+    assert not said
+    _check_goals(last)
     late, sigma = session.list_offsets()[0, 1]
     assert sigma < 1e-3
     assert abs(late - LATE) < 2 * sigma
@@ -85,7 +131,8 @@ def test_the_pictures_become_a_rig_and_the_clocks_are_compared(tmp_path: Path) -
 
 
 def test_a_camera_that_dies_costs_nothing_and_ends_no_other(tmp_path: Path) -> None:
-    session, recorder = _capture(tmp_path, 4, fails_at=0.6)
+    session, recorder, said, _ = _capture(tmp_path, 3, fails_at=0.6)
+    assert said == ["cam1: a rendered camera stopped sending images. Check its cable."]
     assert len(session.cameras[1].pictures) == 1
     assert len(session.cameras[0].pictures) >= 2
     count = {c: len([*(tmp_path / f"cam{c}").glob("*.png")]) for c in (0, 1)}
@@ -94,3 +141,34 @@ def test_a_camera_that_dies_costs_nothing_and_ends_no_other(tmp_path: Path) -> N
     session.remove(session.instants[0])
     assert not session.cameras[1].pictures
     assert first not in recorder.measure_progress(0).pictures
+
+
+def test_a_camera_that_changes_its_size_is_left_out_meanwhile(tmp_path: Path) -> None:
+    began, ended = HOLD + MOVE, 2 * (HOLD + MOVE)
+    session, recorder, said, _ = _capture(tmp_path, 3, changed=(began, ended))
+    assert said == [
+        "cam1: The images changed from 320 x 240 px to 640 x 480 px. "
+        "It counts again when they have their size."
+    ]
+    frames = [each[1] for each in session.instants]
+    assert [frame is None for frame in frames] == [False, True, False]
+    files = sorted(file.name for file in (tmp_path / "cam1").glob("*.png"))
+    assert files == ["picture-001.png", "picture-003.png"]
+    assert [file.name for file in recorder.measure_progress(1).pictures] == files
+
+
+def _check_goals(state: JointState) -> None:
+    """Check that both cameras show one place where the board is wanted."""
+    lead, other = state.leading, 1 - state.leading
+    wanted, shown = state.goals[lead], state.goals[other]
+    assert wanted is not None
+    assert shown is not None
+    truth = [Relation(rotation_from_vector(np.array(p.rvec)), np.array(p.tvec)) for p in POSES]
+    uv = show_board(
+        BOARD.points(),
+        follow(wanted, CAMERAS[lead], BOARD),
+        truth[other].after(truth[lead].invert()),
+        CAMERAS[other],
+    )
+    assert uv is not None
+    assert np.abs(uv.reshape(shown.shape) - shown).max() < 2.0

@@ -43,15 +43,19 @@ def film() -> Film:
     return Film(CAMERA, BOARD)
 
 
-def test_corners_are_followed_and_lost_with_the_board(film: Film) -> None:
+@pytest.mark.parametrize("scale", [1, 3])  # of the larger one halves are followed
+def test_corners_are_followed_and_lost_with_the_board(scale: int) -> None:
+    params = np.r_[scale * CAMERA.params[:4], CAMERA.params[4:]]
+    camera = Camera((scale * CAMERA.size[0], scale * CAMERA.size[1]), params, CAMERA.model)
+    film = Film(camera, BOARD)
     near = Pose(FIRST.rvec, FIRST.tvec + np.array([3, -2, 4]))
     far = Pose(FIRST.rvec, FIRST.tvec + np.array([400, 0, 0]))
     frames = [film.take(pose).image for pose in (FIRST, near, far)]
     corners = _find(frames[0])
-    followed = track_corners(frames[0], frames[1], corners)
+    followed = track_corners(*(np.repeat(each[..., None], 3, 2) for each in frames[:2]), corners)
     assert followed is not None
     assert len(followed) == len(corners)
-    truth = project_points(BOARD.points(followed.grid), CAMERA, near)
+    truth = project_points(BOARD.points(followed.grid), camera, near)
     assert np.linalg.norm(followed.uv - truth, axis=1).max() < 0.2
     assert track_corners(frames[1], frames[2], followed) is None
 

@@ -2,12 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from pathlib import Path
 
-import pytest
 from PySide6.QtCore import QSize
-from PySide6.QtWidgets import QDialog
 from pytestqt.qtbot import QtBot
 
 from calibgui.gui.dialogs.bug_dialog import BugDialog
@@ -25,37 +22,24 @@ SMALL = QSize(870, 470)
 """What a dialog may take of a screen of 1366 x 768 px at 1.5 times the scale."""
 
 
-def make_export(window: MainWindow) -> QDialog:
-    assert window.session.result is not None
-    return ExportDialog(window.session.jobs, window.session.result, window)
-
-
-def make_hand_eye(window: MainWindow) -> QDialog:
-    assert window.session.result is not None
-    return HandEyeDialog(window.session.jobs, window.session.result, window)
-
-
-@pytest.mark.parametrize(
-    "make",
-    [
-        make_export,
-        lambda window: PrintDialog(window.session.project.board, window),
-        lambda window: SeriesDialog(window.session.jobs, window),
-        make_hand_eye,
-        lambda window: FleetDialog(Path("f.db"), make_overview([]), lambda *_: False, window),
-        lambda window: ManualDialog(window),
-        lambda window: BugDialog(ValueError("by design"), window),
-    ],
-    ids=["export", "print", "series", "hand-eye", "fleet", "manual", "bug"],
-)
-def test_no_text_is_clipped(
-    full: MainWindow, qtbot: QtBot, make: Callable[[MainWindow], QDialog]
-) -> None:
-    dialog = make(full)
-    qtbot.addWidget(dialog)
-    dialog.show()
-    qtbot.waitUntil(lambda: not full.session.jobs.running, timeout=60_000)
-    for size in (dialog.size(), dialog.size().boundedTo(SMALL)):
-        dialog.resize(size)
-        assert dialog.size() == size
-        assert list_clipped(dialog, qtbot) == []
+def test_no_text_is_clipped(full: MainWindow, qtbot: QtBot) -> None:
+    jobs, result = full.session.jobs, full.session.result
+    assert result is not None
+    dialogs = (
+        ExportDialog(jobs, result, full),
+        PrintDialog(full.session.project.board, full),
+        SeriesDialog(jobs, full),
+        HandEyeDialog(jobs, result, full),
+        FleetDialog(Path("f.db"), make_overview([]), lambda *_: False, full),
+        ManualDialog(full),
+        BugDialog(ValueError("by design"), full),
+    )
+    for dialog in dialogs:
+        qtbot.addWidget(dialog)
+        dialog.show()
+        qtbot.waitUntil(lambda: not jobs.running, timeout=60_000)
+        for size in (dialog.size(), dialog.size().boundedTo(SMALL)):
+            dialog.resize(size)
+            assert dialog.size() == size
+            assert list_clipped(dialog, qtbot) == [], type(dialog).__name__
+        dialog.close()

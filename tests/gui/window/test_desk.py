@@ -189,50 +189,43 @@ def test_every_panel_has_its_room_in_a_window_that_starts_with_photographs(
     window.close()
 
 
-@pytest.mark.parametrize(
-    ("width", "height", "least"),
-    [(1280, 720, 940), (1366, 768, 1000), (1920, 1080, 1500), (960, 1000, 960), (960, 720, 600)],
-)
 def test_the_desk_has_the_most_room_whatever_it_was_resized_from(
-    full: MainWindow, qtbot: QtBot, width: int, height: int, least: int
+    full: MainWindow, qtbot: QtBot
 ) -> None:
-    for before in SIZES:
-        resize(full, qtbot, *before)
-        resize(full, qtbot, width, height)
-        assert full.pages.width() >= max(least, 0.6 * width)
-        assert full.pages.height() >= 0.4 * height
+    for (width, height), least in zip(
+        (*SIZES, (960, 720)), (940, 1000, 1500, 960, 600), strict=True
+    ):
+        for before in SIZES:
+            resize(full, qtbot, *before)
+            resize(full, qtbot, width, height)
+            assert full.pages.width() >= max(least, 0.6 * width)
+            assert full.pages.height() >= 0.4 * height
     assert full.minimumSizeHint().width() <= 700
 
 
-@pytest.mark.parametrize(
-    ("size", "place"),
-    [
+def test_the_inspector_stands_where_there_is_room(full: MainWindow, qtbot: QtBot) -> None:
+    qtbot.waitUntil(lambda: full.verdict.verdict is not None)
+    body, inspector, header = full.body, full.inspector, full.header
+    for size, place in (
         ((1280, 720), Place.SIDE),
         ((1100, 1000), Place.SIDE),
         ((1000, 1000), Place.ROW),
         ((960, 500), Place.SIDE),
         ((600, 720), Place.SHEET),
-    ],
-)
-def test_the_inspector_stands_where_there_is_room(
-    full: MainWindow, qtbot: QtBot, size: tuple[int, int], place: Place
-) -> None:
-    resize(full, qtbot, *size)
-    qtbot.waitUntil(lambda: full.verdict.verdict is not None)
-    body, inspector, header = full.body, full.inspector, full.header
-    assert body.place is place and header.grade.isVisible() is (place is Place.SHEET)
-    assert inspector.isVisible() is (place is not Place.SHEET)
-    if place is Place.ROW:
-        assert inspector.width() == body.width()
-        assert inspector.y() >= full.images.y() + full.images.height()
-    if place is Place.SHEET:
-        assert header.grade.isVisible() and header.grade.text() == full.verdict.headline.text()
-        desk = full.pages.geometry()
-        qtbot.mouseClick(header.grade, Qt.MouseButton.LeftButton)
-        assert inspector.isVisible() and full.pages.geometry() == desk, "it lies over the desk"
-        qtbot.mouseClick(header.grade, Qt.MouseButton.LeftButton)
-        assert not inspector.isVisible()
-    assert list_clipped(full, qtbot) == []
+    ):
+        resize(full, qtbot, *size)
+        assert body.place is place and header.grade.isVisible() is (place is Place.SHEET), size
+        assert inspector.isVisible() is (place is not Place.SHEET)
+        assert list_clipped(full, qtbot) == [], size
+        if place is Place.ROW:
+            assert inspector.width() == body.width()
+            assert inspector.y() >= full.images.y() + full.images.height()
+    assert header.grade.text() == full.verdict.headline.text()
+    desk = full.pages.geometry()
+    qtbot.mouseClick(header.grade, Qt.MouseButton.LeftButton)
+    assert inspector.isVisible() and full.pages.geometry() == desk, "it lies over the desk"
+    qtbot.mouseClick(header.grade, Qt.MouseButton.LeftButton)
+    assert not inspector.isVisible()
 
 
 def test_the_desk_alone_fills_the_window_and_all_comes_back(full: MainWindow, qtbot: QtBot) -> None:

@@ -36,11 +36,10 @@ def test_the_window_opens_with_settings_of_any_kind(
     _open_window(qtbot, examples.calibrated(tmp_path))
 
 
-@pytest.mark.parametrize("content", ["[" * 5000, '{"a": 1}', "\x00" * 100, "[[1]]"])
 def test_the_window_opens_with_damaged_notes_of_recent_projects(
-    content: str, qtbot: QtBot, tmp_path: Path
+    qtbot: QtBot, tmp_path: Path
 ) -> None:
-    (find_state_folder() / "recent.json").write_text(content)
+    (find_state_folder() / "recent.json").write_text("[" * 5000)
     _open_window(qtbot, examples.calibrated(tmp_path))
 
 

@@ -54,7 +54,7 @@ class DistortionPanel(Panel):
             self.tr("Radial: along rays from the centre. Decentering: from lenses out of line.")
         )
         self.part.currentIndexChanged.connect(self._refresh_now)
-        self.masked = QCheckBox(self.tr("&Only where corners were seen"))
+        self.masked = QCheckBox(self.tr("Only &where corners were seen"))
         self.masked.setToolTip(
             self.tr("Beyond the corners' convex hull the correction is an extrapolation.")
         )
