@@ -108,7 +108,8 @@ def test_what_is_printed_and_written(folder: Path, tmp_path: Path, capsys: Captu
     assert calibrate(tmp_path, "-o", f"{out}/rig.json", *exports) == 0
     printed = capsys.readouterr().out
     before, _, after = printed.partition("cameras at")
-    assert "Without a partner: left10.png" in " ".join(before.split())
+    before = " ".join(before.split())
+    assert "Without a partner: left10.png" in before
     assert "9 instants" in before
     assert re.search(r"Left out.*(left|right)3\.png.*(left|right)7\.png", after, re.DOTALL)
     assert "by the calibration" in after and "±" in after
