@@ -60,20 +60,17 @@ def list_readings(numbers: Array) -> list[Reading]:
             + ("no quaternion has the length 1." if n == 7 else "no matrix is a rotation."),
             "Give each pose as 6, 7, 12 or 16 numbers and no others, such as times.",
         )
-    distinct: list[tuple[str, Motions]] = []
-    for words, poses in ways:
-        same = [k for k, (_, other) in enumerate(distinct) if _are_equal(poses, other)]
-        if not same:
-            distinct.append((words, poses))
+    R, t = (np.array(parts) for parts in zip(*(poses for _, poses in ways), strict=True))
+    distinct: list[int] = []
+    for k in range(len(ways)):
+        same = np.isclose(R[k], R[distinct], atol=1e-9).all(axis=(1, 2, 3))
+        if not (same & (t[k] == t[distinct]).all(axis=(1, 2))).any():
+            distinct.append(k)
     return [
-        Reading(f"{words}, {unit}", Motions(poses.R, poses.t * mm))
-        for words, poses in distinct
+        Reading(f"{ways[k][0]}, {unit}", Motions(R[k], t[k] * mm))
+        for k in distinct
         for unit, mm in MM_OF_UNITS.items()
     ]
-
-
-def _are_equal(one: Motions, other: Motions) -> bool:
-    return np.allclose(one.R, other.R, atol=1e-9) and np.array_equal(one.t, other.t)
 
 
 def _read_vectors(numbers: Array) -> Iterator[tuple[str, Motions]]:

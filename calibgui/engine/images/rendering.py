@@ -193,19 +193,20 @@ class _Scene:
         parts = (np.arange(_DIVISIONS_PER_PIXEL) + 0.5) / _DIVISIONS_PER_PIXEL - 0.5
         offsets = make_mesh(parts, parts).reshape(-1, 2)
         step = _PIXELS_PER_CHUNK // len(offsets)
-        values = np.empty((2, 2, 2, 2, len(blocks.centres)))
+        values = np.full((2, 2, 2, 2, len(blocks.centres)), self.look.background)
+        near = np.flatnonzero(self._may_see_paper(blocks))
         for row, col in np.ndindex(2, 2):
             pixel = np.array([col, row]) - 0.5
-            nowhere = np.zeros(len(blocks.centres), np.bool_)
+            nowhere = np.zeros(len(near), np.bool_)
             (levels,), (paper,), (mixed,) = self._compute_levels(
-                blocks, slice(None), pixel[None], 1.0, nowhere
+                blocks, near, pixel[None], 1.0, nowhere
             )
-            values[row, :, col] = levels
-            on_paper, which = paper == 1, np.flatnonzero(mixed)
+            values[row, :, col, :, near] = levels[:, None, None]
+            on_paper, which = paper[mixed] == 1, near[mixed]
             for i in range(0, len(which), step):
                 some, width = which[i : i + step], 1 / _DIVISIONS_PER_PIXEL
                 fine, _, _ = self._compute_levels(
-                    blocks, some, pixel + offsets, width, on_paper[some]
+                    blocks, some, pixel + offsets, width, on_paper[i : i + step]
                 )
                 halves = fine.reshape(
                     2, _DIVISIONS_PER_PIXEL // 2, 2, _DIVISIONS_PER_PIXEL // 2, -1
@@ -214,6 +215,21 @@ class _Scene:
         rows, cols = -(-len(v) // 2), -(-len(u) // 2)
         ordered = values.reshape(4, 4, rows, cols).transpose(2, 0, 3, 1)
         return ordered.reshape(4 * rows, 4 * cols)[: 2 * len(v), : 2 * len(u)]
+
+    def _may_see_paper(self, blocks: _Blocks) -> BoolArray:
+        """Return (n,) whether a block may show the paper: what surrounds it is alike everywhere.
+
+        No offset in a block is longer than 1 px along an axis, so that the terms' sizes bound how
+        far its pixels look from its centre, and twice that how wide they are.
+        """
+        paper = _make_paper(self.ink, self.look.quiet_zone)
+        x, y = blocks.coefficients[0]
+        reach_x, reach_y = 3 * np.abs(blocks.coefficients[1:]).sum(axis=0)
+        left, top, right, bottom = paper.extent
+        is_beside = (np.abs(x - (left + right) / 2) < (right - left) / 2 + reach_x) & (
+            np.abs(y - (top + bottom) / 2) < (bottom - top) / 2 + reach_y
+        )
+        return is_beside | ~blocks.smooth
 
     def _compute_levels(
         self,

@@ -204,7 +204,8 @@ def test_p3_is_held_unless_freed() -> None:
     freed = calibrate(NOISY, VGA, free=["p3"])
     assert freed.fixed == ()
     assert freed.camera.params[9] != 0.0
-    assert calibrate(NOISY, VGA, cost="paper").fixed == ()
+    # All of its steps take 9 s: p3 goes far without becoming known.
+    assert calibrate(NOISY, VGA, cost="paper", report=lambda _: False).fixed == ()
 
 
 @pytest.mark.parametrize(

@@ -10,10 +10,11 @@ pytestmark = pytest.mark.slow
 
 
 def test_random_problems_reach_the_minimum() -> None:
-    outcomes = [outcome(seed) for seed in range(1000, 1060)]
+    outcomes = [outcome(seed) for seed in range(1000, 1030)]
     missed = [(result.seed, result.words) for result in outcomes if not result.reached]
-    # Measured: 8 of 9,000, where several minima are equally good but for noise.
-    assert len(missed) <= 1, missed
+    # Measured: 8 of 9,000, where several minima are equally good but for noise. That one in 20 is
+    # missed is told as often as of 60 with one that may be missed.
+    assert not missed
 
 
 def test_a_mirrored_tilt_whose_right_one_the_wrong_camera_cannot_image_is_righted() -> None:

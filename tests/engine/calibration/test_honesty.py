@@ -1,7 +1,7 @@
 """Reported standard deviations are those that repeated solves show, for lens models with kernels.
 
 ``test_monte_carlo.py`` repeats whole calibrations; here only Stage II is repeated, from the truth,
-so that 200 draws are affordable, which know a standard deviation to 5 %. Noise alone is widened
+so that draws are affordable for all of them. Noise alone is widened
 for the views' disagreement in about one draw of twenty (``overdispersion.py``).
 """
 
@@ -20,9 +20,10 @@ from calibgui.engine.calibration.refinement.residuals import build_stage_two
 from calibgui.engine.calibration.result import Cost
 from calibgui.engine.camera.models import list_parameter_names
 from calibgui.engine.kernels import COMPILED_LENSES
+from tests.engine.honesty import check_honest
 from tests.engine.scenes import VALLEYS, example, scene
 
-DRAWS = 200
+DRAWS = 60
 NOISE = 0.2
 
 
@@ -30,7 +31,7 @@ NOISE = 0.2
 @pytest.mark.parametrize(
     ("model", "count"),
     [
-        *(("lucchese", 25), ("lucchese-pixels", 25), ("brown-conrady", 25)),
+        ("lucchese", 25),
         *((model, 10) for model in ["lucchese-pixels", *COMPILED_LENSES]),
     ],
 )
@@ -50,11 +51,8 @@ def test_repeated_solves_scatter_as_reported(model: str, count: int) -> None:
         precision = covariances.measure_precision(found.normal, names, seen.count, anything)
         widened = add_overdispersion(make_estimate(found, seen, precision), model, free)
         estimates.append(found.state.params[free])
-        reported.append(np.diag(widened.camera_covariance))
-    scatter = np.std(estimates, axis=0, ddof=1)
-    ratio = scatter / np.sqrt(np.mean(reported, axis=0))
-    assert ((ratio > 0.85) & (ratio < 1.15)).all()
-    # The nonlinearity's bias is small: the means are within 0.2 of the standard deviations.
-    assert (np.abs(np.mean(estimates, axis=0) - camera.params[free]) < 0.2 * scatter).all()
-    inside = np.abs(np.array(estimates) - camera.params[free]) < 1.96 * np.sqrt(reported)
-    assert inside.mean(axis=0) == pytest.approx(np.full(len(free), 0.95), abs=0.05)
+        reported.append(widened.camera_covariance)
+    errors = np.array(estimates) - camera.params[free]
+    check_honest(errors, np.array(reported))
+    # The nonlinearity's bias is small: of 60 draws a mean is known to 0.13 standard deviations.
+    assert (np.abs(errors.mean(axis=0)) < 0.5 * errors.std(axis=0)).all()

@@ -104,7 +104,7 @@ def test_poses_and_board_shape_follow_the_camera() -> None:
 def test_what_one_view_alone_determines_is_no_disagreement(count: int) -> None:
     """Of three views two show so few corners that only the other one determines the lens."""
     few = [0, 5, 42, 47, 20][:count]
-    for seed in range(20):
+    for seed in range(8):
         whole, *others = photographed("none", 3, seed)
         parts = [Observation(view.uv[few], view.xy[few]) for view in others]
         found = calibrate([whole, *parts], SIZE, prior=TRUE_BOARD)
@@ -133,23 +133,22 @@ def test_disagreement_that_three_views_do_not_prove_counts(monkeypatch: pytest.M
 @pytest.mark.slow
 def test_two_views_of_a_bending_board_hold_the_truth() -> None:
     inside = []
-    for seed in range(60):
+    for seed in range(36):
         try:
             found = calibrate(photographed("bending", 2, seed), SIZE)
         except DegenerateError:  # named instead
             continue
         error = np.abs(found.camera.params - CAMERA.params)[:9]
         inside.append(error < 2.5 * found.sigma[:9])
-    assert len(inside) >= 40
+    assert len(inside) >= 24
     assert np.mean(inside) >= 0.9
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("count", [10, 25])
-@pytest.mark.parametrize("board_shape", ["nominal", "free"])
+@pytest.mark.parametrize(("board_shape", "count"), [("nominal", 25), ("free", 10)])
 def test_errors_that_hang_together_are_covered(board_shape: str, count: int) -> None:
     inside, by_noise = [], []
-    for seed in range(80):
+    for seed in range(48):
         found = calibrate(
             photographed(FAULTS[seed % 4], count, seed), SIZE, board_shape=board_shape
         )
@@ -164,9 +163,9 @@ def test_errors_that_hang_together_are_covered(board_shape: str, count: int) -> 
 def test_noise_alone_is_rarely_widened() -> None:
     """The board shape is free; ``test_honesty.py`` tests the nominal one for every lens model."""
     z, widened = [], 0
-    for seed in range(150):
+    for seed in range(60):
         found = calibrate(photographed("none", 10, seed), SIZE, board_shape="free")
         z.append((found.camera.params - CAMERA.params)[:9] / found.sigma[:9])
         widened += found.overdispersion > 0
-    assert widened <= 18  # 5 % expected; 12 % is four deviations of the binomial away
-    assert np.sqrt(np.mean(np.square(z))) == pytest.approx(1.0, abs=0.1)
+    assert widened <= 9  # 5 % expected; 16 % is four deviations of the binomial away
+    assert np.sqrt(np.mean(np.square(z))) == pytest.approx(1.0, abs=0.12)

@@ -20,12 +20,12 @@ MEI = Camera(VGA, [350, 350, 310, 235, 0.8, -0.1, 0.02, 1e-3, -1e-3], "mei")
 
 POORLY_KNOWN = [
     (MEI, 0.03, 0),  # open on both sides, and named for it
-    (Camera(VGA, [300, 300, 310, 235, -0.05, 4e-3, -3e-3, 4e-4], "kannala-brandt"), 1.0, 2),
-    (Camera(VGA, [300, 300, 310, 235, -0.2, 0.55], "double-sphere"), 0.1, 2),
-    (Camera(VGA, [650, 650, 310, 235, 0.25, 0.1, -0.04, 4e-4, -7e-4, 0.0], "lucchese"), 1.0, 2),
-    (Camera(VGA, [650, 650, 310, 235, -0.25, 0.12, 3e-4, -5e-4, -0.03], "brown-conrady"), 1.0, 2),
+    (Camera(VGA, [300, 300, 310, 235, -0.05, 4e-3, -3e-3, 4e-4], "kannala-brandt"), 1.0, 1),
+    (Camera(VGA, [300, 300, 310, 235, -0.2, 0.55], "double-sphere"), 0.1, 1),
+    (Camera(VGA, [650, 650, 310, 235, 0.25, 0.1, -0.04, 4e-4, -7e-4, 0.0], "lucchese"), 1.0, 1),
+    (Camera(VGA, [650, 650, 310, 235, -0.25, 0.12, 3e-4, -5e-4, -0.03], "brown-conrady"), 1.0, 1),
 ]
-"""Lenses, the noise, px, that makes few views know them poorly, and how many of twelve calibrations
+"""Lenses, the noise, px, that makes few views know them poorly, and how many of six calibrations
 are then widened at least."""
 
 
@@ -107,7 +107,7 @@ def test_no_combination_becomes_better_known(
     camera: Camera, noise: float, least: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     widened = 0
-    for seed in range(12):
+    for seed in range(6):
         views = photograph_parts(camera, 2 + seed % 3, noise, seed)
         try:
             found = calibrate(views, VGA, model=camera.model)

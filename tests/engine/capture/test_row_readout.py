@@ -70,7 +70,7 @@ def test_a_board_at_rest_tells_nothing() -> None:
     assert found.describe() == ""
 
 
-@pytest.mark.parametrize("readout", [0.025, -0.025, 0.0])
+@pytest.mark.parametrize("readout", [0.025, 0.0])
 def test_a_rendered_film_tells_it_from_the_tracked_motion(readout: float) -> None:
     camera = Camera((320, 240), [300, 300, 157, 122, -0.2, 0.05, 0, 0, 0], "brown-conrady")
     board = Board(6, 8, 20.0)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import cache
 
 import numpy as np
 import pytest
@@ -34,7 +35,9 @@ PAIRS = {
 }  # fmt: skip
 
 
-def draw(board: Board, pose: Pose) -> np.ndarray:
+@cache
+def draw(name: str, which: int) -> np.ndarray:
+    board, pose = PAIRS[name][which], POSES[which]
     look = Appearance(background=PAPER)  # as paper, so that one board leaves room for the other
     return render_view(CAMERA, pose, board, blur=0.7, appearance=look)
 
@@ -50,7 +53,7 @@ def state(pattern: Pattern) -> Pattern:
 @pytest.mark.parametrize("name", PAIRS)
 def test_each_board_is_found_by_its_own_marks(name: str) -> None:
     boards = PAIRS[name]
-    single = [draw(board, pose) for board, pose in zip(boards, POSES, strict=True)]
+    single = [draw(name, which) for which in (0, 1)]
     both = np.minimum(*single)
     for board, pose, other in zip(boards, POSES, single[::-1], strict=True):
         pattern = state(board.pattern)
@@ -66,7 +69,7 @@ def test_each_board_is_found_by_its_own_marks(name: str) -> None:
 @pytest.mark.parametrize("name", ["ChArUco boards of one dictionary", "AprilGrids of one family"])
 def test_the_board_of_which_less_is_seen_is_found(name: str) -> None:
     boards = PAIRS[name]
-    first, second = (draw(board, pose) for board, pose in zip(boards, POSES, strict=True))
+    first, second = draw(name, 0).copy(), draw(name, 1)
     middle = project_points(boards[0].points(), CAMERA, POSES[0]).mean(axis=0)
     first[:, : int(middle[0])] = PAPER
     corners = find_corners(
@@ -78,8 +81,9 @@ def test_the_board_of_which_less_is_seen_is_found(name: str) -> None:
 
 
 def test_a_first_marker_counts_without_a_size() -> None:
-    board = PAIRS["ChArUco boards of one dictionary"][1]
-    image, pattern = draw(board, POSES[1]), state(board.pattern)
+    name = "ChArUco boards of one dictionary"
+    board = PAIRS[name][1]
+    image, pattern = draw(name, 1), state(board.pattern)
     corners = find_corners(image, pattern=pattern)
     assert corners.shape == board.grid_size
     assert corners.pattern.first_marker == 24

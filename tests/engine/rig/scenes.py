@@ -15,7 +15,8 @@ from calibgui.engine.camera.camera import Camera
 from calibgui.engine.camera.projection import pixels_from_rays, rays_from_pixels
 from calibgui.engine.geometry.pose import Pose
 from calibgui.engine.geometry.rotations import rotation_from_vector, vector_from_rotation
-from calibgui.engine.rig.records import RigCamera
+from calibgui.engine.rig.records import Rig, RigCamera
+from tests.engine.honesty import check_honest
 
 BOARD = Board(rows=7, cols=10, square=30.0)
 SIZE: Size = (1280, 960)
@@ -158,9 +159,24 @@ def measure_pose_error(found: Sequence[Pose], true: Sequence[Pose]) -> tuple[flo
     return float(max(turns)), float(max(moves))
 
 
-def check_honest(found: Array, reported: Array, draws: int) -> None:
-    """Check that reported standard deviations (draws, n) are the scatter (n) of what is found."""
-    ratio = np.median(reported, axis=0) / found.std(axis=0, ddof=1)
-    margin = 4 / np.sqrt(2 * draws)
-    assert (np.abs(ratio - 1) < margin).all(), ratio
-    assert abs(ratio.mean() - 1) < 0.1, ratio
+def check_rigs_honest(rigs: Sequence[Rig], scene: RigScene, places: Sequence[Pose] = ()) -> None:
+    """Check that the covariances of rigs drawn from a scene are those of their errors, of lenses,
+    of the cameras' poses and of the `places` of boards after the first."""
+    truth = np.zeros(rigs[0].layout.size)
+    errors = []
+    for rig in rigs:
+        layout, found = rig.layout, np.zeros(rig.layout.size)
+        for c, (camera, pose) in enumerate(zip(rig.cameras, rig.poses, strict=True)):
+            found[layout.camera(c)] = camera.params
+            found[layout.pose(c)] = *pose.rvec, *pose.tvec
+            truth[layout.camera(c)] = scene.cameras[c].camera.params
+            truth[layout.pose(c)] = *scene.poses[c].rvec, *scene.poses[c].tvec
+        for b, place in enumerate(places, 1):
+            pose = rig.placed_boards[b].pose
+            found[layout.board(b)] = *pose.rvec, *pose.tvec
+            truth[layout.board(b)] = *place.rvec, *place.tvec
+        errors.append(found - truth)
+    free = np.diag(rigs[0].covariance) > 0
+    check_honest(
+        np.array(errors)[:, free], np.array([rig.covariance[np.ix_(free, free)] for rig in rigs])
+    )

@@ -13,7 +13,7 @@ from calibgui.engine.errors import CalibrationError
 from calibgui.engine.geometry.pose import Pose
 from calibgui.engine.rig import Mistake, Rig, RigBoard, RigCamera, calibrate_rig
 from tests.engine.rig.scenes import (
-    check_honest,
+    check_rigs_honest,
     compose,
     disturb,
     measure_pose_error,
@@ -130,18 +130,11 @@ def test_offsets_in_time_are_found_with_several_boards() -> None:
 
 
 @pytest.mark.slow
-def test_standard_deviations_of_boards_are_the_scatter_of_draws() -> None:
+def test_covariances_of_boards_are_those_of_draws() -> None:
     """Of 300 draws the ratio was 0.93 to 1.05 (board) and 0.93 to 1.07 (camera)."""
-    scene, draws = make_boards_rig(3, 2), 80
-    rng = np.random.default_rng(5)
-    rigs = [calibrate_rig(scene.noisy(0.1, rng), boards=scene.boards) for _ in range(draws)]
-    poses = [rig.placed_boards[1].pose for rig in rigs]
-    found = np.array([[*pose.rvec, *pose.tvec] for pose in poses])
-    check_honest(found, np.array([rig.board_sigma(1) for rig in rigs]), draws)
-    truth = np.r_[scene.places[1].rvec, scene.places[1].tvec]
-    assert (np.abs(found.mean(axis=0) - truth) < 4 * found.std(axis=0) / np.sqrt(draws)).all()
-    found = np.array([[*rig.poses[2].rvec, *rig.poses[2].tvec] for rig in rigs])
-    check_honest(found, np.array([rig.pose_sigma(2) for rig in rigs]), draws)
+    scene, rng = make_boards_rig(3, 2), np.random.default_rng(5)
+    rigs = [calibrate_rig(scene.noisy(0.1, rng), boards=scene.boards) for _ in range(20)]
+    check_rigs_honest(rigs, scene.rig, scene.places[1:])
 
 
 def see_moved(scene: BoardsScene, moved: Pose, first: int) -> list[RigCamera]:
@@ -165,13 +158,12 @@ def see_moved(scene: BoardsScene, moved: Pose, first: int) -> list[RigCamera]:
 
 
 def test_boards_that_move_against_each_other_are_named() -> None:
-    moved, since = Pose([0.004, -0.006, 0.003], [2.0, -1.5, 1.0]), []
-    for seed in range(4):
+    moved = Pose([0.004, -0.006, 0.003], [2.0, -1.5, 1.0])
+    for seed in range(2):
         scene = make_boards_rig(2, 2, 24, seed)
         [mistake] = calibrate_rig(see_moved(scene, moved, 12), boards=scene.boards).mistakes
         assert mistake.kind is Mistake.BOARDS_MOVED
-        since.append(mistake.instants[0])
-    assert since.count(12) >= 3
+        assert abs(mistake.instants[0] - 12) <= 3
     still = calibrate_rig(see_moved(scene, moved, 24), boards=scene.boards)
     assert not still.mistakes
 

@@ -44,7 +44,7 @@ def test_covariances_are_the_scatter_of_draws(rng: np.random.Generator) -> None:
     root[1, 0] = 1.4
     covariance = root @ root.T
     draws = []
-    for _ in range(250):
+    for _ in range(80):
         camera = Camera(VGA, truth.params + root @ rng.normal(size=len(root)), truth.model)
         corners = exact + rng.normal(scale=0.3, size=XY.shape)
         board = locate_board(camera, (corners, XY), covariance)
@@ -56,10 +56,10 @@ def test_covariances_are_the_scatter_of_draws(rng: np.random.Generator) -> None:
             *((d.points, d.covariance, d.rays.rays, d.rays.covariance) for d in draws), strict=True
         )
     )
-    # The scatter of 250 draws is known to 4.5 %.
-    np.testing.assert_allclose(scatter(points, of_points), 1, atol=0.18)
-    np.testing.assert_allclose(scatter(rays, of_rays), 1, atol=0.18)
-    np.testing.assert_allclose(points.mean(axis=0), xy, atol=0.1)
+    # The scatter of 80 draws is known to 8 %.
+    np.testing.assert_allclose(scatter(points, of_points), 1, atol=0.3)
+    np.testing.assert_allclose(scatter(rays, of_rays), 1, atol=0.3)
+    np.testing.assert_allclose(points.mean(axis=0), xy, atol=0.18)
 
 
 def test_pixel_that_is_not_imaged_has_no_ray() -> None:

@@ -81,16 +81,17 @@ def test_predicts_the_scatter_of_recalibrations() -> None:
     size, rng = true.size, np.random.default_rng(5)
     exact = calibrate(true.views, size, prior=TRUE_BOARD)
     uv = np.stack(np.meshgrid(np.linspace(0, 639, 7), np.linspace(0, 479, 5)), axis=-1)
-    drawn = [true.noisy(0.3, rng) for _ in range(300)]
+    drawn = [true.noisy(0.3, rng) for _ in range(80)]
     found = [calibrate(views, size, prior=TRUE_BOARD) for views in drawn]
     for distance in DISTANCES:
         draws = [_reprojected(exact, again, uv, distance) - uv for again in found]
         predicted = [_at(*pair, uv, distance) for pair in zip(found[:5], drawn, strict=False)]
         empirical = np.einsum("nija,nijb->ijab", draws, draws) / len(draws)
         ratio = compute_worst_sigma(empirical) / compute_worst_sigma(np.mean(predicted, axis=0))
-        assert 0.93 < np.median(ratio) < 1.07
-        assert ratio.min() > 0.85
-        assert ratio.max() < 1.18
+        # Of 80 draws a standard deviation is known to 8 %.
+        assert 0.85 < np.median(ratio) < 1.15
+        assert ratio.min() > 0.7
+        assert ratio.max() < 1.35
 
 
 def _at(result: Calibration, views: list[Observation], uv: Array, distance: float) -> Array:

@@ -67,9 +67,7 @@ def _put_other_type(content: bytes, rng: np.random.Generator) -> bytes:
 
 def _nest(content: bytes, rng: np.random.Generator) -> bytes:
     depth = int(_choose(_DEPTHS, rng))
-    opening, closing = _choose(
-        ((b"[", b"]"), (b'{"a":', b"}"), (b"<a>", b"</a>"), (b"(", b")")), rng
-    )
+    opening, closing = _choose(_BRACKETS, rng)
     return _replace_value(content, opening * depth + b"1" + closing * depth, rng)
 
 
@@ -101,9 +99,7 @@ def _double_entities(content: bytes, rng: np.random.Generator) -> bytes:
 
 def _fill(content: bytes, rng: np.random.Generator) -> bytes:
     """Put a million of something where a value stands."""
-    piece = _choose(
-        (b"0", b" ", b".", b"[],", b"1,", b"-", b"\n", b'"a":1,', b"<a/>", b"%", b"'"), rng
-    )
+    piece = _choose(_FILLS, rng)
     return _replace_value(content, piece * (1_000_000 // len(piece)), rng)
 
 

@@ -10,7 +10,7 @@ import random
 import shutil
 import sqlite3
 from collections.abc import Iterator
-from contextlib import closing
+from contextlib import closing, suppress
 from dataclasses import replace
 from pathlib import Path
 
@@ -146,18 +146,21 @@ def test_text_that_is_not_unicode_costs_its_row(ledger: Path) -> None:
 
 @pytest.mark.slow
 def test_no_value_in_any_column_ends_in_a_traceback(ledger: Path, tmp_path: Path) -> None:
-    page = ["-o", str(tmp_path / "fleet.html")]
+    """Each value stands in a row of its own."""
+    named = [replace(CAMERA, entry=FleetEntry(f"bad {k}", "S")) for k in range(len(BAD_VALUES))]
+    with open_ledger(ledger, create=True) as opened:
+        opened.write(named)
     copy = tmp_path / "copy.db"
     for column in COLUMNS:
-        for value in BAD_VALUES:
-            shutil.copy(ledger, copy)
-            try:
-                alter(copy, f"UPDATE cameras SET {column} = ? WHERE id = 'c1'", value)
-            except sqlite3.IntegrityError:  # NULL where there may be none
-                continue
-            assert main(["fleet", str(copy), *page]) == 0, (column, value)
-            rows = read(copy)
-            assert all(other in rows for other in OTHERS), (column, value)
+        shutil.copy(ledger, copy)
+        for camera, value in zip(named, BAD_VALUES, strict=True):
+            # NULL where there may be none is left out.
+            with suppress(sqlite3.IntegrityError):
+                alter(copy, f"UPDATE cameras SET {column} = ? WHERE id = ?", value, camera.id)
+        assert main(["fleet", str(copy), "-o", str(tmp_path / "fleet.html")]) == 0, column
+        rows = read(copy)
+        assert len(rows) == len(OTHERS) + 1 + len(named)
+        assert all(other in rows for other in OTHERS), column
 
 
 def list_damages(count: int, size: int) -> Iterator[tuple[int, list[tuple[int, int]], int]]:
@@ -189,14 +192,17 @@ def test_damaged_pages_end_in_a_message(tmp_path: Path, capsys: Capture) -> None
             damaged[place] = value
         file = tmp_path / f"damaged{seed}.db"
         file.write_bytes(damaged[:size])
-        code = main(["fleet", str(file), "-o", str(tmp_path / f"{seed}.html")])
-        said = capsys.readouterr().err
-        assert code in (0, 1), (seed, said)
-        if code:
-            assert str(file) in said, seed
-            assert said.count("\n") <= 8, "a message and no traceback"
-        with pytest.raises(CalibrationError) if code else pytest.MonkeyPatch.context():
+        said = ""
+        try:
             read(file)
-        ended.append(code)
+        except CalibrationError as error:
+            said = error.message
+            assert str(file) in said, seed
+        if seed < 12:  # the command takes a hundred times as long as to read
+            code = main(["fleet", str(file), "-o", str(tmp_path / f"{seed}.html")])
+            assert code == bool(said), seed
+            printed = capsys.readouterr().err
+            assert not code or (str(file) in printed and printed.count("\n") <= 8), seed
+        ended.append(bool(said))
         file.unlink()
     assert 0 < sum(ended) < len(ended), "some damages are found, and some are in unused pages"

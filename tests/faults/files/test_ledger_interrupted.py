@@ -65,9 +65,10 @@ def count_rows(path: Path) -> int:
 def test_a_writer_that_is_killed_leaves_a_ledger_that_goes_on(tmp_path: Path) -> None:
     """One ledger, and 20 writers that are killed one after another at random moments."""
     path = tmp_path / "fleet.db"
-    count = 0
+    count, processes = 0, multiprocessing.get_context("forkserver")
+    processes.set_forkserver_preload([__name__])  # imported once, and not by every writer
     for seed in range(_KILLS):
-        writer = multiprocessing.get_context("spawn").Process(target=write_on, args=(path, count))
+        writer = processes.Process(target=write_on, args=(path, count))
         writer.start()
         assert writer.pid is not None
         while not path.exists() or (count_rows(path) == count and writer.is_alive()):

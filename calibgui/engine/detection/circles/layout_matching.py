@@ -117,27 +117,21 @@ def _list_seeds(
     least = CIRCLE_THRESHOLDS.min_seed_sine
     first, second = (each.ravel() for each in np.indices((len(ways), len(ways))))
     sines = _cross(ways[first], ways[second]) / _norms(ways[first]) / _norms(ways[second])
-    found: list[tuple[float, _Seed]] = []
-    for kind in kinds.tolist():
-        own = offsets[kind]
-        turn = _cross(own[:1], own) / _norms(own[:1]) / _norms(own)
-        if not (abs(turn) > least).any():
-            continue
-        other = int(np.argmax(abs(turn) > least))
-        chosen = sines * np.sign(turn[other]) > least
-        pairs = np.stack([ways[first[chosen]], ways[second[chosen]]], axis=2)
-        A = pairs @ np.linalg.inv(own[[0, other]].T)
-        expected = points[point] + own @ A.transpose(0, 2, 1)
-        off = np.asarray(tree.query(expected)[0])
-        step = np.linalg.svd(A, compute_uv=False)[:, -1:]
-        are_met = (off < CIRCLE_THRESHOLDS.max_prediction_error * step).all(axis=1)
-        found += [
-            (float(np.linalg.norm(A[k])), _Seed(kind, point, A[k]))
-            for k in np.flatnonzero(are_met).tolist()
-        ]
-    found.sort(key=lambda each: each[0])
-    for _, seed in found:
-        yield seed
+    own = offsets[kinds]
+    turns = _cross(own[:, :1], own) / _norms(own[:, :1]) / _norms(own)
+    others = np.argmax(abs(turns) > least, axis=1)
+    turn = turns[np.arange(len(own)), others][:, None]
+    kind, pair = np.nonzero((abs(turn) > least) & (sines * np.sign(turn) > least))
+    sides = np.stack([own[kind, 0], own[kind, others[kind]]], axis=2)
+    A = np.stack([ways[first[pair]], ways[second[pair]]], axis=2) @ np.linalg.inv(sides)
+    expected = points[point] + own[kind] @ A.transpose(0, 2, 1)
+    limit = CIRCLE_THRESHOLDS.max_prediction_error * np.linalg.svd(A, compute_uv=False)[:, -1:]
+    reach = float(limit.max(initial=0.0))
+    off = np.asarray(tree.query(expected, distance_upper_bound=reach)[0])
+    are_met = np.flatnonzero((off < limit).all(axis=1))
+    order = np.argsort(np.linalg.norm(A[are_met], axis=(1, 2)), kind="stable")
+    for k in are_met[order].tolist():
+        yield _Seed(int(kinds[kind[k]]), point, A[k])
 
 
 def _grow_shifted(
@@ -217,11 +211,11 @@ def _take_nearest(tried: IntArray, at: Array, J: Array, tree: scipy.spatial.cKDT
 
 
 def _cross(a: Array, b: Array) -> Array:
-    return np.asarray(a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0])
+    return np.asarray(a[..., 0] * b[..., 1] - a[..., 1] * b[..., 0])
 
 
 def _norms(a: Array) -> Array:
-    return np.asarray(np.linalg.norm(a, axis=1))
+    return np.asarray(np.linalg.norm(a, axis=-1))
 
 
 def _sort_rows(offsets: Array) -> Array:

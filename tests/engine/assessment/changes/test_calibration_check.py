@@ -172,7 +172,7 @@ def _simulate(camera: Camera, count: int, views: int, **made: float) -> list[Cal
 
 def test_the_standard_deviations_hold_and_nothing_is_a_false_alarm() -> None:
     # The stored calibration is one, so that its own error is alike in all checks: without it.
-    found = [check_calibration(LENS, views_of(LENS, 2, 100 + seed)) for seed in range(60)]
+    found = [check_calibration(LENS, views_of(LENS, 2, 100 + seed)) for seed in range(40)]
     scores: Array = np.array([[*(f.shift / f.shift_sigma), f.scale / f.scale_sigma] for f in found])
     np.testing.assert_allclose(np.sqrt(np.mean(scores**2, axis=0)), 1, atol=0.3)
     assert np.abs(scores.mean(axis=0)).max() < 0.4
@@ -188,9 +188,8 @@ def test_views_that_disagree_widen_the_standard_deviation() -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("camera", [LENS, WIDE], ids=["lucchese", "kannala-brandt"])
-@pytest.mark.parametrize("bow", [0.0, 1.0])
+@pytest.mark.parametrize(("camera", "bow"), [(LENS, 1.0), (WIDE, 0.0)])
 def test_false_alarms_are_rare(camera: Camera, bow: float) -> None:
-    found = [f for n in (1, 2, 4) for f in _simulate(camera, 40, n, bow=bow)]
+    found = [f for n in (1, 2, 4) for f in _simulate(camera, 12, n, bow=bow)]
     alarms = sum(f.verdict is CheckVerdict.HAS_CHANGED for f in found)
-    assert alarms <= 0.01 * len(found)
+    assert not alarms  # of 36: one in 15 is told with 92 %

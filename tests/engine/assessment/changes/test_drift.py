@@ -52,7 +52,7 @@ def photographed_twice(change: Array | float, seed: int, distance: float = np.in
     return measure_drift(known(a), known(b), distance=distance, views=covered)
 
 
-@pytest.mark.parametrize(("distance", "count"), [(np.inf, 40), (600.0, 8)])
+@pytest.mark.parametrize(("distance", "count"), [(np.inf, 24), (600.0, 8)])
 def test_an_unchanged_camera_is_seldom_said_to_have_changed(distance: float, count: int) -> None:
     drifts = [photographed_twice(0.0, seed, distance) for seed in range(count)]
     assert sum(drift.has_changed for drift in drifts) <= count / 8
@@ -63,8 +63,8 @@ def test_an_unchanged_camera_is_seldom_said_to_have_changed(distance: float, cou
 def test_a_drift_of_a_third_of_a_pixel_is_found() -> None:
     scale = np.zeros(10)
     scale[:2] = 0.3 / 250  # 0.3 px at 250 px from the centre
-    drifts = [photographed_twice(scale, 1000 + seed) for seed in range(20)]
-    assert sum(drift.has_changed for drift in drifts) >= 19
+    drifts = [photographed_twice(scale, 1000 + seed) for seed in range(10)]
+    assert sum(drift.has_changed for drift in drifts) >= 9
     assert np.median([drift.difference.rms for drift in drifts]) == pytest.approx(0.3, abs=0.08)
 
 

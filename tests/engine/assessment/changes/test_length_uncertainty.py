@@ -39,7 +39,7 @@ def test_the_errors_of_drawn_calibrations_are_as_large_as_is_said() -> None:
     across = pixels_from_rays(centre[:, None] + steps, made.camera)
     down = pixels_from_rays(centre[:, None] + steps[:, [1, 0, 2]], made.camera)
     by_camera, whole, stated = [], [], []
-    for _ in range(200):
+    for _ in range(60):
         views = made.noisy(NOISE, rng)
         found = calibrate(views, VGA, fix=["k3"], prior=TRUE_BOARD)
         R = rotation_from_vector(compare_cameras(made.camera, found.camera, views=views).turn)
@@ -50,8 +50,9 @@ def test_the_errors_of_drawn_calibrations_are_as_large_as_is_said() -> None:
         said = estimate_length_uncertainty(found, views, LENGTH, DEPTH, uv)
         stated.append([said.by_calibration, said.sigma])
     said_camera, said_whole = np.mean(stated, axis=0)
-    np.testing.assert_allclose(np.std(whole, axis=0).max(axis=0), said_whole, rtol=0.15)
-    assert 0.8 < np.median(np.std(by_camera, axis=0).max(axis=0) / said_camera) < 1.25
+    # Of 60 draws a standard deviation is known to 9 %.
+    np.testing.assert_allclose(np.std(whole, axis=0).max(axis=0), said_whole, rtol=0.3)
+    assert 0.75 < np.median(np.std(by_camera, axis=0).max(axis=0) / said_camera) < 1.35
 
 
 def test_noise_alone_is_what_the_scale_of_the_image_makes_of_it() -> None:

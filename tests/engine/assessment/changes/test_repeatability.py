@@ -32,9 +32,9 @@ def draw_frames(
 
 @pytest.mark.parametrize("motion", [0.0, 0.05])
 def test_the_noise_is_what_was_drawn_whether_or_not_frames_move(motion: float) -> None:
-    found = [measure_repeatability(draw_frames(20, motion, seed=seed)) for seed in range(20)]
+    found = [measure_repeatability(draw_frames(20, motion, seed=seed)) for seed in range(12)]
     z = [(each.rms - NOISE) / each.rms_sigma for each in found]
-    assert abs(np.mean(z)) < 0.7 and 0.6 < np.std(z) < 1.4
+    assert abs(np.mean(z)) < 0.9 and 0.5 < np.std(z) < 1.6
     assert found[0].stated == pytest.approx(NOISE)
     assert np.sqrt(np.mean(found[0].sigma ** 2)) == pytest.approx(found[0].rms)
     if motion:

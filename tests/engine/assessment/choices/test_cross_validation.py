@@ -68,7 +68,7 @@ def test_folds_must_hold_views(folds: int) -> None:
 
 @pytest.mark.slow
 def test_bootstrap_confirms_the_sigma_of_good_data() -> None:
-    found = bootstrap_views(_views(25), SIZE, draws=150)
+    found = bootstrap_views(_views(25), SIZE, draws=80)
     assert found.failed == 0
     assert np.isnan(found.ratio[9])  # p3 is held
     assert 0.8 < np.median(found.ratio[:9]) < 1.2
@@ -82,7 +82,7 @@ def test_bootstrap_confirms_what_the_views_disagreement_says() -> None:
         Observation(view.uv + 0.4 * rng.normal(size=2) * np.sin(view.xy / 60), view.xy)
         for view in _views(25)
     ]
-    found = bootstrap_views(views, SIZE, draws=60, prior=TRUE_BOARD)
+    found = bootstrap_views(views, SIZE, draws=40, prior=TRUE_BOARD)
     reported = calibrate(views, SIZE, prior=TRUE_BOARD)
     assert 0.7 < np.median(found.ratio[:9]) < 1.3
     assert np.median(found.sigma[:9] / reported.sigma_by_noise[:9]) > 1.3

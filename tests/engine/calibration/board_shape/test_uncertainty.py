@@ -91,12 +91,13 @@ def errors(kind: str, rms: float, count: int, draws: int) -> Array:
     ],
 )
 def test_any_board_is_covered(kind: str, rms: float, count: int) -> None:
-    z = errors(kind, rms, count, 80)
-    # Binomial scatter of 80 draws at 95 and 68 %: 3 standard deviations down is 88 and 53 %.
-    assert (z < 2).mean() >= 0.95
-    assert (z < 2).mean(axis=0).min() >= 0.88
-    assert (z < 1).mean() >= 0.65
-    assert (z < 1).mean(axis=0).min() >= 0.53
+    z = errors(kind, rms, count, 30)
+    # Binomial scatter of 30 draws at 95 and 68 %: 3 standard deviations down is 83 and 42 %. Of
+    # standard deviations that are a quarter too small 55 % would be within one.
+    assert (z < 2).mean() >= 0.94
+    assert (z < 2).mean(axis=0).min() >= 0.83
+    assert (z < 1).mean() >= 0.62
+    assert (z < 1).mean(axis=0).min() >= 0.42
 
 
 def test_a_shift_that_is_known_weighs_as_much_as_one_sigma_asks_for() -> None:
@@ -109,7 +110,7 @@ def test_a_shift_that_is_known_weighs_as_much_as_one_sigma_asks_for() -> None:
 
 @pytest.mark.slow
 def test_a_true_board_costs_little_where_the_views_show_it() -> None:
-    for seed in range(10):
+    for seed in range(4):
         result = calibrate(photographed(0 * deviation(), 25, 0.05, seed), SIZE)
         assert result.board_shape_error == 0
         assert (result.sigma[:2] < 2 * result.sigma_by_noise[:2]).all()
@@ -269,7 +270,7 @@ def test_subsets_of_the_papers_photographs_hold_the_value_from_all(
     views, size = stored(data_dir / file)
     truth = calibrate(views, size, board_shape="free").camera.params[:4]
     rng, z = np.random.default_rng(count), []
-    for _ in range(40):
+    for _ in range(20):
         chosen = rng.choice(len(views), count, replace=False)
         found = calibrate([views[k] for k in sorted(chosen)], size)
         z.append(np.abs(found.camera.params[:4] - truth) / found.sigma[:4])

@@ -351,8 +351,7 @@ def _show_marked(
     return Scene(Board(*grid_size, 26.0, pattern), _SMALL, (0.3, -0.2, turn), 400.0)
 
 
-@pytest.mark.parametrize("turn", [0.1, 1.7, 3.3])
-@pytest.mark.parametrize("mark", [0.25, 0.6, 0.95])
+@pytest.mark.parametrize(("turn", "mark"), [(0.1, 0.6), (1.7, 0.25), (3.3, 0.95)])
 def test_a_circle_of_another_size_marks_the_origin(turn: float, mark: float) -> None:
     scene = _show_marked({(0, 0)}, turn, mark=mark)
     corners = find_corners(scene.image(), pattern=Circles())
