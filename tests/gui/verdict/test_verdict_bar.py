@@ -84,12 +84,12 @@ def test_a_verdict_that_a_search_for_a_better_camera_found_reaches_the_panels(
         window.session.begin(Document(calibrated(plain)))
         words = window.need_analysis().show_panel(ResultPanel).words
         qtbot.waitUntil(lambda: "is being found out" in words.toPlainText())
-        window.verdict.show_running(True)
+        window.verdict.show_running(True, False)
         result = window.session.result
         assert result is not None
         assert window.verdict.verdict is None
         judging.judge_result(result)
-    window.verdict.show_running(False)
+    window.verdict.show_running(False, False)
     qtbot.waitUntil(lambda: "is being found out" not in words.toPlainText(), timeout=30_000)
     assert f"{len(result.used)} views" in words.toPlainText()
 

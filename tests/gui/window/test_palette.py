@@ -177,13 +177,13 @@ PARTS: dict[str, Callable[[MainWindow], QWidget]] = {
 
 
 def test_shortcuts_work_wherever_the_focus_is(full: MainWindow, qtbot: QtBot) -> None:
-    full.activateWindow()
     searched: list[list[str]] = []
     full.images.search_wanted.disconnect()
     full.images.search_wanted.connect(searched.append)
     full.session.select(full.session.project.views[0].image)
     for part, find_widget in PARTS.items():
         widget = find_widget(full)
+        full.activateWindow()  # what closes leaves no window active
         widget.setFocus()
         qtbot.waitUntil(widget.hasFocus)
         searched.clear()
