@@ -152,6 +152,10 @@ die beide dort am nächsten zusammenbringt, wo Ecken (Punkte) gesehen wurden.</t
         <translation>Drehvektor, {0}, Grad</translation>
     </message>
     <message>
+        <source>Beside board 1, in mm and degrees:</source>
+        <translation>Neben Brett 1, in mm und Grad:</translation>
+    </message>
+    <message>
         <source>Board {0}</source>
         <translation>Brett {0}</translation>
     </message>

@@ -152,6 +152,10 @@ que más las acerca donde se vieron esquinas (puntos).</translation>
         <translation>vector de rotación, {0}, grados</translation>
     </message>
     <message>
+        <source>Beside board 1, in mm and degrees:</source>
+        <translation>Junto al tablero 1, en mm y grados:</translation>
+    </message>
+    <message>
         <source>Board {0}</source>
         <translation>Tablero {0}</translation>
     </message>

@@ -152,6 +152,10 @@ brings the two closest where corners (dots) were seen.</source>
         <translation>旋转向量 {0},度</translation>
     </message>
     <message>
+        <source>Beside board 1, in mm and degrees:</source>
+        <translation>相对于标定板 1（毫米和度）：</translation>
+    </message>
+    <message>
         <source>Board {0}</source>
         <translation>标定板 {0}</translation>
     </message>

@@ -116,6 +116,7 @@ class BoardList(QWidget):
         self.fields.setSpacing(theme.SPACING)
         self._sizes = make_row((self.rows, 1), QLabel("×"), (self.cols, 1))
         self._places = make_column(
+            QLabel(self.tr("Beside board 1, in mm and degrees:")),
             *(make_row(*((box, 1) for box in three)) for three in (self.place[:3], self.place[3:])),
             spacing=theme.SPACING // 2,
         )
