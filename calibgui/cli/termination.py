@@ -20,7 +20,7 @@ _AGAIN_S = 0.01
 _IMPORT = "<frozen importlib._bootstrap>"
 """Name of the file of Python's own import, as its frames tell it."""
 _CAN_WAIT = hasattr(signal, "setitimer")
-"""Whether the system has a clock that signals; Windows has none."""
+"""True if the system has a clock that signals; Windows has none."""
 
 
 class Terminated(KeyboardInterrupt):

@@ -89,7 +89,7 @@ def measure_link(
     distances = [float(np.linalg.norm(pose.tvec)) for pose in rig.boards]
     points = _spread_points(rig.cameras[0], min(distances), max(distances))
     pose = rig.poses[1]
-    relation = Relation(rotation_from_vector(np.array(pose.rvec)), np.array(pose.tvec))
+    relation = Relation.of_pose(pose)
     return _measure_worst(rig.cameras[1], pose, covariance, points), relation
 
 
@@ -129,8 +129,8 @@ def show_board(board: Array, pose: Pose, relation: Relation, camera: Camera) -> 
     Returns:
         (n, 2) px, which may lie outside of the image; None if all do, or one has no image.
     """
-    R = relation.R @ rotation_from_vector(np.array(pose.rvec))
-    points = board @ R[:, :2].T + relation.R @ pose.tvec + relation.T
+    from_board = relation.after(Relation.of_pose(pose))
+    points = board @ from_board.R[:, :2].T + from_board.T
     uv = pixels_from_rays(points, camera)
     is_seen = ((uv >= 0) & (uv <= np.array(camera.size) - 1)).all(axis=1).any()
     rays = points / np.linalg.norm(points, axis=1)[:, None]

@@ -79,7 +79,7 @@ class JointSession:
     def __init__(self, cameras: Sequence[CaptureSession], names: Sequence[str]) -> None:
         self.cameras, self.names = tuple(cameras), tuple(names)
         self.changed: dict[int, str] = {}
-        """What is said of cameras whose last images had another size, by their numbers."""
+        """Sentences on the cameras whose last images had another size, by their numbers."""
         self.instants: list[Instant] = []
         """The frames that were taken together."""
         self.links: tuple[Link, ...] = ()

@@ -38,6 +38,7 @@ from typing import NamedTuple
 import numpy as np
 
 from calibgui.engine.arrays import Array, IntArray
+from calibgui.engine.geometry.pose import Pose
 from calibgui.engine.geometry.rotations import (
     make_cross_matrix,
     rotation_from_vector,
@@ -142,6 +143,11 @@ class Relation(NamedTuple):
     """(3, 3) rotation b_from_a."""
     T: Array
     """(3,) translation, mm."""
+
+    @staticmethod
+    def of_pose(pose: Pose) -> Relation:
+        """Return the relation that a pose b_from_a states."""
+        return Relation(rotation_from_vector(np.array(pose.rvec)), np.array(pose.tvec))
 
     def invert(self) -> Relation:
         """Return how camera a stands to camera b."""

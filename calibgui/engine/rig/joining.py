@@ -27,7 +27,6 @@ import numpy as np
 
 from calibgui.engine.arrays import Array
 from calibgui.engine.errors import CalibrationError
-from calibgui.engine.geometry.rotations import rotation_from_vector
 from calibgui.engine.rig.agreement import count_shared
 from calibgui.engine.rig.alone import CameraAlone
 from calibgui.engine.rig.consensus import Relation, ViewPoses, find_relation, find_tree
@@ -134,7 +133,7 @@ def join_rig(
     of_cameras, of_boards = _Forest(len(cameras)), _Forest(len(boards))
     for b, board in enumerate(boards):
         if b and board.pose is not None:
-            stated = Relation(rotation_from_vector(board.pose.rvec), board.pose.tvec)
+            stated = Relation.of_pose(board.pose)
             of_boards.join(0, b, stated.invert())
     forests = (of_cameras, of_boards)
     while links := _list_links(sights, alone, forests):

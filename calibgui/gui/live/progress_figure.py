@@ -43,7 +43,7 @@ class ProgressFigure(QWidget):
         self.limit = limit
         self._progress: CaptureProgress | None = None
         self._shown: tuple[Mapping[Path, Picture], float, float] | None = None
-        """What was last painted: the pictures, and what is known and asked for, px."""
+        """The values last painted: pictures, uncertainty and limit, px; None if none were."""
         self._size: Size = (4, 3)
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
         self.setAccessibleName(self.tr("How far the capture has come"))

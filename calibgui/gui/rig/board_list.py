@@ -19,7 +19,7 @@ from PySide6.QtWidgets import (
 
 from calibgui.app.projects.lengths import scale_pattern
 from calibgui.app.rig.boards import StatedBoard
-from calibgui.app.rig.setup import state_board, suggest_board
+from calibgui.app.rig.rig_setup import state_board, suggest_board
 from calibgui.dataset import DEFAULT_SQUARE
 from calibgui.engine.boards import Board, ListedCircles, Pattern
 from calibgui.engine.geometry import Pose

@@ -26,14 +26,14 @@ _STRONG, _WEAK = 150, 60
 
 
 class _Fit(NamedTuple):
-    """How well all boards in a photograph fit."""
+    """The residuals of all boards in a photograph."""
 
     corners: int
     """Number of their corners."""
     rms: float
     """Root mean square length of their residuals, px."""
     alone: float
-    """The same with the camera as it was calibrated alone, px."""
+    """Root mean square length with the camera as it was calibrated alone, px."""
 
 
 class PairingMatrix(QTableWidget):

@@ -1,4 +1,4 @@
-"""What is stated of a rig: its pairing, corrected by hand in a matrix, and changes taken back."""
+"""The pane of what is stated of a rig: a matrix to correct its pairing in, and undo."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from PySide6.QtCore import Signal
 from PySide6.QtWidgets import QWidget
 
 from calibgui.app.rig.pairing import leave_photographs_out, move_photographs
-from calibgui.app.rig.setup import RigSetup, SearchedBoards
+from calibgui.app.rig.rig_setup import RigSetup, SearchedBoards
 from calibgui.dataset import RigPairing, RigResult
 from calibgui.gui.rig.pairing_matrix import PairingMatrix
 from calibgui.gui.widgets import theme

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from PySide6.QtCore import QSignalBlocker, Signal
 from PySide6.QtWidgets import QCheckBox, QFormLayout, QSpinBox, QWidget
 
-from calibgui.app.rig.setup import RigSetup
+from calibgui.app.rig.rig_setup import RigSetup
 from calibgui.dataset import RigPairing
 from calibgui.engine.boards import Board, BoardShapeModel
 from calibgui.gui.rig.board_list import BoardList

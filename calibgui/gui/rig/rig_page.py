@@ -20,7 +20,7 @@ from PySide6.QtWidgets import (
 
 from calibgui.app.rig.frames import find_videos
 from calibgui.app.rig.pairing import leave_photographs_out
-from calibgui.app.rig.setup import RigSetup, SearchedBoards, recall_setup
+from calibgui.app.rig.rig_setup import RigSetup, SearchedBoards, recall_setup
 from calibgui.dataset import RigPairing, RigResult
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.images import read_colour

@@ -19,7 +19,7 @@ from calibgui.app.rig.boards import StatedBoard, name_boards, search_boards
 from calibgui.app.rig.calibrating import calibrate_photographs
 from calibgui.app.rig.frames import find_videos, read_frame_times, write_frames
 from calibgui.app.rig.pairing import pair_files, pair_photographs, state_times
-from calibgui.app.rig.setup import RigSetup, SearchedBoards
+from calibgui.app.rig.rig_setup import RigSetup, SearchedBoards
 from calibgui.dataset import DEFAULT_SQUARE, CornerSet, RigPairing, RigResult, relate_cameras
 from calibgui.engine.arrays import GridSize
 from calibgui.engine.boards import Pattern

@@ -18,7 +18,6 @@ from calibgui.engine.camera.camera import Camera
 from calibgui.engine.capture import Frame, JointSession, JointState, PairedFrames
 from calibgui.engine.capture.camera_links import show_board
 from calibgui.engine.geometry.pose import Pose
-from calibgui.engine.geometry.rotations import rotation_from_vector
 from calibgui.engine.rig.consensus import Relation
 from calibgui.formats.times_csv import read_times
 from tests.scenes.hand import RenderedCamera, Walk, follow, spread_places
@@ -163,7 +162,7 @@ def _check_goals(state: JointState) -> None:
     wanted, shown = state.goals[lead], state.goals[other]
     assert wanted is not None
     assert shown is not None
-    truth = [Relation(rotation_from_vector(np.array(p.rvec)), np.array(p.tvec)) for p in POSES]
+    truth = [Relation.of_pose(pose) for pose in POSES]
     uv = show_board(
         BOARD.points(),
         follow(wanted, CAMERAS[lead], BOARD),

@@ -1,4 +1,4 @@
-"""What a user states of a rig before it is calibrated."""
+"""The setup of a rig: what a user states before it is calibrated."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ class RigSetup:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class SearchedBoards:
-    """What was found in the photographs of a rig."""
+    """The boards that were looked for in the photographs of a rig, with their corners."""
 
     boards: tuple[StatedBoard, ...] = ()
     """The boards that were looked for."""
